@@ -19,8 +19,8 @@ void on_threads(int jobs, const std::function<void()>& algorithm) {
   tbb::task_arena(jobs).execute(algorithm);
 }
 
-/// Keeps the first exception of some threads, and does nothing more after it. A pipeline that an exception leaves would not
-/// free the items that are on their way.
+/// Performs actions on several threads until one throws an exception, which is kept. If the exception left a
+/// pipeline of TBB instead, items inside the pipeline would not be freed.
 class FirstFailure {
  public:
   template <class Action>
@@ -32,7 +32,7 @@ class FirstFailure {
       if (!has_failed_.exchange(true)) failure_ = std::current_exception();
     }
   }
-  /// Throws what was kept, when all threads have ended.
+  /// Throws the kept exception, if any. Called when all threads have ended.
   void pass_on() const {
     if (failure_) std::rethrow_exception(failure_);
   }

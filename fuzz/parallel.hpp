@@ -1,4 +1,4 @@
-// Parallel loops. Only shrinking (trial/shrinking.hpp), which goes on beside them, has threads of its own.
+// Parallel loops. Only shrinking (trial/shrinking.hpp), which runs beside them, has threads of its own.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
 }  // namespace detail
 
 /// Passes items through work(item) on `jobs` threads. next() makes the items until it returns nothing, and
-/// take(item) receives them after the work; both are called in the order of the items, by one thread at a time. Only
-/// a few items for each thread are on their way. An exception is passed on to the caller.
+/// take(item) receives them after the work; both are called in the order of the items, by one thread at a
+/// time. Only a few items for each thread exist at a time. An exception is passed on to the caller.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

@@ -13,8 +13,8 @@
 namespace nearmiss {
 
 /// A stream of random numbers that is a pure function of (seed, stream, index): Philox4x64-10 with the key
-/// (seed, stream) and the counter (index, number of the draw / 4). Vector registers do not make it faster, since they lack its
-/// multiplication of 64 bits: eight streams side by side took 1.6 times as long.
+/// (seed, stream) and the counter (index, number of the draw / 4). Vector registers do not make it faster,
+/// since they lack its multiplication of 64 bits: eight streams side by side took 1.6 times as long.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)
@@ -30,7 +30,7 @@ class Random {
 
   /// A uniform multiple of 2^-53 in [0, 1).
   double uniform() { return fraction(bits()); }
-  /// As many of them, which takes less time than to draw one after the other.
+  /// n of these numbers, in less time than it takes to draw one after the other.
   template <std::size_t n>
   std::array<double, n> uniforms() {
     std::array<double, n> all;

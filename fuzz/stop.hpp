@@ -1,4 +1,4 @@
-// When long work ends.
+// Ends long work, at a request or a time limit.
 #pragma once
 
 #include <atomic>
@@ -29,17 +29,17 @@ class Stop {
 
   /// From now on, the work has this much time. Must be called before threads ask.
   void limit(std::chrono::duration<double> time) {
-    // A longer time than the clock can tell is no limit.
+    // A time that is longer than the clock can represent is no limit.
     constexpr std::chrono::hours longest{24 * 365 * 10};
     if (time < longest) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
   }
 
   [[nodiscard]] bool is_requested() const { return requested_; }
-  /// `granted` is granted in addition to the time, but not after a request.
+  /// Whether the work must end. `granted` extends the time limit, but not the time after a request.
   [[nodiscard]] bool is_due(std::chrono::milliseconds granted = {}) const {
     return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + granted);
   }
-  /// Throws Stopped if it is due.
+  /// Throws Stopped if the work must end.
   void check(std::chrono::milliseconds granted = {}) const {
     if (is_due(granted)) throw Stopped();
   }

@@ -1,5 +1,5 @@
-// Queries with a separation h > 0 that the primitives hardly reach, or reach at a time that is hard to find. Numbers are short, so
-// that distances and times are exactly those that a family names.
+// Queries with a separation h > 0 that the primitives hardly reach, or reach at a time that is hard to find.
+// Numbers have few bits, so that distances and times are exactly those that a family names.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -14,13 +14,13 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// A short number from 1/16 to 7.
+/// A number from 1/16 to 7 that has at most three bits.
 double short_separation(Random& random) {
   const int odd_or_even = random.integer(1, 7);
   return std::ldexp(odd_or_even, -random.integer(0, 4));
 }
 
-/// The last step of the families of short numbers.
+/// The last step of families whose numbers have few bits: sets a separation, turns, scales.
 Query placed_apart(Random& random, const Query& query, double separation) {
   return rescaled(random, turned(random, with_separation(query, separation)));
 }
@@ -33,8 +33,8 @@ Vector approaching(Random& random) {
 
 // --- at the smallest distance ---------------------------------------------------------------------------
 
-/// A pair of another family that is apart, and h = (1 + 2^x) d or (1 - 2^x) times the double below d, where d is the smallest
-/// distance rounded up to a double. If x is -54, h is one of the two doubles.
+/// A pair of another family whose primitives stay apart. With d, their smallest distance rounded up to a
+/// double, h is (1 + 2^x) d, or (1 - 2^x) times the double below d. If x is -54, h is one of these.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};
@@ -52,8 +52,9 @@ Query near_separation(Random& random, Kind kind, double x) {
   }
 }
 
-/// The smallest distance is exactly h. The closest features rest or move sideways, or the distance is h at t = 0 before they
-/// part, or at t = 1 after they come near. In half of the queries, h is then moved by x ulps.
+/// The smallest distance is exactly h. The closest features rest or move sideways, or the distance is h at
+/// t = 0 before they part, or at t = 1 after they come near. In half of the queries, h is then moved by x
+/// ulps.
 Query tied_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const bool is_at_end = random.one_in(3);
@@ -69,7 +70,7 @@ Query tied_separation(Random& random, Kind kind, double x) {
 
 // --- falling below h at a known time --------------------------------------------------------------------
 
-/// The distance is h at a time inside the step that has x binary places, and falls.
+/// The distance falls below h at a time inside the step that has x binary places.
 Query reached_separation(Random& random, Kind kind, double x) {
   const double time = (std::floor(random.uniform() * power_of_two(x - 1)) + 0.5) / power_of_two(x - 1);
   const double h = short_separation(random);
@@ -90,9 +91,9 @@ struct Sides {
   bool q, r;
 };
 
-/// The distance is h at a time inside the step, and falls. About 2^x before, the closest points came from an end of a side to
-/// its inside, or from its inside to its end. In the first case, the weight is 2^x when the distance is h. In the second case,
-/// the slope of the side is about 2^x.
+/// The distance falls below h at a time inside the step. About 2^x before that, a closest point moves from an
+/// end of a side into its inside, or from the inside to an end. In the first case, the point's weight is 2^x
+/// when the distance is h. In the second case, the slope of the side is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);
@@ -119,7 +120,7 @@ Query changed_features(Random& random, Kind kind, double x) {
 
 // --- the start of the step ------------------------------------------------------------------------------
 
-/// The distance is h or (1 ± 2^x) h at t = 0. Then the primitives approach each other, part, or move sideways.
+/// The distance is h or (1 ± 2^x) h at t = 0. Then the primitives come nearer, part, or move sideways.
 Query starts_near_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const int side = random.integer(-1, 1);
@@ -132,8 +133,8 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 
 // --- other sizes of h -----------------------------------------------------------------------------------
 
-/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of them come within h. The others pass each other at a distance of h,
-/// or of 1/8 more or less. If h is less than 1/8, these distances are 2 h and 0.
+/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of them come within h. The others pass each other at
+/// a distance of h, h + 1/8 or h - 1/8, or, if h is less than 1/8, of h, 2 h or 0.
 Query sized_separation(Random& random, Kind kind, double x) {
   constexpr double least_that_turns = 0x1p-42;  // so that 53 bits are enough
   const double h = 4 * power_of_ten(x);

@@ -1,5 +1,5 @@
-// Each rule is one template over several number types: intervals decide nearly all queries, exact numbers and polynomials the
-// others.
+// Each rule is one template over several number types: intervals decide nearly all queries, exact arithmetic
+// the others.
 #include "fuzz/families/classify.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -32,7 +32,7 @@ using exact::Number;
 using exact::Polynomial;
 using exact::Root;
 
-/// Intervals that need rounding upward. If one leaves a comparison open, the comparison's conversion to bool throws.
+/// Intervals, which need rounding upward. Converting a comparison that they leave open to bool throws.
 using Interval = CGAL::Interval_nt<false>;
 
 /// The answer in intervals, or, if they leave it open, in exact arithmetic.
@@ -63,17 +63,17 @@ Points<Real> points(const Query& query, std::size_t time) {
 
 template <class Real>
 Real largest_component(const Vec<Real>& v) {
-  using std::max;  // CGAL has one for intervals
+  using std::max;  // CGAL has a max for intervals
   Real largest = max(v[0], -v[0]);
   for (std::size_t k = 1; k < 3; ++k) largest = max(largest, max(v[k], -v[k]));
   return largest;
 }
 
-/// Lengths of edges, at either time, and of the motion: largest components.
+/// Lengths of the edges, at t = 0 and t = 1, and of the vertices' motion. A length is the largest component.
 template <class Real>
 struct Lengths {
   Real longest = 0;
-  Real shortest = 0;  ///< that is not zero
+  Real shortest = 0;  ///< of the edges that are not zero
   Real fastest = 0;
 };
 
@@ -95,7 +95,7 @@ Lengths<Real> lengths(const Query& query) {
   return found;
 }
 
-/// Whether edges differ by more than a factor.
+/// Whether the longest edge is more than `factor` times as long as the shortest one that is not zero.
 template <class Real>
 bool edges_differ(double factor, const Lengths<Real>& sizes) {
   return Real(0) < sizes.longest && sizes.longest > Real(factor) * sizes.shortest;
@@ -129,7 +129,7 @@ struct Moment {
   Real squared_length;
 };
 
-/// The moment from the nearer end of the step, so that t = 0 and t = 1 are exact.
+/// The moment, computed from the nearer end of the step, so that it is exact at t = 0 and at t = 1.
 Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, double length) {
   const Points<Interval> start = points<Interval>(query, 0);
   const Points<Interval> end = points<Interval>(query, 1);
@@ -144,7 +144,7 @@ Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, 
   return moment;
 }
 
-/// Every moment: polynomials in t.
+/// The moment at every time, as polynomials in t.
 Moment<Polynomial> exact_moment(const Query& query, double length) {
   const exact::Unit unit(query);
   const Number scaled = unit.scaled(length);
@@ -154,7 +154,7 @@ Moment<Polynomial> exact_moment(const Query& query, double length) {
   return moment;
 }
 
-/// Whether a rule holds at a time that is known by an enclosure, or else by its root.
+/// Whether a rule holds at a time. `find_root` finds the exact time if the enclosure does not decide.
 template <class Rule, class FindRoot>
 bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& query, double length,
               const Rule& rule) {
@@ -181,8 +181,9 @@ Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   return sum;
 }
 
-/// Squares of sizes with which F is compared: of the first and second edge, or of the triangle both times, and of the gap
-/// between the primitives. They are sums instead of means, so that their product is too large by the factor `excess`.
+/// Squares of the lengths with which F is compared: of the two edges, or of the triangle's sides twice, and
+/// of the gap between the primitives. They are sums instead of means, so their product is too large by the
+/// factor `excess`.
 template <class Real>
 struct Squares {
   Real first, second, gap;
@@ -216,7 +217,7 @@ Real multiple_of_square(double factor, const Real& x) {
     return Real(factor) * x * x;
 }
 
-constexpr double squared_inverse = 1e12;  // of `nearly`, without rounding
+constexpr double squared_inverse = 1e12;  // 1 / nearly², without rounding
 
 template <class Real, class AtMost>
 bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
@@ -226,7 +227,7 @@ bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
   return at_most(multiple_of_square(squared_inverse * excess(moment.kind), F), first * second * gap);
 }
 
-/// Whether F' almost vanishes, at a root of F.
+/// Whether F' almost vanishes; asked at a root of F.
 template <class Real, class AtMost>
 bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
   const auto [p, q, r] = spans(moment.kind, moment.x);
@@ -239,7 +240,7 @@ bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
                      size.first * size.second * speed.gap);
 }
 
-/// Whether a vertex is near an edge: near one of its ends, or near its line and between the planes through the ends.
+/// Whether a vertex is near an edge: near an end, or near its line and between the planes through the ends.
 template <class Real, class AtMost>
 bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost& at_most) {
   const Vec<Real> from_a = moment.x[pair.vertex] - moment.x[pair.from];
@@ -262,7 +263,7 @@ bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
                      [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
 }
 
-/// Whether t* <= time. The difference to is_before matters only for a t* that is this double.
+/// Whether t* <= time. This differs from is_before only if t* is exactly this double.
 bool is_at_most(EarliestTime& first, double time) {
   if (first.is_before(time)) return true;
   return first.is_before(std::nextafter(time, 2.0)) && first.enclosure() == Enclosure{time, time};
@@ -293,7 +294,7 @@ bool is_degenerate(const Query& query) {
 
   EarliestTime first(query, h == 0 ? nearer.known : KnownTimes{});
   if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return true;
-  if (h > 0) return false;  // vertices and edges come first in general position, too
+  if (h > 0) return false;  // vertices and edges may be the closest features in general position, too
   const auto root = [&] {
     if (nearer.known.exactly) return nearer.known.exactly->time;
     exact::Predicates predicates(query);

@@ -6,10 +6,10 @@
 
 namespace nearmiss {
 
-/// The class of a query by the rules of README.md, "Classes": ordinary, degenerate or extreme, never `unclassified`. The rules
-/// are polynomial inequalities, some of them at the time of the first contact. Intervals decide nearly all of them, and exact
-/// arithmetic the others, so the answer is exact for every query, also in a tie. A query with a coordinate that is not finite
-/// is extreme.
+/// The class of a query by the rules of README.md, "Classes": ordinary, degenerate or extreme, never
+/// `unclassified`. The rules are polynomial inequalities, some of them at the time of the first contact.
+/// Intervals decide nearly all of them, and exact arithmetic the others, so the answer is exact for every
+/// query, also in a tie. A query with a coordinate that is not finite is extreme.
 QueryClass classify(const Query& query);
 
 }  // namespace nearmiss

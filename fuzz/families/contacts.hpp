@@ -40,13 +40,13 @@ struct Contact {
   [[nodiscard]] Vector3<double> velocity(Kind kind) const;
 };
 
-/// The query in which the first primitive moves through the contact c with velocity w: the vertex, or the point at
-/// weight α of the first edge, is at c + (t - time) w. If all parts are multiples of a power of two with few bits,
-/// every operation here is exact in double, and the query touches exactly at `time`.
+/// The query in which the first primitive moves through the contact c with velocity w: the vertex, or the
+/// point at weight α of the first edge, is at c + (t - time) w. If all parts are multiples of a power of two
+/// with few bits, every operation here is exact in double, and the query touches exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
-/// Draws the parts of a contact, of size 1. Half of the samplers draw multiples of 1/16, so that short sums
-/// and products stay exact in double; the others draw arbitrary numbers.
+/// Draws the parts of contacts of size 1. Half of the samplers draw multiples of 1/16, so that short sums and
+/// products stay exact in double; the others draw arbitrary numbers.
 class ContactSampler {
  public:
   explicit ContactSampler(Random& random) : random_(random), exact_(random.one_in(2)) {}
@@ -88,11 +88,11 @@ constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);
 
-/// As `rescaled`, after one query of integers in four is moved by an integer vector.
+/// Moves one query in four by an integer vector, which is exact for integers, then calls `rescaled`.
 Query placed(Random& random, Query query);
 
-/// Turns or mirrors a query, and multiplies all lengths, and the separation, by 1, 3, 5, 7 or 9, so that the matrix is
-/// of integers. This is exact if four bits of every coordinate are free.
+/// Turns or mirrors a query, and multiplies all lengths, and the separation, by 1, 3, 5, 7 or 9, so that the
+/// matrix has integer entries. This is exact if four bits of every coordinate are free.
 Query turned(Random& random, Query query);
 
 /// The same query with the vertices of each primitive in a random order.

@@ -11,7 +11,7 @@ namespace {
 /// All values of all factors, numbered one after the other.
 struct Numbering {
   std::array<std::size_t, factor_count> first{};  ///< the number of each factor's first value
-  std::vector<std::size_t> factor;                ///< of each number
+  std::vector<std::size_t> factor;                ///< the factor of each number
   std::vector<std::string> name;
 
   Numbering() {
@@ -54,7 +54,7 @@ class Occurrences {
           use(fmt::format("{} {}", numbering_.name[i], numbering_.name[j]), pairs_[i * size_ + j] != 0);
   }
 
-  /// The combinations that the family makes, and those that occur here.
+  /// Which of the pairs that the family makes occur here.
   [[nodiscard]] Combinations pairs_among(const Occurrences& made) const {
     return compared(pairs_, made.pairs_, 2);
   }

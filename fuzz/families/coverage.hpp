@@ -11,7 +11,7 @@ namespace nearmiss::crossed {
 struct Combinations {
   std::uint64_t made = 0;  ///< number of those that the family makes
   std::uint64_t seen = 0;
-  std::vector<std::string> missing;  ///< those that it makes and that were not seen: "shape=sliver when=at-1"
+  std::vector<std::string> missing;  ///< those that it makes but that were not seen: "shape=sliver when=at-1"
 };
 
 /// The combinations in queries first .. first + count - 1 of the family.

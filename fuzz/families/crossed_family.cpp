@@ -1,6 +1,7 @@
-// The family `crossed`. Each query is made from the moment of contact: p = α q + β r + τ w, where p goes from the base
-// to the first primitive's point of contact, q and r are the sides, w is the relative velocity of the points of contact,
-// and τ = t - time. Then F = τ det(w, q(t), r(t)), so the roots follow from how w, q and r are chosen.
+// The family `crossed`. Each query is made from the moment of contact: p = α q + β r + τ w, where p goes from
+// the base to the first primitive's point of contact, q and r are the sides, w is the relative velocity of
+// the points of contact, and τ = t - time. Then F = τ det(w, q(t), r(t)), so the roots follow from how w, q
+// and r are chosen.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -95,7 +96,7 @@ double shrinking(double time) {
   return left < 1.0 / 16 ? 16 : (std::ceil(16 / left) - 1) / 16;
 }
 
-/// Sides turn around an axis, or shrink; F has one root, two at the contact, or is zero.
+/// Sides turn around an axis, or shrink; F has one root, or a double root at the contact, or is zero.
 void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double time) {
   const bool in_the_plane = levels.roots() != Roots::one;
   const auto [a, b] = plane(random, draft);
@@ -115,7 +116,7 @@ void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double t
   }
 }
 
-/// A time between the contact and the end of the step that is farther from it; not the contact itself.
+/// A time relative to the contact, `distance` away from it, towards the end of the step that is farther away.
 double other_time(double time, double distance) { return time < 0.5 ? distance : -distance; }
 
 /// Sides change in any way; `speed` is that of the points of contact.
@@ -172,15 +173,15 @@ Draft draft_of(Random& random, Kind kind, const Levels& levels, double time) {
     case Motion::slow:
       deform(random, draft, levels.roots(), time, 0x1p-10);
       break;
-    case Motion::along:  // the roots that go with it put w into the plane
+    case Motion::along:  // the roots that the family makes for it put w into the plane
     case Motion::deforming:
       deform(random, draft, levels.roots(), time, 1);
   }
   return draft;
 }
 
-/// Whether F has no more roots at the contact than planned. With F = τ (a + b τ + c τ²), the first of the coefficients
-/// that is not zero by construction must not be zero by chance.
+/// Whether F has no more roots at the contact than planned. With F = τ (a + b τ + c τ²), the first of the
+/// coefficients that is not zero by construction must not be zero by chance.
 bool has_planned_roots(const Draft& draft, Roots roots) {
   const auto det = [&](const Vector& q, const Vector& r) { return draft.w.dot(q.cross(r)); };
   switch (roots) {
@@ -246,7 +247,7 @@ double time_of(Random& random, When when, int bits) {
   return 0;
 }
 
-/// The exponent of the lowest bit that is set in any component; `lowest` if that is lower or all are 0.
+/// The exponent of the lowest bit that is set in any component, or `lowest` if that is lower or v is 0.
 int lowest_bit(const Vector& v, int lowest) {
   for (const double c : v) {
     if (c == 0) continue;
@@ -269,8 +270,8 @@ Frame frame_of(Random& random, std::size_t offset) {
   return {place, random.one_in(2) ? small(random) : Vector(Vector::Zero())};
 }
 
-/// The number of binary places that the time may have. Every coordinate is a sum of products of a vector with a time
-/// and with a weight, which has four binary places.
+/// The number of binary places that the time may have if coordinates are to be exact. Every coordinate is a
+/// sum of products of a vector with a time and with a weight, which has four binary places.
 int bits_for_time(const Draft& draft, const Frame& frame) {
   int lowest = 0;
   double sum = 0;
@@ -283,7 +284,7 @@ int bits_for_time(const Draft& draft, const Frame& frame) {
   return 53 - 4 - (std::ilogb(sum) + 1) + lowest;
 }
 
-/// The positions `tau` after the contact.
+/// Sets the positions of the vertices at the time `tau` after the contact.
 void set_positions(Query& query, bool at_start, const Draft& draft, const Frame& frame,
                    std::pair<double, double> weight, double tau) {
   const auto [alpha, beta] = weight;
@@ -312,7 +313,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
   constexpr int fewest_bits = 5;
   for (;;) {
     const Frame frame = frame_of(random, levels.offset());
-    // The draft depends on the time, and the time on the draft's bits: the draft gets a time near that of contact.
+    // The draft depends on the time, and the time on the draft's bits. So it gets a time nearby.
     const double near = time_of(random, levels.when(), fewest_bits);
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());

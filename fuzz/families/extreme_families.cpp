@@ -28,8 +28,8 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter. The contact is at a random place, or its distance from the corner x1
-/// of the triangle, or from an end of the long edge, is the length of the short side.
+/// One of the sides q and r is shorter. The contact is at a random place, or as far from the corner x1 of the
+/// triangle, or from an end of the long edge, as the short side is long.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -72,7 +72,7 @@ Query scale(Random& random, Kind kind, double x) {
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
-  const int only = random.integer(0, 5);  // an axis, or every axis at random if it is 3 or more
+  const int only = random.integer(0, 5);  // the huge axis; 3 or more: each axis is huge at random
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;
@@ -150,7 +150,8 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// The primitives are long along one axis only, with or without their motion. One query in three is rotated.
+/// The primitives are long along one axis, and thin along the others. In half of the queries, so is their
+/// relative motion. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   ContactSampler sampler(random);

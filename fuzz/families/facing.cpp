@@ -10,7 +10,7 @@ using Vector = Vector3<double>;
 
 constexpr int largest = 4;
 
-/// A vector that points away from the plane, to the side of the sign of `level`.
+/// A vector that points away from the plane z = 0, to the side that the sign of `level` gives.
 Vector vector_away(Random& random, double level) {
   const Vector in_plane = vector_in_plane(random);
   return in_plane + level * random.integer(1, largest) * Vector::UnitZ();
@@ -36,7 +36,7 @@ bool is_closest(Kind kind, Closest closest, bool is_side_q) {
 
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level) {
   const bool rests = random.one_in(2);
-  // A triangle is the second primitive; of edges, q belongs to the first.
+  // Both sides of a triangle belong to the second primitive; of two edges, q is the first one.
   const auto side = [&](bool is_q) {
     const double away = is_q && !has_triangle(kind) ? level : -level;
     const auto draw = [&] {

@@ -29,18 +29,18 @@ struct Family {
   bool planted = false;  ///< whether every query is a collision by construction
   std::function<Query(Random&, Kind)> make;
   std::optional<Parameter> parameter{};  ///< each query draws its own value, uniformly
-  std::uint64_t block_cases = 25;        ///< queries per round of a campaign; fewer if they are slow
+  std::uint64_t block_cases = 25;        ///< queries in the first round of a campaign; fewer if they are slow
   bool timed = true;                     ///< whether the subjects' times count
   bool compare_all = false;              ///< whether all methods of the oracle decide every query
   bool has_separation = false;           ///< whether the queries have a separation h > 0
-  /// The values of the factors with which a query was made, "FACTOR=VALUE", one of each; null if there are no factors.
+  /// Returns a query's value of each factor, "FACTOR=VALUE"; null if the family has no factors.
   std::vector<std::string> (*factors)(std::uint64_t seed, std::uint64_t index) = nullptr;
 };
 
 /// A family with a parameter.
 Family with_parameter(std::string name, std::string about, Parameter parameter);
 
-/// The family whose queries all are collisions by construction.
+/// The family, marked as one whose queries are all collisions by construction.
 Family with_collisions(Family family);
 
 /// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so only the parameter
@@ -51,21 +51,22 @@ Family at_value(const Family& family, double value);
 /// fewer whole numbers than steps, each occurs once. Throws Error if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// The word in place of a number for separations that each query draws.
+/// The word that replaces the number if each query draws its own separation.
 inline constexpr std::string_view drawn_separation = "drawn";
 
-/// Gives a query its separation; random numbers are drawn for `drawn` alone.
+/// Gives a query its separation. Takes random numbers only if separations are drawn.
 using ChooseSeparation = std::function<double(Random&, const Query&)>;
 
-/// The separation of every query: a positive number, or `drawn`, from a millionth of the extent of the query's primitives to all
-/// of it; one in four is then a power of two. Throws Error that starts with `where` if the text is neither.
+/// Parses the separation of all queries: a positive number, or `drawn`. A drawn separation is between a
+/// millionth of the extent of the query's primitives and all of it; one in four is a power of two. Throws an
+/// Error that starts with `where` for any other text.
 ChooseSeparation parse_family_separation(std::string_view text, std::string_view where);
 
-/// The family NAME~SEPARATION: the same queries with a separation (parse_family_separation), which each query draws after all
-/// else. Throws Error for another text, or if the family has separations of its own.
+/// The family NAME~SEPARATION: the same queries with a separation (parse_family_separation). A query draws it
+/// after everything else. Throws Error for any other text, or if the family has separations of its own.
 Family with_separation(const Family& family, std::string_view separation);
 
-/// All families that ask for contact, in the order in which they are listed and asked: the extreme ones come last.
+/// All families that ask for contact, in the order of lists and campaigns: the extreme ones come last.
 std::span<const Family> families();
 
 /// The families whose queries have separations of their own.
@@ -74,8 +75,8 @@ std::span<const Family> separation_families();
 /// families() and separation_families().
 std::span<const Family> all_families();
 
-/// A family by its name, NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name, throws an Error that lists
-/// the known families.
+/// Finds a family by its name: NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name,
+/// throws an Error that lists the known families.
 Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
 /// The kind of a family's query by its index: vertex-triangle if it is even, edge-edge if it is odd.

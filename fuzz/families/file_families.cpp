@@ -11,8 +11,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Primitives of a size and speed, in general position around the origin. They are aimed at each other, but contact
-/// may be outside of them or of the step.
+/// Primitives of a size and speed, in general position around the origin. They are aimed at each other, but
+/// the contact of their planes or lines may be outside of the primitives or of the step.
 Query everyday(Random& random, Kind kind, double size, double speed) {
   const auto path = [&](double length) {
     const Vector start = random.vector(length);
@@ -43,8 +43,8 @@ Query floats(Random& random, Kind kind) {
   return query;
 }
 
-/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries the decimals touch
-/// exactly; the rounded numbers touch or are a few ulps apart.
+/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries the
+/// decimals touch exactly; the rounded numbers touch or are a few ulps apart.
 Query decimals(Random& random, Kind kind, double x) {
   const int unit = static_cast<int>(std::lround(std::pow(10.0, x)));
   Query query{.kind = kind};
@@ -52,7 +52,7 @@ Query decimals(Random& random, Kind kind, double x) {
     for (std::size_t i = 0; i < 12; ++i) query.x[i] = random.integer(-unit, unit);
     for (std::size_t i = 12; i < 24; ++i) query.x[i] = query.x[i - 12] + random.integer(-unit / 2, unit / 2);
   } else {
-    // Sides and velocities are multiples of 100 x 1 / 10^x, weights and times of 1/10: places are whole multiples.
+    // Sides and velocities are multiples of 100 / 10^x, weights and times of 1/10. So places have x digits.
     const int most = std::max(unit / 100, 1);
     const auto hundreds = [&]() -> Vector { return 100 * random.integer_vector(most); };
     const auto path = [&]() {

@@ -18,17 +18,17 @@ struct Mutation {
   Query (*apply)(Random& random, const Query& query);
 };
 
-/// All kinds, in the order in which they are listed.
+/// All kinds of mutations, in the order in which they are listed.
 std::span<const Mutation> mutations();
 
-/// Applies one to three mutations. Half of them move something by a fraction, to climb; the others are of
-/// random kinds, to explore. In half of the cases contact is then restored where the primitives nearly touch,
-/// so that chains of mutations stay near collisions. A quarter of them change a separation h > 0, too; a query that asks for
-/// contact goes on to do so. The result is finite if `query` is.
+/// Applies one to three mutations. Half of them move something by a fraction, to improve a query step by
+/// step; the others are of random kinds, to explore. In half of the cases contact is then restored where the
+/// primitives nearly touch, so that chains of mutations stay near collisions. One case in four also changes a
+/// separation h > 0; h = 0 never changes. The result is finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
-/// Takes some vertices, axes, times or single coordinates from one query, and the rest from the other; and the separation of
-/// one of them.
+/// Takes some vertices, axes, times or single coordinates from one query, and the rest from the other. The
+/// separation is that of one of them.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

@@ -8,7 +8,7 @@ using Vector = Vector3<double>;
 
 double determinant(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
 
-/// M at t = 0 or t = 1. Row i of adj(K) is the cross product of the other two columns of K.
+/// M of with_roots() at t = 0 or t = 1. Row i of adj(K) is the cross product of K's other two columns.
 Eigen::Matrix3d sides(Kind kind, const std::array<PlannedRoot, 3>& roots, double Factor::*at) {
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < 3; ++i) {

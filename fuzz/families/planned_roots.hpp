@@ -8,7 +8,7 @@
 
 namespace nearmiss {
 
-/// A linear factor of F: `start` at t = 0 and `end` at t = 1. It vanishes at t = start / (start - end), or never.
+/// A linear factor of F: `start` at t = 0, `end` at t = 1. Its root, if any, is t = start / (start - end).
 struct Factor {
   double start, end;
 
@@ -16,8 +16,9 @@ struct Factor {
   static Factor constant() { return {1, 1}; }
 };
 
-/// A point on the plane or the line of each primitive: its weights as in Contact are α / whole and β / whole. If whole
-/// is 0, they are those of no point: where its factor vanishes, sign α q = -β r, so that the sides are parallel.
+/// A point on the plane or the line of each primitive: its weights as in Contact are α / whole and β / whole.
+/// If whole is 0, there is no such point: where the factor vanishes, sign α q = -β r, so that the sides are
+/// parallel.
 struct Weights {
   int whole, alpha, beta;
 
@@ -36,12 +37,13 @@ struct PlannedRoot {
 /// Whether the directions, and the weights, are linearly independent. Otherwise F would be 0 at all times.
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots);
 
-/// The query in which F is a multiple of the product of the factors. At its root, a factor's two points coincide, so that
-/// the primitives touch if the weights are inside. The vertex x1, or x2 of edges, follows `base`.
+/// The query in which F is a multiple of the product of the factors. At its root, a factor's two points
+/// coincide, so that the primitives touch if the weights are inside. The vertex x1, or x2 of edges, follows
+/// `base`.
 ///
-/// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L the factors on
-/// its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is det(M). All operations are
-/// exact if numbers are short.
+/// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
+/// the factors on its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is
+/// det(M). All operations are exact if numbers have few bits.
 Query with_roots(Kind kind, const Path& base, const std::array<PlannedRoot, 3>& roots);
 
 }  // namespace nearmiss

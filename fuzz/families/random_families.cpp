@@ -81,8 +81,7 @@ Contact aimed_contact(Random& random, Kind kind) {
   return contact;
 }
 
-/// The relative motion is nearly in the plane of the primitives (§3.3, parallel motion; §3.4, perpendicular to
-/// N).
+/// The relative motion is nearly in the primitives' plane (§3.3, parallel motion; §3.4, perpendicular to N).
 Query parallel(Random& random, Kind kind) {
   const Contact contact = aimed_contact(random, kind);
   const Vector along_r = random.uniform(-2, 2) * contact.r.at(contact.time);

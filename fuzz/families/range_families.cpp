@@ -1,7 +1,7 @@
 // Products of coordinates at the ends of the range of double. No coordinate overflows or underflows, but
-// products of two, three, four or six differences of coordinates do, or sums of such products. The components
-// of W, from which the weights come, are sums of products of two differences, and F is one of products of
-// three; their squares have products of four and six. A query first consists of small numbers; then its
+// products of two, three, four or six differences of coordinates do, or sums of such products. The weights
+// come from a vector W whose components are sums of products of two differences. F is a sum of products of
+// three. Their squares have products of four and six. A query first consists of small numbers; then its
 // vertices and axes are scaled by powers of two, which is exact.
 #include <algorithm>
 #include <array>
@@ -72,8 +72,8 @@ Query lattice(Random& random, Kind kind) {
   return query;
 }
 
-/// Integer points next to a plane oblique to the axes: the products in F are far larger than their sum, and F often
-/// changes its sign.
+/// Integer points next to a plane that is oblique to the axes. The products in F are then far larger than
+/// their sum, and F often changes its sign.
 Query oblique(Random& random, Kind kind) {
   const Vector P = random.integer_vector(2);
   const Vector Q = random.integer_vector(2);
@@ -140,7 +140,7 @@ Differences differences(const Query& query) {
   return larger;
 }
 
-constexpr std::size_t none = 3;  ///< instead of an axis: no axis
+constexpr std::size_t none = 3;  ///< in place of the number of an axis
 
 /// The sum of the products of three differences in F, one along each axis. If an axis is left out, the sum of
 /// the products of two differences in the weights' component along that axis.

@@ -1,5 +1,5 @@
-// Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch, an easily missed
-// contact before an easy one, and slow motion. Contact is exact.
+// Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch,
+// an easily missed contact before an easy one, and slow motion. Contact is exact.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ using Vector = Vector3<double>;
 
 // --- chosen roots ---------------------------------------------------------------------------------------
 
-/// Strictly inside the triangle, or inside both edges.
+/// Weights of a point strictly inside the triangle, or inside both edges.
 Weights inside(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int alpha = random.integer(1, whole - 2);
@@ -23,7 +23,7 @@ Weights inside(Random& random, Kind kind) {
   return {whole, alpha, beta};
 }
 
-/// Outside, but by at most 2/5 of each side.
+/// Weights of a point that is outside, but by at most 2/5 of each side.
 Weights outside(Random& random, Kind kind) {
   for (;;) {
     const int whole = random.integer(5, 8);
@@ -34,14 +34,15 @@ Weights outside(Random& random, Kind kind) {
   }
 }
 
-/// On an edge of the triangle, or an end of one edge inside the other; in one of three cases, at a vertex of each.
+/// Weights of a point on an edge of the triangle, or of an end of one edge inside the other; in one case of
+/// three, at a vertex of each.
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
   return !has_triangle(kind) && random.one_in(2) ? Weights{whole, 0, along} : Weights{whole, along, 0};
 }
 
-/// Draws the roots until F is not zero at all times. They are then placed at the origin or on a path of integers.
+/// Draws roots until F is not zero at all times, and makes the query, in which x1 or x2 follows `base`.
 template <class Draw>
 Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& draw) {
   std::array<PlannedRoot, 3> roots = draw();
@@ -49,8 +50,8 @@ Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& 
   return rescaled(random, with_roots(kind, base, roots));
 }
 
-/// Two or three roots of F whose neighbours are 1 to 3 times 2^x apart. At some of them, the place is outside of the
-/// primitives.
+/// Two or three roots of F whose neighbours are 1 to 3 times 2^x apart. At some of these roots, the points
+/// that coincide are outside of the primitives.
 Query close_roots(Random& random, Kind kind, double x) {
   const double gap = power_of_two(x);
   const bool has_third = !random.one_in(3);
@@ -75,8 +76,8 @@ Query close_roots(Random& random, Kind kind, double x) {
   });
 }
 
-/// The first contact is on the border in two queries of three, inside otherwise, and the sides are parallel 2^x before or
-/// after it. The second contact is inside.
+/// The first contact is on the border in two queries of three, inside otherwise, and the sides are parallel
+/// 2^x before or after it. The second contact is inside.
 Query border_first(Random& random, Kind kind, double x) {
   const double first = sixteenths(random, 1, 12);
   const double second = first + sixteenths(random, 1, 3);
@@ -97,8 +98,9 @@ Query border_first(Random& random, Kind kind, double x) {
   });
 }
 
-/// Contact at t = 0, or at t = 2^x / (1 + 2^x), then departure, and a second contact later. At the first contact, the points
-/// of contact pass each other along an axis on which everything else is at rest, so that the tiny numbers are exact.
+/// Contact at t = 0, or at t = 2^x / (1 + 2^x), then departure, and a second contact later. At the first
+/// contact, the points of contact pass each other along an axis on which everything else is at rest, so that
+/// the tiny numbers are exact.
 Query return_later(Random& random, Kind kind, double x) {
   const Factor first{random.one_in(2) ? 0 : -power_of_two(x), 1};
   const double second = sixteenths(random, 4, 16);
@@ -126,8 +128,8 @@ Query return_later(Random& random, Kind kind, double x) {
 
 // --- touching at one time -------------------------------------------------------------------------------
 
-/// Tangential contact. If the first primitive is moved by δ `inward`, the primitives meet at two times near the contact; if it
-/// is moved the other way, they never meet.
+/// Tangential contact. If the first primitive is moved by δ `inward`, the primitives meet at two times near
+/// the contact; if it is moved the other way, they never meet.
 struct Graze {
   Contact contact;
   Vector w;  ///< velocity of the first point of contact relative to the second
@@ -136,8 +138,9 @@ struct Graze {
 
 Path at_rest() { return {Vector::Zero(), Vector::Zero()}; }
 
-/// The sides lie in the plane z = 0 at the contact, and leave it with velocities q' and r' along z. The weights change at
-/// rates α' and β', so that F = N (δ - (β' r' + sign α' q') (t - time)²), where N is the normal.
+/// The sides lie in the plane z = 0 at the contact, and leave it with velocities q' and r' along z. The
+/// weights change at rates α' and β', so that F = N (δ - (β' r' + sign α' q') (t - time)²), where N is the
+/// normal.
 Graze graze_face(Random& random, Kind kind, double time) {
   for (;;) {
     const Vector q = vector_in_plane(random);
@@ -160,14 +163,15 @@ Graze graze_face(Random& random, Kind kind, double time) {
   }
 }
 
-/// Everything is in the plane z = 0: a vertex and an edge touch. The edge turns about the point of contact, from the direction
-/// of x towards y, and the vertex passes this point along x. It stays on one side of the edge, and the third vertex of the
-/// triangle, or the other end of the vertex's edge, keeps the primitives apart at all other times.
+/// Everything is in the plane z = 0: a vertex and an edge touch. The edge turns about the point of contact,
+/// from the direction of x towards y, and the vertex passes this point along x. It stays on one side of the
+/// edge, and the third vertex of the triangle, or the other end of the vertex's edge, keeps the primitives
+/// apart at all other times.
 Graze graze_edge(Random& random, Kind kind, double time) {
   const int length = random.integer(1, 4);
   const double turn = random_sign(random) * random.integer(1, 4);
   const double speed = random_sign(random) * random.integer(1, 4);
-  const double side = std::copysign(1, turn * speed);  // of the edge, where the vertex is not
+  const double side = std::copysign(1, turn * speed);  // the sign of y on the side without the vertex
   const Path edge = passing(length * Vector::UnitX(), turn * Vector::UnitY(), time);
   const double away = alpha_sign(kind) * side * random.integer(1, 4);
   const Path multiple = scaled(edge, random.integer(-1, 1));
@@ -183,7 +187,8 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
 }
 
-/// Half of the queries touch at one time. In the others, the first primitive is moved by 2^x, towards the second one or away.
+/// Half of the queries touch at one time. In the others, the first primitive is moved by 2^x towards the
+/// second one, or away from it.
 Query touch_once(Random& random, Kind kind, double x) {
   const double time = sixteenths(random, 1, 15);
   auto [contact, w, inward] =

@@ -1,5 +1,6 @@
-// In place of libFuzzer's engine: asks a target once about each file. `fuzz_TARGET FILE_OR_FOLDER...` works with every compiler, so that
-// the tests can keep the targets, their seeds and their former findings.
+// Takes the place of libFuzzer's engine, and runs a target once on each file: `fuzz_TARGET
+// FILE_OR_FOLDER...`. It needs no particular compiler, so the tests can run every target on its seeds and on
+// former findings.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// libFuzzer target: a time of impact that is to be a lower bound of the earliest time, but is late.
+// libFuzzer target: a late time of impact of a subject that promises lower bounds.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ const Target target{.subject = "wang-time", .needs_lower_bounds = true, .takes_s
 
 namespace {
 
-/// How near a time is to t*: two steps for each time that their difference, relative to t*, halves.
+/// How near a time is to t*: each halving of their difference, relative to t*, counts as two steps.
 std::size_t common_digits(double time, EarliestTime& earliest) {
   Enclosure known = earliest.known();
   if (time >= known.lo) known = earliest.enclosure();

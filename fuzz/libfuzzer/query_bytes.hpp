@@ -11,13 +11,13 @@
 
 namespace nearmiss::libfuzzer {
 
-/// The size of an input that asks for contact: one byte for the kind, then the 24 coordinates as they are in memory.
+/// The size of an input that asks for contact: a byte for the kind, then the 24 coordinates as in memory.
 inline constexpr std::size_t contact_bytes = 1 + sizeof(Query::x);
 
 /// The size of an input with a separation h > 0, which comes last; the largest size.
 inline constexpr std::size_t query_bytes = contact_bytes + sizeof(Query::separation);
 
-/// The query in an input; nothing if the size is wrong, a number is not finite, or the separation is negative.
+/// The query in an input; nothing if its size is wrong, a number is not finite, or h is negative.
 inline std::optional<Query> from_bytes(const std::uint8_t* data, std::size_t size) {
   if (size != contact_bytes && size != query_bytes) return std::nullopt;
   Query query{.kind = kinds[data[0] % kinds.size()]};

@@ -32,7 +32,7 @@ namespace {
 constexpr std::size_t signals = 8;
 constexpr std::size_t values = 128;
 
-// libFuzzer clears these before each run, and treats each one that is set afterwards as covered.
+// libFuzzer clears these counters before each run, and treats each counter that is set afterwards as covered.
 [[gnu::used,
   gnu::section("__libfuzzer_extra_counters")]] std::array<std::uint8_t, signals * kinds.size() * values>
     counters;
@@ -45,7 +45,7 @@ std::string environment(const char* name, const char* otherwise) {
 }  // namespace
 
 const Subject& subject() {
-  // A plug-in runs in this process, since libFuzzer sees no other one's coverage.
+  // A plug-in runs in this process, because libFuzzer sees the coverage of no other process.
   static const SubjectText text = SubjectText::parse(environment("NEARMISS_SUBJECT", target.subject));
   static const bool is_object = is_plugin(text.subject);
   static const auto subject =

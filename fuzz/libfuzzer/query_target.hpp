@@ -14,11 +14,11 @@ namespace nearmiss::libfuzzer {
 struct Target {
   const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names one
   bool needs_lower_bounds = false;  ///< whether the subject must give times that are lower bounds
-  /// Whether queries may have a separation. In all other cases, also with a subject that takes none, they ask for contact.
+  /// Whether queries may have a separation. If not, or if the subject takes none, they ask for contact.
   bool takes_separations = false;
 };
 
-/// Each target defines its own.
+/// The needs of this target; each target defines them.
 extern const Target target;
 
 /// Tests one query; each target defines it.
@@ -27,11 +27,10 @@ void examine(const Query& query);
 /// The subject on trial.
 const Subject& subject();
 
-/// Feedback in addition to coverage. libFuzzer keeps every query that shows a value for the first time, and mutates it
-/// further.
+/// Feedback in addition to coverage. libFuzzer keeps a query that shows a new value, and mutates it further.
 enum class Signal {
   filter_stage,  ///< the stage of the oracle's filter
-  true_stage,    ///< the stage at which the subject accepted a collision, or that it missed it
+  true_stage,    ///< the stage at which the subject accepted a collision, or a miss
   false_stage,   ///< the stage at which the subject accepted a false positive
   margin,        ///< how much less tolerance a collision needs than the subject has
   distance,      ///< distance of a false positive, divided by its bound

@@ -1,5 +1,5 @@
 // This file is compiled without coverage. With coverage, the compiler itself declares the names below, which
-// would conflict with these declarations. Without, nobody defines them, and both are null.
+// would conflict with these declarations. Without coverage, nobody defines them, and both are null.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>

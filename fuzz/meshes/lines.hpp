@@ -14,8 +14,8 @@ namespace nearmiss {
 /// Reads the whole content of a stream. Throws Error if it cannot be read to its end.
 std::string read_all(std::istream& in, std::string_view name);
 
-/// Goes through the lines of a text that contain a word, and splits each line into words at blanks. A byte order mark
-/// at the beginning is skipped. The text must outlive this object.
+/// Goes through the lines of a text that contain a word, and splits each line into words at blanks. A byte
+/// order mark at the beginning is skipped. The text must outlive this object.
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: from '#' to the end of the line

@@ -150,7 +150,7 @@ class ItemReader {
 
   PolygonSoup read(const std::vector<ply::Element>& elements) && {
     for (const ply::Element& element : elements) {
-      if (element.properties.empty() && element.items > 0)  // items without a byte
+      if (element.properties.empty() && element.items > 0)  // a file could claim any number of empty items
         throw Error(fmt::format("{}: found no property of {}, expected one", name_, element.name));
       for (std::uint64_t item = 1; item <= element.items; ++item) read_item(element, item);
     }

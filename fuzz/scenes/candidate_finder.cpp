@@ -10,11 +10,11 @@ namespace nearmiss {
 
 namespace {
 
-/// A few rows that follow each other and are near each other, and the partners near them.
+/// Consecutive rows (candidates.hpp) that are near each other, and the partners near them.
 class Block {
  public:
-  /// Begins with a row and ends before `end`, or when the box around the rows would become larger than `most`.
-  /// Returns the first row after the block.
+  /// Begins with a row and ends before `end`, or when the box around the rows would become larger than
+  /// `most`. Returns the first row after the block.
   std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
     first_ = first;
     bounds_ = boxes[first];
@@ -41,8 +41,8 @@ class Block {
                                         partners[static_cast<std::size_t>(numbers_[i])], numbers_[i]);
   }
 
-  /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners. `after`
-  /// says that only partners with a larger number than the row's count.
+  /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
+  /// If `after`, only partners with a larger number than the row's count.
   template <class Pass>
   void compare(bool after, const Pass& pass) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -93,7 +93,7 @@ std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
   const auto sink_meeting = [&](const Candidate& candidate) {
     if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
   };
-  // Primitives with a common vertex need no exact test: their boxes meet.
+  // The passer counts primitives with a common vertex without the exact test, since their boxes meet.
   CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
   const bool edges = !has_triangle(kind_);
   const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
@@ -110,7 +110,7 @@ std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
   return passer.sharing();
 }
 
-/// Small enough for all threads of a small mesh to have work.
+/// Parts are small enough that even a small mesh has work for all threads.
 std::size_t CandidateFinder::rows_of_part() const {
   return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
 }

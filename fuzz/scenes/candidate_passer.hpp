@@ -1,4 +1,4 @@
-// The step that both ways through a mesh's pairs share: it makes a candidate of two primitives.
+// Makes a candidate of two primitives, for the search by a tree and for the loop over all pairs.
 #pragma once
 
 #include <algorithm>

@@ -32,7 +32,7 @@ using CandidateSink = std::function<void(const Candidate&)>;
 /// Returns whether to end early.
 using IsOver = std::function<bool()>;
 
-/// Work that never ends early.
+/// For work that never ends early.
 inline const IsOver never_over = [] { return false; };
 
 /// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
@@ -53,8 +53,8 @@ class CandidateFinder {
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes on each pair of a part without a common vertex once, and returns the number of pairs with a
-  /// common vertex. Pairs are not stored, so a scene of any size can be streamed. `is_over` is called now and
+  /// Passes on, once, each pair of a part that has no common vertex, and returns the number of pairs that
+  /// have one. Pairs are not stored, so a scene of any size can be streamed. `is_over` is called now and
   /// then, and ends the search.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
@@ -78,8 +78,7 @@ void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const Is
 /// vertex with all triangles, or of one edge with all edges after it.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
-/// Passes on each pair of a row without a common vertex, and returns the number of pairs with a common
-/// vertex.
+/// Passes on each pair of a row that has no common vertex, and returns the number of pairs that have one.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const IsOver& is_over);
 

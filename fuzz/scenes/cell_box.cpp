@@ -44,8 +44,8 @@ class Grid {
     if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
   }
 
-  /// The cell of a coordinate along axis k; that of the nearest bound if the coordinate is beyond the bounds. The
-  /// conversion truncates, which is monotone, too.
+  /// The cell of a coordinate along axis k; that of the nearest bound if the coordinate is beyond the bounds.
+  /// The conversion truncates, which is monotone, too.
   [[nodiscard]] Cell cell(double x, int k) const {
     return static_cast<Cell>((std::clamp(x, lo_[k], hi_[k]) - centre_[k]) * per_unit_);
   }
@@ -59,7 +59,7 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // Two of these are more than any distance that boxes_meet rounds to the separation.
+  // Two of these margins exceed any distance that boxes_meet rounds to the separation.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;

@@ -42,13 +42,14 @@ struct CellBox {
   bool operator==(const CellBox&) const = default;
 };
 
-/// The boxes that the vertices of a mesh sweep, each moved outward by half of the mesh's separation, in cells. If the
-/// swept boxes of two primitives pass the test of boxes_meet (oracle/filter/box.hpp), the boxes around the cells of
-/// their vertices meet. The converse is nearly true, since a cell is 2^-31 of the mesh's largest extent.
+/// The boxes that the vertices of a mesh sweep, each moved outward by half of the mesh's separation, in
+/// cells. If the swept boxes of two primitives pass the test of boxes_meet (oracle/filter/box.hpp), the boxes
+/// around the cells of their vertices meet. The converse is nearly true, since a cell is 2^-31 of the mesh's
+/// largest extent.
 ///
-/// This needs no bound on rounding errors: all operations that make a cell of a coordinate are monotone, even when
-/// they are rounded, so x <= y for coordinates implies x <= y for their cells. Works on `jobs` threads. Throws Error
-/// for a coordinate that is not finite.
+/// This needs no bound on rounding errors: all operations that make a cell of a coordinate are monotone, even
+/// when they are rounded, so x <= y for coordinates implies x <= y for their cells. Works on `jobs` threads.
+/// Throws Error for a coordinate that is not finite.
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
 
 /// The boxes of the vertices, edges or triangles of a mesh.
@@ -76,7 +77,7 @@ class PrimitiveBoxes {
 
  private:
   const CellBox* of_vertices_;
-  const int* vertices_ = nullptr;  ///< those of all primitives, one after the other
+  const int* vertices_ = nullptr;  ///< vertices of all primitives, one primitive after the other
   std::size_t count_, corners_ = 1;
 };
 

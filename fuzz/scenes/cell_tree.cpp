@@ -24,8 +24,8 @@ struct Item {
 };
 using Items = std::span<Item>;
 
-/// Sorts boxes so that those of a group are near each other, and so are those of a group of groups. The order depends
-/// only on the boxes, since the number decides between equal centres.
+/// Sorts boxes so that those of a group are near each other, and so are those of a group of groups. The order
+/// depends only on the boxes, since the number decides between equal centres.
 class SpatialOrder {
  public:
   SpatialOrder(int jobs, const std::function<bool()>& is_over) : jobs_(jobs), is_over_(is_over) {}
@@ -50,8 +50,8 @@ class SpatialOrder {
     sort_part(second);
   }
 
-  /// Divides boxes along the longest axis of their extent. The size of the first half is a power of two, so that no
-  /// group has boxes of both halves.
+  /// Divides boxes along the longest axis of their extent. The size of the first half is a power of two, so
+  /// that no group has boxes of both halves.
   [[nodiscard]] std::pair<Items, Items> halved(Items part) const {
     if (part.size() <= group_size) return {part, {}};
     if (part.size() > checked && is_over_()) throw Stopped();
@@ -76,7 +76,8 @@ class SpatialOrder {
   const std::function<bool()>& is_over_;
 };
 
-/// Fills the groups of a level: box_at(i) returns box i of `count` and its number. Returns the sum of their sizes.
+/// Fills the groups of a level with `count` boxes; box_at(i) returns box i and its number. Returns the sum of
+/// the sizes of these boxes.
 template <class BoxAt>
 double fill(std::vector<CellBoxGroup>& level, std::size_t count, int jobs, const BoxAt& box_at) {
   constexpr std::size_t chunk = 1 << 14;  // boxes; a multiple of the size of groups

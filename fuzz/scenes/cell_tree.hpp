@@ -38,8 +38,8 @@ class CellBoxGroup {
   /// The box around all boxes.
   [[nodiscard]] CellBox bounds() const;
 
-  /// Calls visit(place) for each box that meets the given one and has the number `least` or a larger one, in the order
-  /// of the places.
+  /// Calls visit(place) for each box that meets the given one and has the number `least` or a larger one, in
+  /// the order of the places.
   template <class Visit>
   void for_meeting(const CellBox& box, std::int32_t least, const Visit& visit) const {
     for (unsigned places = meeting(box, least); places != 0; places &= places - 1)
@@ -68,15 +68,15 @@ class CellBoxGroup {
   Places numbers_;
 };
 
-/// The boxes of primitives in groups that are near each other, the bounds of these groups in groups, and so on. The
-/// groups are chosen at the first step of a mesh. In later steps, the boxes move and the groups stay, unless they get
-/// much looser.
+/// The boxes of primitives in groups that are near each other, the bounds of these groups in groups, and so
+/// on. The groups are chosen at the first step of a mesh. In later steps, the boxes move and the groups stay,
+/// until the bounds of the groups have become much larger.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` says so.
   CellTree(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// The tree of another step of the same mesh. Throws Stopped when `is_over` says so.
+  /// Turns this into the tree of another step of the same mesh. Throws Stopped when `is_over` says so.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
   /// The median size of the box around a group of boxes, or that of a sample of groups.
@@ -104,7 +104,7 @@ class CellTree {
   }
 
   void choose_groups(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
-  /// Computes the boxes of all levels. Returns the sum of the sizes of each level's boxes, relative to the lowest level.
+  /// Computes the boxes of all levels. Returns the sum of the box sizes of each level, relative to level 0.
   std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
 
   std::size_t count_;

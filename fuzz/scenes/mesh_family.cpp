@@ -17,8 +17,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// A sample of candidates: those with the smallest random numbers. The number only depends on the vertices,
-/// so the order of the candidates does not matter.
+/// A sample of candidates: those with the smallest random numbers. A candidate's number depends only on its
+/// vertices, so the order of the candidates does not matter.
 class CandidateSample {
  public:
   explicit CandidateSample(std::size_t most) : most_(most) {}
@@ -51,8 +51,8 @@ Query perturbed(Random& random, Query query, double size) {
   return query;
 }
 
-/// Translates the first primitive, by the same vector at both ends of the step, so that it touches the second one at
-/// the time and place of the aim.
+/// Translates the first primitive, by the same vector at both ends of the step, so that it touches the second
+/// one at the time and place of the aim.
 Query touching(Query query, const Aim& aim) {
   const double alpha = aim.alpha;
   const double beta = aim.beta;

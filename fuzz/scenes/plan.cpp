@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The time that this took, including that of `ask`.
+  /// The time spent on deciding fates and in `ask`.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();
@@ -82,7 +82,7 @@ class FateTeller {
 }  // namespace
 
 std::pair<PairFate, bool> fate(const Query& query) {
-  // The tests of primitives in translation are about contact.
+  // With a separation, every pair is asked: meets_by_translation() can only decide whether primitives touch.
   const RelativeMotion motion = query.separation > 0 ? RelativeMotion::other : relative_motion(query);
   if (motion == RelativeMotion::other) return {PairFate::asked, false};
   const auto meets = meets_by_translation(query);

@@ -21,8 +21,8 @@ enum class LeaveOut : std::uint8_t {
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// The fate of a pair whose swept boxes meet (or are at most the separation apart), under LeaveOut::all; and, if it is not asked, whether it
-/// collides.
+/// The fate, under LeaveOut::all, of a pair whose swept boxes meet (or are at most the separation apart);
+/// and, if it is not asked, whether it collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Pairs of one kind that are asked.
@@ -32,7 +32,7 @@ struct AskedPairs {
   std::vector<Query> queries;  ///< the query of each candidate
 };
 
-/// Receives some pairs at a time, at least one.
+/// Receives one or more pairs at a time.
 using AskSink = std::function<void(const AskedPairs&)>;
 
 /// Receives a pair that is left out although its boxes meet, and whether it collides.
@@ -42,13 +42,13 @@ using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate,
 /// do not depend on the number of threads.
 class Plan {
  public:
-  /// The mesh must outlive this object, unless `move` replaces it. The parts are made by `jobs` threads. Throws Stopped
-  /// when `is_over` says so.
+  /// The mesh must outlive this object, unless `move` replaces it. The parts are made by `jobs` threads.
+  /// Throws Stopped when `is_over` says so.
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh. This gives the same plan as a new object, in less time. After
-  /// an exception, the object must not be used any more.
+  /// Replaces the mesh by another step of the same mesh. This gives the same plan as a new object, in less
+  /// time. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }

@@ -29,13 +29,13 @@ Scene with_separation(Scene scene, double separation);
 /// One step of a scene.
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);
 
-/// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` says that it is enough. The mesh is the
-/// same object in all steps. This takes less time than moving_mesh for each step.
+/// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` says that it is enough. The
+/// mesh is the same object in all steps. This takes less time than moving_mesh for each step.
 void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
                    const std::function<void(std::size_t step, const MovingMesh& mesh)>& visit);
 
-/// The name under which the pairs of a step are counted: "scene:NAME", or "scene:NAME#STEP" if there are several
-/// steps. No family of random queries has such a name.
+/// The name under which the pairs of a step are counted: "scene:NAME", or "scene:NAME#STEP" if there are
+/// several steps. No family of random queries has such a name.
 std::string step_name(const Scene& scene, std::size_t step);
 
 /// A scene of one step: the same mesh at t = 0 and at t = 1, from two files. Throws Error.

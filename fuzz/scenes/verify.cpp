@@ -38,8 +38,8 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Asks the oracle and the subjects about those of some pairs that a plan leaves out. Adds the pairs whose
-/// boxes meet to `meeting`.
+/// Asks the oracle and the subjects about those of the given pairs that a plan leaves out. Adds the pairs
+/// whose boxes meet to `meeting`.
 Verification verify(const AskedPairs& pairs, const Subjects& subjects, Fingerprint& meeting) {
   std::vector<Query> queries;
   std::vector<bool> expected;

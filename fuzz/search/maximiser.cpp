@@ -63,7 +63,7 @@ double Maximiser::value_at(const std::vector<double>& x) {
   try {
     value = show(point_at(x));
   } catch (...) {
-    error_ = std::current_exception();  // the optimiser would mistake it for its own
+    error_ = std::current_exception();  // the optimiser would take it for an exception of its own
   }
   if (over()) optimiser_->force_stop();
   return std::min(value, 1e3);  // finite, because optimisers compute with it

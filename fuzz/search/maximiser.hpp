@@ -15,7 +15,7 @@ class opt;
 
 namespace nearmiss {
 
-/// The objective of an unwanted query, far below all others.
+/// The value of the objective for an unwanted query, far below all others.
 inline constexpr double unwanted = -1e3;
 
 /// Maximises an objective from random starting points.
@@ -34,7 +34,7 @@ class Maximiser {
  private:
   [[nodiscard]] bool over() const;
   double show(const SearchPoint& point);
-  /// Starts at the best point so far, or near it, with steps of a random size.
+  /// Optimises from the best point so far, or from one near it (`beside`), with steps of a random size.
   void optimise(bool beside);
   /// The objective as an optimiser sees it.
   double value_at(const std::vector<double>& x);

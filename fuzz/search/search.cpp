@@ -21,19 +21,19 @@ double reach(const Subject& subject, const Query& query) {
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives; it is smaller than usual for a subject with a small reach.
+/// The smallest size of primitives, which is smaller than usual if the subject has a small reach.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   const SearchPoint typical = draw_search_point(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical, 0)));
 }
 
-/// A query over the time limit ends the search.
+/// Counts a search that a query over the time limit ends; returns the value that ends it.
 double ended_by(const Searched& subject) {
   subject.count_slow_search();
   return HUGE_VAL;
 }
 
-/// How much each of the properties counts that make a collision hard.
+/// The weight of each property that makes a collision hard.
 struct Mixture {
   std::array<double, 6> of_contact{};
   double of_distance = 0;  ///< for h > 0
@@ -86,7 +86,7 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
     if (h == 0 || bound == 0) return closest_ratio(query, bound);
     return distance_beyond_separation(query, bound, [](double hi) { return 0.999 * hi; }).hi;
   };
-  // From -1 to 0, so that a collision leads to the separation.
+  // The value of a collision, from -1 to 0. It grows as the smallest distance approaches the separation.
   const auto depth_of = [&](const Query& query) {
     return h == 0 ? 0 : std::min(minimum_distance(query).hi / h - 1, 0.0);
   };

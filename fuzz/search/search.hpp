@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// The largest number of queries about which a search asks the subject for each query that it returns.
+/// A search asks the subject about at most this many queries for each query that it returns.
 inline constexpr int search_evaluations = 2000;
 
 /// The family "search-miss-NAME". Each query is a collision that the subject misses, or else the one that it
@@ -22,33 +22,35 @@ inline constexpr int search_evaluations = 2000;
 /// the primitives still meet. The search maximises the subject's needed tolerance. If the subject gives none,
 /// it maximises a random mixture of properties that make a contact hard: a grazing motion, a small angle
 /// between the primitives, a small weight, unequal edges, a time near 0 or 1. It starts at random points and
-/// continues from the best one so far. A search ends with a query over the subject's time limit; after a few of these,
-/// the subject is not asked any more. Making a query throws Stopped when `stop` is due. The subject and `stop` must
-/// outlive the family.
+/// continues from the best one so far. A search ends with a query over the subject's time limit; after a few
+/// of these, the subject is not asked any more. Making a query throws Stopped when `stop` is due. The subject
+/// and `stop` must outlive the family.
 ///
-/// With a separation (parse_family_separation), the family is "search-miss-NAME~SEPARATION". Each search has one separation
-/// h > 0. It moves among queries in which two points of the primitives come within h, and a smallest distance near h counts
-/// as hard, too.
+/// With a separation (parse_family_separation), the family is "search-miss-NAME~SEPARATION". Each search has
+/// one separation h > 0. It moves among queries in which two points of the primitives come within h, and a
+/// smallest distance near h counts as hard, too.
 Family miss_search(const Subject& subject, const Stop& stop = Stop::never(),
                    std::string_view separation = {});
 
 /// The family "search-far-NAME". Each query is the farthest false positive that a search found, relative to
 /// the bound that the subject claims, or to wang's bound if it claims none. A false positive that refutes the
-/// bound ends the search. If a search finds no false positive, it returns another query. Otherwise as miss_search.
+/// bound ends the search. If a search finds no false positive, it returns another query. All else is as for
+/// miss_search.
 Family far_search(const Subject& subject, const Stop& stop = Stop::never(), std::string_view separation = {});
 
-/// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest time that a
-/// search found: with the largest time - t* if there is a time after t*, the exact earliest time, and else with the smallest
-/// (t* - time) / t*. Misses, and up to 20 queries over the time limit, are passed over. Otherwise as miss_search.
+/// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest
+/// time that a search found, compared with t*, the exact earliest time: the one with the largest time - t* if
+/// any time is after t*, otherwise the one with the smallest (t* - time) / t*. Misses are passed over, and so
+/// are up to 20 queries over the time limit. All else is as for miss_search.
 Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
                    std::string_view separation = {});
 
-/// The family "search-early-NAME", for a subject that gives times. Each query is the collision with the largest t* - time that
-/// a search found. Otherwise as late_search.
+/// The family "search-early-NAME", for a subject that gives times. Each query is the collision with the
+/// largest t* - time that a search found. All else is as for late_search.
 Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
                     std::string_view separation = {});
 
-/// All searches for a subject: for misses and far false positives, and, if it gives times, for late and early ones.
+/// All searches for a subject: for misses, far false positives, and, if it gives times, late and early ones.
 std::vector<Family> searches(const Subject& subject, const Stop& stop = Stop::never(),
                              std::string_view separation = {});
 

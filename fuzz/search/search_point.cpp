@@ -24,7 +24,7 @@ SearchPoint draw_search_point(Random& random, double smallest) {
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
   };
-  // The order in which arguments and operands are computed is the compiler's choice, so each is drawn by itself.
+  // The order of evaluating arguments is up to the compiler, so each is drawn in its own statement.
   const auto some_path = [&] {
     const Vector start = random.vector(some(smallest, 1));
     return path(start, random.one_in(3) ? 0 : some(smallest, 1));
@@ -52,8 +52,8 @@ SearchPoint draw_search_point(Random& random, double smallest) {
   return m;
 }
 
-/// With vectors within 2^3 that are multiples of 2^-22, and weights and times that are multiples of 2^-10, no sum of products
-/// in `meet` has more than 3 + 3 + 22 + 20 = 48 bits.
+/// With vectors within 2^3 that are multiples of 2^-22, and weights and times that are multiples of 2^-10, no
+/// sum of products in `meet` has more than 3 + 3 + 22 + 20 = 48 bits.
 SearchPoint on_grid(SearchPoint point) {
   const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
   point.visit(true, [&](Vector& v) {

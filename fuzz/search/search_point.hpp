@@ -28,8 +28,8 @@ inline constexpr double usually_smallest = 1e-5;
 /// A number from lo to hi, uniform on a logarithmic scale, which is the same with every C library.
 double search_log_uniform(Random& random, double lo, double hi);
 
-/// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some are thin, move in their plane, or stay
-/// near one plane; contact may be on a border or at an end of the step.
+/// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some are thin, move in their
+/// plane, or stay near one plane; contact may be on a border or at an end of the step.
 SearchPoint draw_search_point(Random& random, double smallest);
 
 /// Rounds to a grid on which contact is exact.
@@ -46,7 +46,7 @@ Contact contact_of(Kind kind, const SearchPoint& point);
 /// The query of a point, for a separation h.
 Query query_of(Kind kind, const SearchPoint& point, double h);
 
-/// log2 of six ratios. A contact is harder if one of them is smaller.
+/// log2 of six ratios. The smaller a ratio is, the harder is the contact.
 std::array<double, 6> hardness(Kind kind, const SearchPoint& point);
 
 }  // namespace nearmiss

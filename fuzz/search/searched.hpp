@@ -21,18 +21,18 @@ class Searched {
   [[nodiscard]] const Subject& operator*() const { return subject_; }
   [[nodiscard]] const Subject* operator->() const { return &subject_; }
 
-  /// The separation of one search; 0, without a random number, if it is for contact.
+  /// Draws the separation of one search. It is 0, and takes no random number, if the search is for contact.
   [[nodiscard]] double separation(Random& random, Kind kind) const;
 
   using Value = std::function<double(const Verdict&)>;
 
-  /// The objective of a query: `value` of the subject's answer. It is `unwanted` if the query is not finite or breaks the
-  /// subject's contract, or if the subject is not asked any more. It is `if_slow` if the answer exceeds the time limit.
-  /// Throws Stopped.
+  /// The objective of a query: `value` of the subject's answer. It is `unwanted` if the query is not finite
+  /// or breaks the subject's contract, or if the subject is not asked any more. It is `if_slow` if the answer
+  /// exceeds the time limit. Throws Stopped.
   [[nodiscard]] double objective(const Query& query, const Value& value,
                                  const std::function<double()>& if_slow) const;
 
-  /// Counts a search that ended because of the time limit. After a few of these, the subject is not asked any more.
+  /// Counts a search that the time limit ended. After a few of these, the subject is not asked any more.
   void count_slow_search() const { ++slow_searches_; }
 
  private:
@@ -45,7 +45,7 @@ class Searched {
 /// One search: the best of the queries that it tries.
 using SearchOne = Query (*)(const Searched&, Random&, Kind);
 
-/// The family of a search's results, named PREFIX and the subject's name.
+/// The family of a search's results. Its name consists of the prefix and the subject's name.
 Family search_family(std::string_view prefix, std::string_view about, SearchOne search_one,
                      const Subject& subject, const Stop& stop, std::string_view separation);
 

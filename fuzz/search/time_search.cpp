@@ -17,7 +17,7 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// time - t* with an error of at most `least`; small differences are more accurate than `rough_time`.
+  /// time - t*, with the accuracy `rough_time`, or `least` if the difference is small.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);
@@ -27,7 +27,8 @@ struct GivenTime {
   static constexpr double least = 0x1p-50;
 };
 
-/// Above all others if the time is late, and then larger for a later one; else larger for a time nearer to t*, relative to t*.
+/// Late times have the highest values, the larger the later they are. Other times have larger values the
+/// nearer they are to t*, relative to t*.
 double lateness(const GivenTime& given) {
   constexpr double late = 200;
   const double least = GivenTime::least;
@@ -42,7 +43,7 @@ double earliness(const GivenTime& given) { return -given.difference(); }
 /// The subject's answers in one search.
 struct Answers {
   int slow = 0;        ///< queries over the time limit
-  bool found = false;  ///< whether a query is wanted
+  bool found = false;  ///< whether an answer had a time that could be judged
 
   static constexpr int most_slow = 20;
 };

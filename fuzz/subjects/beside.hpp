@@ -8,8 +8,8 @@
 
 namespace nearmiss {
 
-/// The path of a file or folder of nearmiss. It is beside this program, or, seen from there, in the folder NEARMISS_INSTALLED or
-/// NEARMISS_BUILT (fuzz/CMakeLists.txt).
+/// The path of a file or folder of nearmiss. It is in this program's folder, or in NEARMISS_INSTALLED or
+/// NEARMISS_BUILT (fuzz/CMakeLists.txt), which are relative to that folder.
 inline std::string path_beside(std::string_view name) {
   std::error_code unknown;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();

@@ -22,8 +22,9 @@ bool is_apart_at_start(const Query& query, double by) {
   return distance_exceeds(at_rest, std::max(by, query.separation));
 }
 
-/// Whether the signs of F's Bernstein coefficients, if they are certain, show that F has at most one root in [0, 1]: none
-/// at an end, and no more inside, counted with multiplicity, than there are changes of sign.
+/// Whether the signs of F's Bernstein coefficients are certain, and change at most once. If so, F has at most
+/// one root in [0, 1], counted with multiplicity: it has none at an end, and no more inside than the signs
+/// change.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);
@@ -42,7 +43,7 @@ bool has_at_most_one_root(const Query& query) {
   return roots.empty() || (roots.size() == 1 && roots.front().sign_of(F.derivative()) != 0);
 }
 
-/// The remainder of fmod is exact.
+/// Exact, since the remainder of fmod is exact.
 bool is_on_grid(const Query& query, double grid) {
   return std::all_of(query.x.begin(), query.x.end(), [&](double c) { return std::fmod(c, grid) == 0; });
 }

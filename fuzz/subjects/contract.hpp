@@ -1,4 +1,4 @@
-// Whether a query is one for which a subject's contract holds.
+// Whether a query keeps a subject's contract.
 #pragma once
 
 #include "ccd/query/query.hpp"
@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are coplanar at
-/// all times, their volume has more than one root.
+/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are
+/// coplanar at all times, F counts as having more than one root.
 bool keeps_contract(const Query& query, const Contract& contract);
 
 }  // namespace nearmiss

@@ -9,9 +9,10 @@
 
 namespace nearmiss {
 
-/// A subject with a contract as one that is asked only queries that keep it; others have the fault `contract`. With
-/// `asks_beyond`, there is a second subject that is asked only these others, NAME (beyond contract)
-/// (reports/statistics/failure.hpp). Nothing changes for a subject without a contract.
+/// Makes a subject with a contract one that is asked only queries that keep the contract; all other queries
+/// get the fault `contract`. If `asks_beyond`, a second subject is asked only these others, under the name
+/// "NAME (beyond contract)" (reports/statistics/failure.hpp). A subject without a contract is returned
+/// unchanged.
 std::vector<std::unique_ptr<Subject>> keep_contract(std::unique_ptr<Subject> subject, bool asks_beyond);
 
 /// What a contract takes for granted, in words; "" if nothing.

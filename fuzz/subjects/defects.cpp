@@ -44,7 +44,8 @@ struct DefectiveTolerances {
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
-  /// The changed tolerance loosened by s. If none is changed, all accepting tolerances are loosened, as lengths.
+  /// These tolerances with the changed one loosened by s. If none is changed, all accepting tolerances are
+  /// loosened, as lengths.
   [[nodiscard]] DefectiveTolerances loosened(double s) const {
     DefectiveTolerances loose = *this;
     if (changed != nullptr) {
@@ -93,7 +94,7 @@ struct Change {
   Sound sound = Sound::wang;
   int edit = 0;  ///< its number in edit_table, from 1; 0: none
   DefectiveTolerances tolerances = {};
-  bool in_float = false;  ///< of wang-time, the time alone
+  bool in_float = false;  ///< whether it computes in float; wang-time: only the time
 };
 
 template <Kind kind>

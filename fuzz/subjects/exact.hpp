@@ -9,13 +9,13 @@
 
 namespace nearmiss {
 
-/// The subjects `exact`, `exact-scalar` and `exact-decision`: the certified filter, then exact arithmetic for the queries
-/// that it leaves undecided. `exact` decides many queries with h = 0 side by side, `exact-scalar` one at a time. Both give the
-/// largest double that is not after the earliest time; `exact-decision` gives no time. They claim to have no false
-/// positives, so their distance bound is 0.
+/// The subjects `exact`, `exact-scalar` and `exact-decision`: the certified filter, then exact arithmetic for
+/// the queries that it leaves undecided. `exact` decides many queries with h = 0 side by side, `exact-scalar`
+/// one at a time. Both give the largest double that is not after the earliest time; `exact-decision` gives no
+/// time. They claim to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
 
-/// Makes the one of these with the given name; nothing for any other name.
+/// Makes the exact subject with the given name; null for any other name.
 std::unique_ptr<Subject> try_make_exact(std::string_view name);
 
 }  // namespace nearmiss

@@ -10,8 +10,9 @@
 
 namespace nearmiss {
 
-/// Passes everything on to another subject, which must outlive it. A derived class changes how it is asked: in decide()
-/// for batches, which decides single queries, too; decide_timed() and time_each() do not call decide().
+/// Passes everything on to another subject, which must outlive it. A derived class changes how that subject
+/// is asked by overriding decide() for batches, which decides single queries, too. decide_timed() and
+/// time_each() do not call decide().
 class ForwardingSubject : public BatchSubject {
  public:
   ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}
@@ -49,7 +50,7 @@ class ForwardingSubject : public BatchSubject {
   const Subject& to_;
 };
 
-/// The subject that answers in the end: what a chain of forwarding subjects leads to.
+/// The subject at the end of a chain of forwarding subjects, which answers in the end.
 inline const Subject& innermost(const Subject& subject) {
   const auto* const forwarding = dynamic_cast<const ForwardingSubject*>(&subject);
   return forwarding == nullptr ? subject : innermost(forwarding->to());

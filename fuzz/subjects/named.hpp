@@ -12,17 +12,17 @@ namespace nearmiss {
 /// Whether a text may be the NAME in NAME=SUBJECT: a letter, then letters, digits, '_', '.' and '-'.
 bool is_given_name(std::string_view text);
 
-/// A subject as the command line gives it: [NAME=]SUBJECT. There is a name if the first of ':', '/' and '=' is '='.
+/// A subject on the command line: [NAME=]SUBJECT. It has a NAME if the first of ':', '/' and '=' is '='.
 struct SubjectText {
   std::string name;  ///< "" if none is given
   std::string subject;
 
-  /// Throws Error for a name that is none.
+  /// Throws Error for a NAME that is not allowed (is_given_name).
   static SubjectText parse(std::string_view text);
 };
 
-/// The subject under another name, which replaces its own one up to its options (of a plug-in) or its bound (of a built-in
-/// subject): "new:KEY=VALUE", "new@0.5". Nothing changes if the name is "".
+/// The subject under another name, which replaces its own. The options of a plug-in and the bound of a
+/// built-in subject stay at the end: "new:KEY=VALUE", "new@0.5". Nothing changes if the name is "".
 std::unique_ptr<Subject> named(std::unique_ptr<Subject> subject, const std::string& name, bool is_plugin);
 
 /// The name that named() gave to a subject; "" if there is none.

@@ -15,18 +15,18 @@ struct Peer {
   std::string_view package;  ///< the Debian package that it is built with; "" if tools/peers builds it
 };
 
-/// All of them, whether built or not.
+/// All published CCDs that have an adapter, whether built or not.
 std::span<const Peer> peers();
 
-/// The path of its plug-in.
+/// The path of a published CCD's plug-in.
 std::string path_of(const Peer& peer);
 bool is_built(const Peer& peer);
-/// How to build it, as an instruction: "run tools/peers ...".
+/// How to build a published CCD, as an instruction: "run tools/peers ...".
 std::string how_to_build(const Peer& peer);
 
 /// The plug-in that a name stands for: "tight-inclusion:tolerance=1e-3" is
-/// ".../peers/tight-inclusion.so:tight-inclusion:tolerance=1e-3". Nothing if the name is not that of a peer. Throws Error if
-/// the peer is not built.
+/// ".../peers/tight-inclusion.so:tight-inclusion:tolerance=1e-3". Nothing if the name is not that of a peer.
+/// Throws Error if the peer is not built.
 std::optional<std::string> plugin_of_peer(std::string_view name);
 
 }  // namespace nearmiss

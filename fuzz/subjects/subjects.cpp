@@ -19,7 +19,7 @@ namespace {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The plug-in of a subject without a given name.
+/// The plug-in of a subject that is given without NAME=.
 std::optional<std::string> plugin_of(std::string_view subject) {
   return is_plugin(subject) ? std::string(subject) : plugin_of_peer(subject);
 }
@@ -32,8 +32,8 @@ std::unique_ptr<Subject> make_built_in_or_refuse(std::string_view name, std::opt
   refuse_subject(name, known);
 }
 
-/// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if the file's name cannot begin
-/// a name. "" if there is no file, or no such name.
+/// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if the file's
+/// name cannot begin a name. "" if there is no file, or no such name.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin || is_program(plugin->path)) return "";

@@ -14,29 +14,31 @@
 
 namespace nearmiss {
 
-/// The plug-in that a subject's text [NAME=]SUBJECT stands for: a path or a command stands for itself, the name of a published
-/// CCD for the plug-in that was built of it (peers.hpp). Nothing for other subjects. Throws Error if the CCD is not built.
+/// The plug-in that a subject's text [NAME=]SUBJECT stands for: a path or a command stands for itself, the
+/// name of a published CCD for the plug-in that was built of it (peers.hpp). Nothing for other subjects.
+/// Throws Error if the CCD is not built.
 std::optional<std::string> plugin_named(std::string_view text);
 
-/// Makes the subject of a text [NAME=]SUBJECT, which gets the NAME if there is one: a built-in subject (as make_built_in), or
-/// a plug-in (plugin_named), which runs in processes of its own (isolation/) under `limits`. Throws Error for an unknown
-/// subject, and for a shared object with several detectors if the text does not say which.
+/// Makes the subject of a text [NAME=]SUBJECT, which gets the NAME if there is one: a built-in subject (as
+/// make_built_in), or a plug-in (plugin_named), which runs in processes of its own (isolation/) under
+/// `limits`. Throws Error for an unknown subject, and for a shared object with several detectors if the text
+/// does not say which.
 std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});
 
-/// As make_any_subject, but makes all detectors of a shared object if the text has no NAME and does not say which.
+/// As make_any_subject, but makes all detectors of a shared object if the text has no NAME and no detector.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
 
-/// Gives different names to plug-ins with equal names, as versions of one CCD have: each of them whose name was not given gets
-/// that of its file, "v1" for ./v1.so; or "v1.DETECTOR" if the file has several detectors or the detector was chosen. Throws
-/// Error if two names are still equal.
+/// Gives different names to plug-ins with equal names, such as versions of one CCD. Each plug-in that was not
+/// given a NAME gets the name of its file, "v1" for ./v1.so, or "v1.DETECTOR" if the file has several
+/// detectors or the detector was chosen. Throws Error if two names are still equal.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
-/// The text that makes a subject under its name, whatever other subjects there are: "v1=./v1.so"; without NAME= if it has its
-/// own name.
+/// The text that makes a subject under its name, whatever other subjects there are: "v1=./v1.so"; without
+/// NAME= if it has its own name.
 std::string text_of(const Subject& subject);
 
 }  // namespace nearmiss

@@ -32,7 +32,7 @@ class CampaignRun {
     trials_.run([&] { return next(); });
     if (!is_enough_) {
       progress_.is_asking = false;
-      trials_.pass_on();  // says so before shrinking takes its time
+      trials_.pass_on();  // tells the sink so before shrinking, which takes time
       trials_.finish();
     }
     progress_.complete =
@@ -71,7 +71,7 @@ class CampaignRun {
   CasesOfShard cases_;
   CampaignProgress progress_;
   Clock::time_point start_ = Clock::now();
-  bool is_enough_ = false;  // for the sink
+  bool is_enough_ = false;  // whether the sink has ended the campaign
   std::atomic<bool> is_over_ = false;
 };
 

@@ -12,16 +12,16 @@
 
 namespace nearmiss {
 
-/// The plan of a campaign. Its cases have an order (case_order.hpp). What counts is always a beginning of
-/// that order, so the result depends neither on `jobs` nor on how often the campaign was stopped and resumed.
-/// The shards together give the result of the whole campaign, except for subjects that are set aside
-/// (so_far.hpp).
+/// The plan of a campaign. Its cases have an order (case_order.hpp). The cases that count are always the
+/// first ones in that order, so the result depends neither on `jobs` nor on how often the campaign was
+/// stopped and resumed. The shards together give the result of the whole campaign, except for subjects that
+/// are set aside (so_far.hpp).
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
   std::uint64_t cases = 0;  ///< total, divided in proportion to `block_cases`; 0 if there is no end
   std::uint64_t first =
-      0;  ///< if there is no end: decides only so many cases of the shard, in order; 0 is no limit
+      0;  ///< if there is no end: the number of cases of the shard to decide, in order; 0 is no limit
   Comparison comparison;
   std::size_t shrink = findings_kept;  ///< number of findings of each signature and class that are shrunk
   int jobs = 1;
@@ -37,7 +37,7 @@ struct CampaignProgress {
   std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed
   std::uint64_t of = 0;            ///< all cases of this shard; 0 if there is no end
   std::size_t to_shrink = 0;       ///< findings that are still to be shrunk
-  bool is_asking = true;           ///< afterwards, the rest is shrunk
+  bool is_asking = true;           ///< false when only shrinking is left
   bool complete = false;           ///< whether this shard is completed, and all findings are shrunk
   std::chrono::duration<double> elapsed{};
 };

@@ -16,7 +16,8 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
   return sum;
 }
 
-/// Which multiples of `block_cases` the rounds have: 1, 2, 4 and so on up to `largest()`, which later rounds have, too.
+/// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 and so
+/// on units, up to `largest()`, which all later rounds have, too.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {
@@ -27,19 +28,19 @@ class Rounds {
     doublings_ = std::min<std::uint64_t>(doublings_, std::bit_width(std::max<std::uint64_t>(fitting, 1)) - 1);
   }
 
-  /// The multiple with which a round begins.
+  /// The unit with which a round begins.
   [[nodiscard]] std::uint64_t start(std::uint64_t round) const {
     if (round < doublings_) return (std::uint64_t{1} << round) - 1;
     return largest() * (round - doublings_ + 1) - 1;
   }
 
-  /// The round that contains a multiple.
+  /// The round that contains the unit number `multiple`.
   [[nodiscard]] std::uint64_t containing(std::uint64_t multiple) const {
     if (multiple + 1 < largest()) return std::bit_width(multiple + 1) - 1;
     return (multiple + 1) / largest() + doublings_ - 1;
   }
 
-  /// The number of rounds before those with the largest multiple.
+  /// The number of rounds before those of the largest size.
   [[nodiscard]] std::uint64_t doublings() const { return doublings_; }
   [[nodiscard]] std::uint64_t largest() const { return std::uint64_t{1} << doublings_; }
 
@@ -83,7 +84,7 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan, std::size_t f) {
   const std::uint64_t block_cases = plan.families[f].block_cases;
   const std::uint64_t share = share_of(plan, f);
   const std::uint64_t before = std::min(share, block_cases * rounds.start(rounds.doublings()));
-  const std::uint64_t whole = (share - before) / (block_cases * rounds.largest());  // rounds, before the rest
+  const std::uint64_t whole = (share - before) / (block_cases * rounds.largest());  // full rounds
   const auto own_rounds = [&](std::uint64_t count) {
     return count / plan.shards + (plan.shard < count % plan.shards ? 1 : 0);
   };

@@ -1,9 +1,10 @@
 // The order of a campaign's cases: round by round, family by family.
 //
-// A round has a block of cases of every family. The first round has `block_cases` of a family, and every later round twice
-// as many as the one before, until a block is 128 times as large: what is decided at any time is spread over all families,
-// and subjects soon get large batches. A campaign with a given number of cases is divided into 64 rounds or more where that
-// is possible, so that its shards, which have every n-th round, are of about the same size.
+// A round has a block of cases of every family. The first round has `block_cases` of a family, and every
+// later round twice as many as the one before, until a block is 128 times as large. So the cases decided by
+// any time are spread over all families, and subjects soon get large batches. A campaign with a given number
+// of cases is divided into 64 rounds or more where that is possible, so that its shards, which have every
+// n-th round, are of about the same size.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +42,7 @@ std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std
 /// The cases of a plan's shard, in order. The plan must outlive it.
 class CasesOfShard {
  public:
-  /// Begins behind the first `done` cases.
+  /// Begins after the first `done` cases.
   CasesOfShard(const CampaignPlan& plan, std::uint64_t done);
 
   /// The next cases of one block, at most as many as `pace` says; nothing when all are done.

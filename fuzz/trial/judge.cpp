@@ -18,8 +18,8 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 
 namespace {
 
-/// The magnitude of time - t*: an upper bound in the right bin of a Histogram, with a relative accuracy of 1/1000 unless it
-/// lies in the first bin; and its sign, 0 if the time certainly is t*.
+/// The magnitude of time - t*: an upper bound in the right bin of a Histogram, with a relative accuracy of
+/// 1/1000 unless it lies in the first bin; and its sign, 0 if the time certainly is t*.
 struct TimeDifference {
   double magnitude;
   int sign;
@@ -89,7 +89,7 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 }
 
 std::optional<Failure> Judge::failure(const Query& query, const Verdict& verdict) const {
-  // A report fails only by a bound or a time that is claimed.
+  // A reported collision can only fail a claimed bound or a promised time.
   if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound() &&
       subject_.time_sort() != TimeSort::lower_bound)
     return std::nullopt;

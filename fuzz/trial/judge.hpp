@@ -1,4 +1,4 @@
-// The judge: compares the answers of a subject with the truth. reports/statistics/failure.hpp says which outcomes are failures.
+// The judge: compares a subject's answers with the truth. reports/statistics/failure.hpp lists the failures.
 #pragma once
 
 #include <compare>
@@ -35,12 +35,12 @@ class Judge {
   /// The unit, or why the subject fails to give it.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
-  /// Compares an answer with the truth about the query as the subject rounds it. If the smallest distance is exactly the
-  /// separation h > 0, any answer is right, and a report counts as that of a collision. A subject that claims bounds
-  /// must give a number >= 0 for a false positive; anything else is a fault. A subject that cannot tell claims nothing about
-  /// the distance. The ratio of a false positive is that of `Truth::distance`, accurate to 1/1000 if a finding stores it or if it
-  /// is at least `least_kept` (Counts). It is 0 if the unit is beyond the largest double, since nothing is farther away than
-  /// that.
+  /// Compares an answer with the truth about the query as the subject rounds it. If the smallest distance is
+  /// exactly the separation h > 0, any answer is right, and a report counts as that of a collision. A subject
+  /// that claims bounds must give a number >= 0 for a false positive; anything else is a fault. A subject
+  /// that cannot tell claims nothing about the distance. The ratio of a false positive is that of
+  /// `Truth::distance`, accurate to 1/1000 if a finding stores it or if it is at least `least_kept` (Counts).
+  /// It is 0 if the unit is beyond the largest double, since no distance is larger.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0) const;
 
   /// How the subject fails on a query; nothing if it does not. Throws Error as the subject does.
@@ -59,7 +59,8 @@ class Judge {
   std::unique_ptr<Subject> wang_;  // used for a subject that claims no bound
 };
 
-/// The finding of an outcome that fails (reports/statistics/failure.hpp); nothing if it does not fail, or makes none.
+/// The finding of an outcome that fails (reports/statistics/failure.hpp); nothing if it does not fail, or if
+/// its failure makes no finding.
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth);
 
 /// How the oracle fails on a query, that is, how its methods disagree; nothing if they agree.

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t separation = 24;  // among Numbers
+constexpr std::size_t separation = 24;  // its index among Numbers
 
 /// The path of a vertex along axis k consists of two coordinates: that at t = 0 has this index, and that at
 /// t = 1 has this index plus 12.
@@ -53,8 +53,8 @@ void exchange(Numbers& x, std::size_t v, std::size_t w) {
     std::swap_ranges(start + 3 * v, start + 3 * v + 3, start + 3 * w);
 }
 
-/// Scales all axes together, or each one, so that the largest magnitude is in [2^exponent, 2^(exponent + 1)), and
-/// rounds. A separation that is scaled with all axes becomes 1 at least, since 0 asks another question.
+/// Scales all axes together, or each one, so that the largest magnitude is in [2^exponent, 2^(exponent + 1)),
+/// and rounds. A separation that is scaled with all axes becomes 1 at least, since 0 asks another question.
 void round(Numbers& x, int exponent, bool each_axis) {
   const bool has_separation = x[separation] != 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -69,8 +69,8 @@ void round(Numbers& x, int exponent, bool each_axis) {
   }
 }
 
-/// Scales the query by powers of two, and rounds all coordinates to integers that are small, or a little larger.
-/// Before that, a vertex moves to the origin: at t = 0, or at all times.
+/// Scales the query by powers of two, and rounds all coordinates to integers that are small, or a little
+/// larger. Before that, a vertex moves to the origin: at t = 0, or at all times.
 Neighbourhood round_all(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (const int exponent : {0, 1, 2, 3, 4, 6})
@@ -191,8 +191,9 @@ Set alike(const Numbers& x, std::size_t i) {
   return set;
 }
 
-/// Replacements of numbers of one magnitude: 0; a small number; another number of the query; a number so small, or so large,
-/// that it, or 1, is lost by rounding in their sum; a number with fewer bits.
+/// Replacements of numbers of one magnitude: 0; a small number; another number of the query; a number so
+/// small that adding it to 1 loses it by rounding, or so large that this loses the 1; a number with fewer
+/// bits.
 Alternatives replacements(const Numbers& numbers, Set set) {
   const double magnitude = std::abs(numbers[static_cast<std::size_t>(std::countr_zero(set))]);
   if (magnitude == 0) return {};

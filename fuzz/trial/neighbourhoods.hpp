@@ -9,17 +9,17 @@
 
 namespace nearmiss {
 
-/// A change of a query's numbers; it may leave them as they are, or make them worse.
+/// A change of a query's numbers; it may leave them as they are, or make the query less simple.
 using Change = std::function<void(Numbers&)>;
 
-/// Changes of which one is taken at most, the first that is of use.
+/// Changes of which at most one is taken: the first that simplifies the query and leaves it failing.
 using Alternatives = std::vector<Change>;
 
 /// Changes of a query, one after the other.
 using Neighbourhood = std::vector<Alternatives>;
 
-/// All neighbourhoods of a query, in the order in which they are tried. Each is made when it is called for, from the query's
-/// present numbers.
+/// All neighbourhoods of a query, in the order in which they are tried. Each function makes its neighbourhood
+/// from the query's present numbers when it is called.
 std::vector<std::function<Neighbourhood(const Numbers&)>> neighbourhoods(Kind kind);
 
 }  // namespace nearmiss

@@ -53,8 +53,8 @@ class Shrinker {
     return query;
   }
 
-  /// Takes the changes that make the query simpler and leave it failing, in their order. Many are asked about at once, more
-  /// after each batch that has no failure.
+  /// Takes the changes that make the query simpler and leave it failing, in their order. Asks about many
+  /// changes at once, and about more after each batch without a failure.
   void explore(const Neighbourhood& changes) {
     constexpr std::size_t largest_batch = 64;
     std::size_t size = 1;
@@ -74,7 +74,7 @@ class Shrinker {
     }
   }
 
-  /// At most `size` candidates from the changes at a place on; moves the place behind them.
+  /// At most `size` candidates, from the place (`entry`, `alternative`) on. Moves the place behind them.
   std::vector<Candidate> candidates(const Neighbourhood& changes, std::size_t& entry,
                                     std::size_t& alternative, std::size_t size) const {
     std::vector<Candidate> batch;
@@ -88,8 +88,9 @@ class Shrinker {
     return batch;
   }
 
-  /// Whether a candidate is a query that is simpler than the best one so far; notes its complexity. Of two queries of equal
-  /// complexity, the one with smaller coordinates counts as simpler, so that no step undoes another.
+  /// Whether a candidate is a query that is simpler than the best one so far; notes its complexity. If two
+  /// queries are equally complex, the one with smaller coordinates counts as simpler, so that no step undoes
+  /// another.
   bool is_simpler(Candidate& candidate) const {
     Numbers& x = candidate.numbers;
     for (double& c : x) c += 0.0;  // makes -0 into 0

@@ -70,7 +70,7 @@ std::optional<Shrinking::Task> Shrinking::next() {
 }
 
 void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
-  // Every step would take as long as the time limit. `nearmiss shrink` does it.
+  // Every step would take as long as the time limit. Only `nearmiss shrink` shrinks such findings.
   const bool is_slow = failure_of(signature_of(task.finding)) == FailureKind::slow;
   try {
     if (is_slow)

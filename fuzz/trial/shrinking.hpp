@@ -20,12 +20,12 @@
 
 namespace nearmiss {
 
-/// Shrinks findings on a thread of its own for at most a tenth of the time, and what is left at the end. Findings of ordinary
-/// queries come first, and the first finding of each signature before the second. The order does not change what findings
-/// are shrunk to. Its functions are called by one thread at a time.
+/// Shrinks findings on a thread of its own for at most a tenth of all processors' time, and the rest at the
+/// end. Findings of ordinary queries come first, and the first finding of each signature before the second.
+/// The order does not change what findings are shrunk to. Its functions are called by one thread at a time.
 class Shrinking {
  public:
-  /// Shrinks the first `of_each` findings of each signature and class. The subjects and `stop` must outlive it.
+  /// Shrinks the first `of_each` findings of each signature and class. Subjects and `stop` must outlive it.
   Shrinking(const Subjects& subjects, int jobs, const Stop& stop, std::size_t of_each);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
@@ -34,8 +34,8 @@ class Shrinking {
   /// Takes on a finding, which gets the next number, from 0 on.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
-  /// Leaves the first findings of each signature and class (FirstFindings) in a result, takes them on, and adds those that have
-  /// been shrunk since the last call. Throws what shrinking threw.
+  /// Leaves the first findings of each signature and class (FirstFindings) in a result, takes them on, and
+  /// adds those that have been shrunk since the last call. Throws what shrinking threw.
   void sift(TrialResult& result);
 
   /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.
@@ -44,14 +44,16 @@ class Shrinking {
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t left() const;
 
-  /// Shrinks the rest on all cores, until `stop` is due, with its grace. Calls `report` several times a second meanwhile.
+  /// Shrinks the rest on all cores, until `stop` is due, with its grace. Calls `report` several times a
+  /// second.
   void finish(const std::function<void()>& report);
 
  private:
   using Clock = Stop::Clock;
-  /// `nth` is the number among the findings of its signature and class.
+  /// `nth` is the finding's number among those of its signature and class.
   void add(const Finding& finding, std::size_t nth);
-  /// The order of shrinking: by class, then by the number among the findings of the signature, then by the number among all.
+  /// The order of shrinking: by class, then by the number among the findings of the same signature and class,
+  /// then by the number among all.
   using Priority = std::tuple<QueryClass, std::size_t, std::size_t>;
   struct Task {
     std::size_t number;

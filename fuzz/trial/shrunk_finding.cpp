@@ -42,10 +42,11 @@ bool ends_process(const Verdict& verdict) {
   }
 }
 
-/// A subject that refuses further queries when a limit is reached, and after one that exceeds the subject's time limit. A
-/// subject that has done this once is asked one query at a time, so that the others of a batch are not asked again and again.
+/// Refuses further queries when a limit is reached, and after a query over the subject's time limit. A
+/// subject that has exceeded its time limit once is asked one query at a time, so that the others of a batch
+/// are not asked again and again.
 class Limited final : public ForwardingSubject {
-  /// The subject's answer, which costs the work of this number of queries. Throws Error if a limit is reached.
+  /// The subject's answer, which costs the work of this many queries. Throws Error if a limit is reached.
   template <class Ask>
   auto asked(std::size_t queries, const Ask& ask) const {
     if (work_ <= 0 || is_slow_) throw Error("the subject has answered as many queries as it may");
@@ -58,7 +59,7 @@ class Limited final : public ForwardingSubject {
   }
 
  public:
-  /// `has_been_slow` outlives it, and is shared by all that ask the subject.
+  /// `has_been_slow` outlives this object, and is shared by all threads that ask the subject.
   Limited(const Subject& to, std::int64_t work, Clock::duration time, std::atomic<bool>& has_been_slow)
       : ForwardingSubject(to.name(), to), work_(work), time_(time), has_been_slow_(has_been_slow) {}
 
@@ -94,7 +95,8 @@ class Limited final : public ForwardingSubject {
   std::atomic<bool>& has_been_slow_;
 };
 
-/// Whether an answer can be a failure of this kind. A bound that is no distance is a fault of a false positive.
+/// Whether an answer can be a failure of this kind. A hit can be a fault, too: a false positive for which the
+/// subject gives an invalid bound.
 bool can_be(Finding::What what, const Verdict& verdict) {
   const bool is_fault = verdict.fault != Fault::none;
   switch (what) {
@@ -114,10 +116,10 @@ class SameFailure {
   SameFailure(Failure failure, const Subject& subject, std::function<void()> check)
       : failure_(std::move(failure)), subject_(subject), judge_(subject), check_(std::move(check)) {}
 
-  /// If given, only queries of this class fail.
+  /// From now on, only queries of this class count as failing.
   void only(QueryClass of) { only_ = of; }
 
-  /// If given, only queries fail that this version of the CCD answers rightly. It must outlive this object.
+  /// From now on, only queries that `before` answers rightly count as failing. It must outlive this object.
   void only_since(const Subject& before) { before_.emplace(before); }
 
   /// The first query that fails. All are asked at once, or a few if each may end a process.
@@ -182,7 +184,7 @@ class FindingShrinker::OfSubject {
   }
 
  private:
-  /// The simplest query that fails in the same way; of this class, if it is given.
+  /// The simplest query that fails in the same way, and of class `of` if that is given.
   [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of, const OfSubject* before,
                                 const std::function<void()>& check) const {
     const Limited limited = limited_subject();
@@ -217,7 +219,7 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// The subject's time for the shrunk query. If it does not answer as before, that of the original query stays.
+  /// The subject's time for the shrunk query, or for the original query if the subject gives none now.
   [[nodiscard]] double time_of(const Finding& finding) const {
     if (finding.shrunk == finding.query) return finding.time;
     const double time = subject_.decide(finding.shrunk).time;

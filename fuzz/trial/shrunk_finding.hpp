@@ -19,17 +19,17 @@ namespace nearmiss {
 /// How much the search for the simplest query may ask of a subject.
 struct ShrinkLimits {
   static constexpr std::int64_t of_call = 10;       ///< the work of a call, in queries
-  static constexpr std::int64_t of_process = 1000;  ///< that of a fault that may need a new process
+  static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may need a new process
 
-  /// The number of queries that are asked, with the work of calls and processes. It counts no time, so it ends the search
-  /// at the same query on every machine.
+  /// The number of queries that are asked, with the work of calls and processes. It counts no time, so it
+  /// ends the search at the same query on every machine.
   std::int64_t work = 1'200'000;
-  /// The time of the answers. Only a slow subject reaches it.
+  /// The time limit for all answers. Only a slow subject reaches it.
   std::chrono::milliseconds time = std::chrono::minutes(1);
 };
 
-/// For findings of a campaign, so that subjects spend their time on cases. An answer may take 0.4 ms, and the start of a
-/// process 40 ms, before the time ends the search.
+/// For findings of a campaign, so that subjects spend their time on cases. An answer may take 0.4 ms, and the
+/// start of a process 40 ms, before the time ends the search.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(5)};
 
 /// Shrinks findings of some subjects. Many threads use it at once.
@@ -44,11 +44,12 @@ class FindingShrinker {
   FindingShrinker& operator=(const FindingShrinker&) = delete;
   ~FindingShrinker();
 
-  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class. If a version of the
-  /// CCD breaks it, both are queries that the version before answers rightly. The result depends
-  /// on the finding and the subject only, and on the machine only if the time ends a search. A query that the
-  /// subject refuses does not fail. A contradiction to a recorded truth is not shrunk, because the truth is known for one
-  /// query only. Throws Stopped if the stop is due, with its grace; then the finding stays as it is.
+  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class. If
+  /// the finding is `broken_since` an earlier version of the CCD, both are queries that the earlier version
+  /// answers rightly. The result depends only on the finding and the subjects, unless the time limit ends a
+  /// search. A query that the subject refuses does not fail. A contradiction to a recorded truth is not
+  /// shrunk, because the truth is known only for the finding's own query. Throws Stopped if the stop is due,
+  /// with its grace; then the finding stays as it is.
   void shrink(Finding& finding, const Rest& rest = {}) const;
 
  private:

@@ -15,7 +15,7 @@ std::string signature(Kind kind, std::string_view features) {
   return std::string(short_name(kind)).append(" ").append(features);
 }
 
-/// The text with # for each number, and cut.
+/// The text with # for each number, cut to a readable length.
 std::string without_numbers(std::string_view text) {
   constexpr std::size_t most = 80;
   std::string result;
@@ -29,7 +29,7 @@ std::string without_numbers(std::string_view text) {
   return printable(result);
 }
 
-/// Whether the signature is that of a fault without further features, of either kind.
+/// Whether the text is the signature of this fault, without further features, for either kind.
 bool is_of(Fault fault, std::string_view text) {
   return std::any_of(kinds.begin(), kinds.end(),
                      [&](Kind kind) { return text == fault_signature(kind, {.fault = fault}); });

@@ -12,22 +12,25 @@
 namespace nearmiss {
 
 /// The signature of a missed collision: the features of its first contact, such as "vt simple-root inside
-/// on-edge"; "vt no-contact" if exact arithmetic finds no contact.
+/// on-edge", or, for h > 0, of its first approach to h. "vt no-contact" or "vt no-approach" if exact
+/// arithmetic finds none.
 std::string contact_signature(const Query& query);
 
 /// The signature of a report beyond the bound: the stage that accepted, such as "ee ve-minimum".
 std::string report_signature(Kind kind, Stage stage);
 
-/// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7", "vt time" or
-/// "vt exception no root in [#, #]". `text` is what an exception said; its numbers become #, so that exceptions that
-/// differ by numbers alone have one signature.
+/// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7", "vt
+/// time" or "vt exception no root in [#, #]". `text` is what an exception said; its numbers become #, so that
+/// exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
 
-/// Whether the signature is that of an answer that is none, or of a collision without the time that was promised.
+/// Whether the signature is that of an invalid answer: no known value, or a collision without a promised
+/// time.
 bool is_of_invalid_answer(std::string_view signature);
 
-/// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists the answers
-/// (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if they agree.
+/// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists
+/// the answers (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if
+/// they agree.
 std::string disagreement_signature(Kind kind, std::string_view text);
 
 }  // namespace nearmiss

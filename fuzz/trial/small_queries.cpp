@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
 constexpr std::array values{0, 1, -1, 2};
-constexpr int most_numbers = 3;  // of the queries that are all listed
+constexpr int most_numbers = 3;  // queries with at most this many numbers are all listed
 using Integers = std::array<int, 24>;
 
 /// A symmetry of queries: coordinate i of the copy is coordinate from[i], times a sign.
@@ -59,10 +59,10 @@ std::vector<Symmetry> symmetries(Kind kind) {
   return all;
 }
 
-/// The place of an integer in the order by which the first of all symmetric copies is chosen: 0, 1, -1, 2, -2.
+/// The place of an integer in the order that decides which symmetric copy comes first: 0, 1, -1, 2, -2.
 constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
 
-/// Whether a copy has values of the list only.
+/// Whether a copy has only numbers that the list uses: -2 is not among them.
 bool is_listed(const Integers& x, const Symmetry& symmetry) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;
@@ -104,7 +104,8 @@ class Maker {
     list_.push_back({query, complexity(query)});
   }
 
-  /// Adds all queries that continue the coordinates of the paths before this one with at most `numbers` numbers.
+  /// Adds all queries with the present coordinates before this path, and at most `numbers` numbers from it
+  /// on.
   void extend(std::size_t path, int numbers) {
     if (path == paths) {
       if (is_first_copy(x_, symmetries_)) add();
@@ -135,7 +136,7 @@ class Maker {
         x_[paths + path] = random.one_in(2) ? x_[path] : value();
       }
       add();
-      if (list_.back().complexity.numbers <= most_numbers) list_.pop_back();  // it is listed
+      if (list_.back().complexity.numbers <= most_numbers) list_.pop_back();  // it is listed already
     }
   }
 

@@ -1,4 +1,4 @@
-// What earlier cases tell about later ones: which subjects are set aside, and which distances are among the farthest.
+// What earlier cases mean for later ones: which subjects are set aside, and which distances are kept.
 #pragma once
 
 #include <algorithm>

@@ -48,7 +48,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// Times a sample of the queries that a subject answered one by one.
+/// Times the subject on a sample of the queries that it answered, one by one.
 void time_sample(const Subject& subject, const Batch& batch, const std::vector<Verdict>& verdicts,
                  SubjectTimes& times) {
   constexpr std::uint64_t one_in = 256;
@@ -66,7 +66,8 @@ void time_sample(const Subject& subject, const Batch& batch, const std::vector<V
     if (each[k]) times.add(*each[k], queries[k], [&] { return batch.provenance(sample[k]); });
 }
 
-/// Decides a batch. If its time counts, the subject is timed over the whole batch, and a sample of the queries one by one.
+/// Decides a batch. If times count, times the subject over the whole batch, and over single queries of a
+/// sample.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
   if (!batch.timed || batch.queries.empty()) {
@@ -219,8 +220,7 @@ class Judging {
   VersionComparison versions_;
 };
 
-/// Checks all coordinates. This also fetches all queries from memory, which would otherwise count in the time of the
-/// first subject.
+/// Checks all coordinates. This also fetches the queries from memory, which no subject's time should include.
 void check_coordinates(const Batch& batch) {
   for (std::size_t i = 0; i < batch.queries.size(); ++i)
     if (!is_finite(batch.queries[i]))

@@ -18,7 +18,7 @@ namespace nearmiss {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The same subjects, which must outlive the pointers.
+/// Pointers to the subjects, which must outlive them.
 inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   std::vector<const Subject*> pointers;
   for (const auto& subject : subjects) pointers.push_back(subject.get());
@@ -26,7 +26,7 @@ inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
 }
 
 /// Queries of one kind and family that are decided, timed and counted together. All of them have a separation
-/// h > 0, or none has; a subject that takes no separation is asked in the second case only.
+/// h > 0, or none has; a subject that takes no separation is only asked in the second case.
 struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
@@ -60,7 +60,7 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
-  /// Findings that were passed on before, by their number among all, and are shrunk now.
+  /// Findings that were passed on earlier and have been shrunk since, by their number among all findings.
   std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);
@@ -69,12 +69,12 @@ struct TrialResult {
 /// Receives results as they come, in an order that does not depend on threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
-/// Selects what is compared: the queries on which all methods of the oracle are, and the versions of a CCD.
+/// Selects the queries on which all methods of the oracle are compared, and versions of a CCD to compare.
 struct Comparison {
   /// The sample of the hard queries, which the filter leaves undecided, is larger by this factor.
   static constexpr std::uint64_t more_of_undecided = 64;
-  /// A query is decided near the filter's bounds if the filter does not decide it with error bounds larger by
-  /// this factor.
+  /// A query counts as decided near the filter's bounds if the filter leaves it undecided when its error
+  /// bounds are larger by this factor.
   static constexpr double caution = 16;
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
@@ -89,9 +89,9 @@ struct Comparison {
 
 /// Puts the subjects on trial over a batch: times each over the whole batch, separately from the oracle, and
 /// judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is
-/// also the query that is kept. `known` says for each subject what is known from earlier queries; it is empty
-/// if nothing is. A subject that is set aside (so_far.hpp) is not asked; if that happens within the batch,
-/// its other answers do not count. Throws Error for a coordinate that is not finite.
+/// also the query that is kept. `known` has, for each subject, what is known from earlier queries; it may be
+/// empty. A subject that is set aside (so_far.hpp) is not asked; if that happens within the batch, its later
+/// answers do not count. Throws Error for a coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
                        std::vector<Known> known = {});
 

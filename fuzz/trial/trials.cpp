@@ -126,7 +126,7 @@ std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) cons
   return known;
 }
 
-/// Whether a piece of work, in its turn, would ask the subjects about the same queries again.
+/// Whether a piece of work would have asked the subjects about the same queries if it had begun now.
 bool Trials::knew_enough(const OnItsWay& item) const {
   return std::all_of(item.before.begin(), item.before.end(), [&](const auto& each) {
     const auto& [key, before] = each;

@@ -19,11 +19,11 @@ using AskBatch = std::function<void(const Batch&)>;
 
 /// A piece of work: one thread asks about some batches, one after the other.
 struct Work {
-  /// Calls ask(batch) for each batch; may throw Stopped. It is called again, and must start anew, if earlier work
-  /// has set a subject aside meanwhile.
+  /// Calls ask(batch) for each batch; may throw Stopped. It is called again, and must start anew, if earlier
+  /// work has set a subject aside meanwhile.
   std::function<void(const AskBatch& ask)> hold;
-  /// Called afterwards, in the order of the pieces: whether the result counts. `complete` is false if a stop came
-  /// before the end.
+  /// Called afterwards, in the order of the pieces. Returns whether the result counts. `complete` is false if
+  /// a stop came before the end.
   std::function<bool(bool complete)> counts = [](bool /*complete*/) { return true; };
 };
 

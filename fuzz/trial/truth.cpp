@@ -72,7 +72,7 @@ double Truth::precise_ratio(double unit, double ratio) const {
 }
 
 bool Truth::exceeds(double unit) const {
-  if (unit == 0) return true;  // it is not 0
+  if (unit == 0) return true;  // the distance is not 0
   return distance_exceeds_separation_by(query_, unit);
 }
 
@@ -82,7 +82,7 @@ Truth::Distance Truth::measured_distance(double unit) const {
   const bool is_contact = query_.separation == 0;
   const Enclosure ratio = is_contact ? distance_in_units(query_, unit, Histogram::lower_border)
                                      : distance_beyond_separation(query_, unit, Histogram::lower_border);
-  // For contact, the enclosure mostly tells.
+  // For contact, the enclosure decides in most cases.
   const bool beyond = is_contact && ratio.hi <= 1 ? false : is_contact && ratio.lo > 1 ? true : exceeds(unit);
   return {std::min(ratio.hi, beyond ? most : 1.0), beyond};
 }

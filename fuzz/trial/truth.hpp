@@ -30,7 +30,8 @@ class Truth {
   /// Whether there is an earliest time: a collision, or a distance of exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement between these answers and the decision, or about the earliest time; "" if they agree.
+  /// The signature of a disagreement of these answers with the decision, or about the earliest time. "" if
+  /// they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.
@@ -43,8 +44,8 @@ class Truth {
 
   /// The earliest time at which the distance is at most h, for a collision or a tie.
   EarliestTime& time();
-  /// The largest relative speed of a vertex of one primitive and one of the other, in the pair's bound B for each step;
-  /// rounded.
+  /// The largest speed of a vertex of one primitive relative to a vertex of the other, in units of the pair's
+  /// bound B per step; rounded.
   [[nodiscard]] double relative_speed() const;
 
   /// The distance of a false positive, less the separation, divided by a unit of length.
@@ -53,7 +54,7 @@ class Truth {
     bool exceeds;  ///< whether the ratio is above 1, decided exactly
   };
   Distance distance(double unit);
-  /// The `exceeds` of `distance`, which takes less time.
+  /// The `exceeds` of `distance`, in less time.
   [[nodiscard]] bool exceeds(double unit) const;
 
   /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.

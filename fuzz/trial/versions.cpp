@@ -11,7 +11,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The same text for all versions of a CCD: the name that they export, and on which side of the contract they are asked.
+/// A text that all versions of a CCD share: the name that they export, and whether they are asked beyond the
+/// contract.
 std::string ccd_of(const Subject& subject) {
   return innermost(subject).name() +
          std::string(subject.name().ends_with(beyond_contract) ? beyond_contract : "");

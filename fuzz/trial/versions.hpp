@@ -11,9 +11,9 @@
 
 namespace nearmiss {
 
-/// For each subject, the one that it is compared with: the first subject whose plug-in exports the same name, if that comes
-/// before it. `chosen` has the names of two subjects of which the second is compared with the first, or none. A subject that
-/// is asked beyond its contract is compared with one that is, too.
+/// For each subject, the one that it is compared with: the first subject whose plug-in exports the same name,
+/// if that comes before it. `chosen` has the names of two subjects of which the second is compared with the
+/// first, or none. A subject that is asked beyond its contract is compared with another such subject.
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
@@ -25,8 +25,8 @@ class VersionComparison {
   /// Notes the outcome of a subject's answer to the present query, and the index of its finding if it fails.
   void note(std::size_t subject, const Outcome& outcome, std::optional<std::size_t> finding);
 
-  /// Counts the present query; in a finding of a version that fails alone, says which version does not. The next query is
-  /// the present one from then on.
+  /// Counts the present query. If a version fails and the one before it does not, names the latter in the
+  /// finding (`broken_since`). Then goes on to the next query.
   void finish_query(std::vector<Finding>& findings);
 
   /// Adds the counters of all queries, which are of this kind and family.
@@ -44,8 +44,8 @@ class VersionComparison {
   std::vector<VersionCounts> counts_;               // by subject
 };
 
-/// Whether a subject is asked a query, within its contract, and answers it rightly. A query that is broken by a version of a CCD
-/// is one on which the version fails and this holds for the one before it.
+/// Whether a subject is asked a query, within its contract, and answers it rightly. A version of a CCD breaks
+/// a query if it fails on the query, and this holds for the version before it.
 class AnswersRightly {
  public:
   /// The subject must outlive this object.

@@ -15,7 +15,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The entry with the name in a text; null if there is none.
+/// The entry that a text NAME or NAME@SIZE names; null if there is none.
 const BuiltInScene* find(std::string_view text) {
   const auto& all = built_in_scenes();
   const auto found = std::find_if(all.begin(), all.end(), [&](const BuiltInScene& each) {

@@ -11,9 +11,10 @@
 
 namespace nearmiss {
 
-/// An entry of the list of scenes. Each frame is a pure function of the size and its number, with the same bits on
-/// every machine, and is computed on demand. Edges are about 1 long in all sizes: a larger scene has more primitives
-/// of the same size, so the number of candidates grows in proportion to the number of primitives.
+/// An entry of the list of scenes. Each frame is a pure function of the size and its number, with the same
+/// bits on every machine, and is computed on demand. Edges are about 1 long in all sizes: a larger scene has
+/// more primitives of the same size, so the number of candidates grows in proportion to the number of
+/// primitives.
 struct BuiltInScene {
   std::string name;
   std::string description;

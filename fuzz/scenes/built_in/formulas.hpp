@@ -46,8 +46,8 @@ class Rotation {
                                           Vector3<double>{0, 0, 1}};
 };
 
-/// The height of a waving surface: the sum of three plane waves, 6 to 12 edges long, that travel by up to 1/20 of
-/// their length from frame to frame.
+/// The height of a waving surface: the sum of three plane waves, 6 to 12 edges long, that travel by up to
+/// 1/20 of their length from frame to frame.
 class Waves {
  public:
   /// Each stream and index gives different waves; `height` is the height of each of the three waves.

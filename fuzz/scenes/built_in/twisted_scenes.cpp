@@ -89,8 +89,8 @@ Scene knot(int size) {
 
 // --- hair -------------------------------------------------------------------------------------------------
 
-/// A bundle of curled hair is twisted by its ends and drawn together in the middle. n hairs have 4 sqrt(n) lines each;
-/// neighbouring hairs are about as far apart as a line is long.
+/// A bundle of curled hair is twisted by its ends and drawn together in the middle. n hairs have 4 sqrt(n)
+/// lines each; neighbouring hairs are about as far apart as a line is long.
 Scene hair(int size) {
   int hairs = 9;
   const auto lines_of = [](int count) { return nearest(4 * std::sqrt(static_cast<double>(count))); };

@@ -1,4 +1,5 @@
-// Which edit of edits.txt is made by the copies of ccd/ in the build folder (copies.cmake), whose namespace this is.
+// Selects the edit of edits.txt that the copies of ccd/ make. The copies are in the build folder
+// (copies.cmake), and in this namespace.
 #pragma once
 
 namespace nearmiss::defective {

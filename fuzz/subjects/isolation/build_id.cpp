@@ -14,7 +14,7 @@ std::string_view part(std::string_view bytes, std::size_t offset, std::size_t si
   return offset > bytes.size() ? std::string_view() : bytes.substr(offset, size);
 }
 
-/// A structure at an offset; zeros if the file ends before its end.
+/// A structure at an offset; zeros if the file ends before the structure does.
 template <class Structure>
 Structure at(std::string_view bytes, std::size_t offset) {
   Structure structure{};

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// What exceptions said, and why a plug-in could not be loaded, by numbers that a verdict can hold. Many threads use it at
-/// once.
+/// Keeps what exceptions said, and why a plug-in could not be loaded, under numbers that fit into a verdict.
+/// Many threads use it at once.
 class FaultTexts {
  public:
   /// The number of a text. Texts beyond the first thousand share the last number.

@@ -33,7 +33,7 @@ bool has_text(Fault fault) { return fault == Fault::exception || fault == Fault:
 
 class IsolatedPlugin final : public BatchSubject {
  public:
-  /// `first` is a worker with the plug-in.
+  /// `first` is a worker that has loaded the plug-in.
   IsolatedPlugin(std::shared_ptr<const PluginCode> code, const PluginLimits& limits,
                  std::unique_ptr<WorkerProcess> first)
       : BatchSubject(first->info().name), code_(std::move(code)), limits_(limits), info_(first->info()) {
@@ -104,7 +104,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
  private:
-  /// What a worker did of a batch: the queries [first, end), and a failure at `end` if there is one.
+  /// What a worker has done of a batch: the queries [first, end), and a failure at `end` if there is one.
   struct Done {
     const WorkerProcess* worker;  ///< null if there is none, and nothing is done
     std::size_t start;            ///< index of the batch's first query among all queries
@@ -129,7 +129,8 @@ class IsolatedPlugin final : public BatchSubject {
     return decides(query.kind) && (query.separation == 0 || takes_separation());
   }
 
-  /// The size of the next batch: queries of one kind of which the plug-in can decide all or none, up to batch_size.
+  /// The size of the next batch: up to batch_size queries of one kind. The plug-in can decide all or none of
+  /// them.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -139,7 +140,7 @@ class IsolatedPlugin final : public BatchSubject {
     return count;
   }
 
-  /// Has all queries done, batch by batch, and passes on what is done.
+  /// Has workers perform the request for all queries, batch by batch, and passes on what they have done.
   template <class Take>
   void perform(Request request, std::span<const Query> queries, const Take& take_done) const {
     for (const Query& query : queries)
@@ -157,9 +158,9 @@ class IsolatedPlugin final : public BatchSubject {
     give_back(std::move(worker));
   }
 
-  /// Has one batch decided. A worker that cannot be used any more is replaced, and goes on behind the query at which it failed. A call
-  /// that takes too long as a whole is repeated query by query, since nobody knows which one takes so long. `late` counts the
-  /// queries over the time limit.
+  /// Has a worker perform the request for one batch. A worker that cannot be used any more is replaced by a
+  /// new one, which continues after the query that failed. A call that takes too long as a whole is repeated
+  /// query by query, to find the query that takes so long. `late` counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -198,7 +199,7 @@ class IsolatedPlugin final : public BatchSubject {
     }
   }
 
-  /// Chooses how many queries a call has from now on.
+  /// Adapts the number of queries that later calls have.
   void adapt(std::uint32_t count, const WorkerProcess& worker,
              const std::optional<WorkerFailure>& failure) const {
     constexpr std::uint32_t fewer = 8;
@@ -219,8 +220,8 @@ class IsolatedPlugin final : public BatchSubject {
     return start_worker();
   }
 
-  /// A new worker; null if the plug-in cannot be loaded, or says something else about itself than at first. After some
-  /// failures, this is not tried any more.
+  /// Starts a worker; null if the plug-in cannot be loaded, or describes itself otherwise than the first
+  /// time. After some failures in a row, no worker is started any more.
   std::unique_ptr<WorkerProcess> start_worker() const {
     constexpr int most_failed = 3;
     if (failed_starts_ >= most_failed) return nullptr;
@@ -255,9 +256,9 @@ class IsolatedPlugin final : public BatchSubject {
   DetectorInfo info_;
   mutable std::atomic<std::uint32_t> in_a_call_ = isolation::batch_size;
   mutable FaultTexts texts_;
-  mutable std::atomic<int> failed_starts_ = 0;  // one after the other
+  mutable std::atomic<int> failed_starts_ = 0;  // in a row
   mutable std::mutex mutex_;
-  mutable std::string why_not_loaded_;  // the last time
+  mutable std::string why_not_loaded_;  // at the last failed start
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };
 

@@ -12,12 +12,13 @@
 
 namespace nearmiss {
 
-/// The plug-in of a name (ccd/subjects/plugin.hpp), with one worker process for each thread that asks at the same time. A failure
-/// becomes the verdict's fault, and the next query gets a new process, except after an exception. The plug-in's output is discarded. Throws Error if
-/// the plug-in cannot be loaded, or has several detectors and the name does not say which.
+/// The plug-in of a name (ccd/subjects/plugin.hpp), with one worker process for each thread that asks at the
+/// same time. A failure becomes the verdict's fault, and the next query gets a new process, except after an
+/// exception. The plug-in's output is discarded. Throws Error if the plug-in cannot be loaded, or has several
+/// detectors and the name does not say which.
 ///
-/// All answers come from the same bytes. If a file is changed, calls throw isolation::PluginChanged, and the answers of
-/// the call that was under way are not used.
+/// All answers come from the same bytes. If a file is changed, calls throw isolation::PluginChanged, and the
+/// answers of the call that was under way are not used.
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 
@@ -25,19 +26,19 @@ std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
 std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
                                                             const isolation::PluginLimits& limits = {});
 
-/// Which code a plug-in is.
+/// Identifies the code of a plug-in.
 struct PluginIdentity {
   std::string
-      path;  ///< or command, with its options, as it was given, and the detector if the file has several
+      path;  ///< path or command, with its options, as given, and the detector if the file has several
   std::string version;   ///< the plug-in's own; "" if it gives none
   std::string sha256;    ///< of the file, in hexadecimal
   std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none
 };
 
-/// Which code a subject is, if make_isolated_plugin made it.
+/// The identity of a subject's code, if make_isolated_plugin made the subject.
 std::optional<PluginIdentity> plugin_identity(const Subject& subject);
 
-/// What a subject says about itself, if make_isolated_plugin made it; otherwise null.
+/// What a subject says about itself, if make_isolated_plugin made it; null otherwise.
 const DetectorInfo* plugin_info(const Subject& subject);
 
 }  // namespace nearmiss

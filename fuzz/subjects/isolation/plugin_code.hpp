@@ -1,4 +1,4 @@
-// The code of a plug-in: which bytes it has, and that they stay the same.
+// The code of a plug-in: identifies its bytes, and checks that they stay the same.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,9 @@
 
 namespace nearmiss::isolation {
 
-/// The files of a plug-in, as they were when this object was made: the shared object, or all files that the command of a
-/// program names, the program included. What these load is not part of it. Many threads use it at once.
+/// The files of a plug-in, as they were when this object was made: the shared object, or all files that the
+/// command of a program names, the program included. Files that these load are not included. Many threads use
+/// it at once.
 class PluginCode {
  public:
   /// Reads the files. Throws Error if that fails.

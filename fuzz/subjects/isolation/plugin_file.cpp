@@ -16,7 +16,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// Code for x86-64 and AArch64 addresses no more than this with its usual relocations.
+/// The usual relocations of x86-64 and AArch64 code cannot address more bytes than this.
 constexpr off_t most_bytes = off_t{1} << 31;
 
 bool is_same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
@@ -35,7 +35,7 @@ PluginFile::Stamp PluginFile::stamp_of(const struct stat& about) {
 struct PluginFile::Snapshot {
   std::string bytes;
   Stamp stamp;     ///< of the file before it was read
-  bool is_recent;  ///< at that time
+  bool is_recent;  ///< whether the stamp was recent when it was taken
 };
 
 PluginFile::PluginFile(std::string path) : path_(std::move(path)) {
@@ -47,7 +47,7 @@ PluginFile::PluginFile(std::string path) : path_(std::move(path)) {
 }
 
 bool PluginFile::is_recent(const Stamp& stamp) {
-  constexpr time_t coarsest_tick = 2;  // seconds; that of FAT
+  constexpr time_t coarsest_tick = 2;  // seconds, on FAT
   return std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick;
 }
 

@@ -1,4 +1,4 @@
-// The file of a plug-in: which bytes it has, and that they stay the same.
+// The file of a plug-in: identifies its bytes, and checks that they stay the same.
 #pragma once
 
 #include <sys/stat.h>
@@ -17,8 +17,8 @@ class PluginChanged : public Error {
   using Error::Error;
 };
 
-/// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not part of it. Many
-/// threads use it at once.
+/// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not
+/// included. Many threads use it at once.
 class PluginFile {
  public:
   /// Reads the file. Throws Error if that fails.
@@ -30,8 +30,8 @@ class PluginFile {
   /// Its GNU build id, in hexadecimal; "" if it has none.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
-  /// Throws PluginChanged unless the path still leads to a file with the same bytes. The file is read again only if its
-  /// times, its size or its inode have changed; otherwise this takes about a microsecond.
+  /// Throws PluginChanged unless the path still leads to a file with the same bytes. The file is read again
+  /// only if its times, its size or its inode have changed; otherwise this takes about a microsecond.
   void expect_unchanged() const;
 
  private:
@@ -49,8 +49,8 @@ class PluginFile {
   static Stamp stamp_of(const struct stat& about);
   /// Reads the whole file.
   [[nodiscard]] Snapshot read() const;
-  /// Whether the file may be written again without a change of its stamp, because the clock of the file system has not
-  /// ticked since.
+  /// Whether the file may be written again without a change of its stamp, because the clock of the file
+  /// system has not ticked since.
   static bool is_recent(const Stamp& stamp);
 
   std::string path_, sha256_, build_id_;

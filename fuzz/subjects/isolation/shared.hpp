@@ -36,8 +36,9 @@ struct Call {
   Request request;
 };
 
-/// A message about the plug-in's process. The first one comes from that process before it loads the plug-in, and its
-/// credentials (unix(7)) name the process; the other one comes from the supervisor when the process has ended.
+/// A message about the plug-in's process. The first one comes from that process before it loads the plug-in,
+/// and its credentials (unix(7)) name the process; the other one comes from the supervisor when the process
+/// has ended.
 struct Status {
   std::int32_t code;             ///< si_code when it has ended, else 0
   std::int32_t status;           ///< si_status
@@ -53,9 +54,9 @@ struct SharedQuestions {
   std::array<double, batch_size> separations{};
 };
 
-/// DetectorInfo and Contract (ccd/), as plain numbers, whose every value can be read.
+/// DetectorInfo and Contract (ccd/) as plain numbers, which can be read whatever the plug-in wrote.
 struct PluginDescription {
-  std::array<char, 4096> name{};  ///< with its options
+  std::array<char, 4096> name{};  ///< of the detector, with its options
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
       names{};  ///< of all detectors in the shared object, a line each
@@ -73,13 +74,12 @@ struct PluginAnswer {
   std::int32_t value = 0;         ///< the plug-in's return value
 };
 
-/// Written by the worker, in whose process the plug-in can write anything here.
+/// Written by the worker. The plug-in in its process can write anything here.
 struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
-  std::atomic<std::uint64_t> program_time{
-      0};  ///< computing time in ns of the program that the plug-in is, if it is one
+  std::atomic<std::uint64_t> program_time{0};    ///< computing time in ns of a plug-in that is a program
   std::array<PluginAnswer, batch_size> of{};
   std::uint64_t nanoseconds = 0;        ///< measured by decide_timed
   std::array<char, 256> exception{};    ///< what() of an exception that the plug-in did not catch

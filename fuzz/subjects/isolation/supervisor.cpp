@@ -26,14 +26,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts, and
-/// with the default reaction to every signal.
+/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal
+/// interrupts, and with the default reaction to every signal.
 class Spawn {
  public:
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
-    // Signals that our parent has blocked or ignores would change what the plug-in does, and hide how it ended.
+    // Signals that our parent blocks or ignores would change what the plug-in does, or hide how it ended.
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);

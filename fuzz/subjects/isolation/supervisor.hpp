@@ -1,4 +1,4 @@
-// The processes in front of a plug-in's process, as nearmiss sees them.
+// The supervisor of a plug-in's process, and its guard, as nearmiss sees them.
 #pragma once
 
 #include <sys/types.h>
@@ -42,7 +42,7 @@ class Supervisor {
 
   /// The plug-in's process.
   [[nodiscard]] pid_t process() const { return process_; }
-  /// The socket on which the supervisor tells how the process ended, by a `Status`.
+  /// The socket on which the supervisor sends a `Status` that says how the process ended.
   [[nodiscard]] int socket() const { return status_.number(); }
 
  private:

@@ -39,7 +39,7 @@ Duration computing_time(pid_t process) {
   clockid_t clock{};
   timespec time{};
   if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0)
-    return {};  // it died, as its supervisor is about to tell
+    return {};  // it died, as its supervisor will report
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
@@ -47,7 +47,7 @@ Duration computing_time(pid_t process) {
 double calls_per_query(Request request) {
   switch (request) {
     case Request::decide_timed:
-      return 2;  // to warm up, and timed
+      return 2;  // once to warm up, once timed
     case Request::time_each:
       return 3;
     default:
@@ -96,7 +96,7 @@ WorkerProcess::Elapsed WorkerProcess::Elapsed::with_waiting(Duration computing) 
   return {computing, patience * computing};
 }
 
-/// Measures from its construction.
+/// Measures times from its construction on.
 class WorkerProcess::Watch {
  public:
   explicit Watch(const WorkerProcess& worker) : worker_(worker), computing_(worker.computing()) {}
@@ -119,7 +119,7 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged();  // a change is the reason
+    file.expect_unchanged();  // a change of the file may be the reason
     throw;
   }
   file.expect_unchanged();  // otherwise it might have loaded other bytes
@@ -252,7 +252,7 @@ std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
   if (poll(&replies, 1, 0) > 0) {
     const End end = read_reply(call);
     if (end != End::dead) return end;
-    // A process that dies closes its socket, and its supervisor tells so right after.
+    // A process that dies closes its socket, and its supervisor reports that right after.
     return ends_within(milliseconds(1000)) ? End::dead : End::broken;
   }
   return ends_within(milliseconds(0)) ? std::optional(End::dead) : std::nullopt;

@@ -25,7 +25,7 @@ struct PluginLimits {
   Duration time{1};                              ///< computing time for a query; ten times as long may pass
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that may pass while it is loaded
-  Duration leaving{0.1};                         ///< and while it is closed
+  Duration leaving{0.1};                         ///< the time that may pass while it is closed
   /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
   const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
@@ -42,12 +42,12 @@ struct WorkerFailure {
   Fault fault;
   std::int32_t code = 0;  ///< for a crash: the signal, or the negated exit code
   std::string text = {};  ///< for an exception: what it says; for a failure to load: why
-  bool of_call = false;   ///< which query of the call is to blame is not known
+  bool of_call = false;   ///< the call failed as a whole: which query is to blame is not known
   bool goes_on = false;   ///< the worker can be used for other queries
 };
 
-/// The description that a worker wrote of its plug-in, with values that are possible; texts are printable. Throws Error if
-/// no detector can have it.
+/// The description that a worker wrote of its plug-in, checked; its texts are printable. Throws Error if no
+/// detector can have such a description.
 DetectorInfo info_of(const PluginDescription& about);
 /// The names of all detectors in the shared object. Throws Error.
 std::vector<std::string> names_of(const PluginDescription& about);
@@ -61,8 +61,9 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
   ~WorkerProcess();
 
-  /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first. A worker that
-  /// waits for a call closes the detector and leaves by itself, if it can do that in time.
+  /// Begins to end the worker; its destructor waits for the end. To end several workers at the same time,
+  /// call this for all of them first. A worker that waits for a call closes the detector and leaves by
+  /// itself, if it can do that in time.
   void dismiss();
 
   /// What the plug-in says about itself; all text is printable.
@@ -73,29 +74,29 @@ class WorkerProcess {
   /// Gives the worker a batch of queries of one kind, at most batch_size.
   void give(std::span<const Query> queries);
 
-  /// Has the queries [first, last) of the batch done. Returns why one failed; nothing if all are done. Throws
-  /// Stopped.
+  /// Has the worker perform a request for the queries [first, last) of the batch. Returns why one failed;
+  /// nothing if all succeeded. Throws Stopped.
   std::optional<WorkerFailure> perform(Request request, std::uint32_t first, std::uint32_t last);
 
   /// The answer to a query of the batch.
   [[nodiscard]] const PluginAnswer& answer(std::uint32_t i) const { return answers_->of[i]; }
-  /// Times that the worker measured in the last call, in ns, of the call or of a query; at most the time that the call
-  /// took.
+  /// Times in ns that the worker measured in the last call: of the call, or of a query. They are limited to
+  /// the time that the call took.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const { return limited(answers_->of[i].nanoseconds); }
   /// The computing time of the last call.
   [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
 
  private:
-  /// How a call ended: it is done; the plug-in threw an exception; the process died; a query or the whole call took too
-  /// long; or the worker closed its socket, or wrote to it what is no reply.
+  /// How a call ended: it is done; the plug-in threw an exception; the process died; a query or the whole
+  /// call took too long; or the worker closed its socket, or wrote something to it that is no reply.
   enum class End : std::uint8_t { done, threw, dead, query_late, call_late, broken };
 
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
     Duration computing{}, passed{};
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
-    /// The limit for work that may compute so long, and wait for a device or a processor.
+    /// The limit for work that may compute for this long, and wait for a device or a processor besides.
     static Elapsed with_waiting(Duration computing);
   };
   class Watch;
@@ -106,12 +107,12 @@ class WorkerProcess {
   [[nodiscard]] Duration computing() const;
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
-  /// As `ask`, without a note of whether the worker waits for the next call.
+  /// Like `ask`, but without updating is_waiting_.
   End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
-  /// Whether the supervisor has told within a time that the process has ended.
+  /// Whether the supervisor reports within this time that the process has ended.
   bool ends_within(std::chrono::milliseconds time);
   [[nodiscard]] WorkerFailure failure(End end, std::uint32_t query);
   [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds) const;

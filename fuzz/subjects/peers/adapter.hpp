@@ -1,5 +1,6 @@
-// The part that all adapters of CCDs in C++ share. Such a CCD decides one query at a time, and may have options that are
-// numbers. An adapter has a function that decides, one that describes the detector, and nearmiss_get_subject().
+// The part that all adapters of CCDs in C++ share. Such a CCD decides one query at a time, and may have
+// options that are numbers. An adapter has a function that decides, one that describes the detector, and
+// nearmiss_get_subject().
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ struct Question {
   [[nodiscard]] const double* end(int vertex) const { return x + 12 + 3 * vertex; }
 };
 
-/// What a detector says about one query.
+/// The detector's answer to one query.
 struct Answer {
   int value = NEARMISS_NO_COLLISION;
   double time = std::numeric_limits<double>::quiet_NaN();
@@ -34,7 +35,7 @@ struct Answer {
   static Answer of(bool collides, double time) { return {of(collides).value, time}; }
 };
 
-/// The interface's function decide() from a function that decides one query.
+/// The function decide() of the interface, made from a function that decides one query.
 template <Answer (*decide_one)(const void* state, int kind, const Question& question)>
 void decide_each(void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
                  double* toi) {
@@ -70,11 +71,11 @@ template <class State>
 struct Option {
   const char* key;
   double State::*value;
-  double least, most;  ///< the values that are allowed
+  double least, most;  ///< the range of allowed values
 };
 
-/// Sets the option KEY=VALUE, and says in `is_set` which one this was. False if there is no such option, it was set
-/// before, or the value is not allowed.
+/// Sets the option KEY=VALUE, and says in `is_set` which one this was. False if there is no such option, it
+/// was set before, or the value is not allowed.
 template <class State, std::size_t n>
 bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state,
                 std::array<bool, n>& is_set) {
@@ -118,7 +119,7 @@ std::string set_options(const std::array<Option<State>, n>& options, const std::
   return "";
 }
 
-/// Lets the user set these options. A `State` for each thread is what the detector's functions get.
+/// Lets the user set these options. The detector's functions get a `State` for each thread.
 template <class State, const auto& options>
 void take_options(nearmiss_subject& subject) {
   subject.open = [](const char* text, char* message, std::size_t size) -> void* {

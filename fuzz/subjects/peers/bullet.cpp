@@ -1,5 +1,5 @@
-// Bullet: the continuous collision detection of its soft bodies, which tests vertices against triangles alone. Compiled
-// twice: with Bullet's single and with its double precision (BT_USE_DOUBLE_PRECISION).
+// Bullet: the continuous collision detection of its soft bodies, which only tests vertices against triangles.
+// Compiled twice: with Bullet's single and with its double precision (BT_USE_DOUBLE_PRECISION).
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
 #include "fuzz/subjects/peers/adapter.hpp"
@@ -16,8 +16,9 @@ btVector3 vector(const double* x) {
 /// The normal of a triangle, not normalised.
 btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }
 
-/// Bullet's world fills a vertex and a face in this way before it calls bernsteinCCD: it knows velocities, from which it
-/// predicts the end of the time step. Our end therefore reaches it with the rounding of a subtraction.
+/// Bullet's world fills a vertex and a face in this way before it calls bernsteinCCD: it knows velocities,
+/// from which it predicts the end of the time step. So the end of our step reaches it with the rounding error
+/// of a subtraction.
 Answer decide(const void* /*state*/, int /*kind*/, const Question& q) {
   std::array<btSoftBody::Node, 4> nodes;
   for (int i = 0; i < 4; ++i) {

@@ -1,5 +1,5 @@
-// FCL, the Flexible Collision Library: the continuous collision detection of its deformable meshes, with each of its two
-// solvers.
+// FCL, the Flexible Collision Library: the continuous collision detection of its deformable meshes, with each
+// of its two solvers.
 #include <fcl/config.h>
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 

@@ -86,7 +86,7 @@ void copy(std::string_view text, std::array<char, n>& to) {
   to[text.copy(to.data(), n - 1)] = '\0';
 }
 
-/// Notes what the exception says that is being handled.
+/// Notes the message of the exception that is being handled.
 void note_exception() {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
@@ -153,15 +153,15 @@ void ask(const Detector& detector, Answers& noted, std::uint64_t call, std::uint
   }
 }
 
-/// Asks the empty detector, whose answers nobody must take for those of the plug-in.
+/// Asks the empty detector. Its answers go elsewhere, so that nobody takes them for those of the plug-in.
 void ask_empty(std::uint64_t call, std::uint32_t first, std::uint32_t last, std::uint32_t step) {
   static Answers of_empty;
   ask(Detector::empty(), of_empty, call, first, last, step);
 }
 
 /// Asks the plug-in's detector, and measures the time of all threads, since a plug-in may have threads of its
-/// own. Some queries are decided before that, so that the code is in the caches; but not if the first takes so long that
-/// this makes no difference.
+/// own. Some queries are decided before that, so that the code is in the caches; but not if the first takes
+/// so long that this makes no difference.
 std::uint64_t time_of_warm(const Detector& detector, std::uint64_t call, std::uint32_t first,
                            std::uint32_t last, std::uint32_t step) {
   constexpr std::uint64_t long_query = 1'000'000;
@@ -195,7 +195,7 @@ void answer(const Detector& detector, const Call& call) {
   const auto step = static_cast<std::uint32_t>(std::min(detector.info().batch, batch_size));
   switch (call.request) {
     case Request::load:
-      break;  // it is loaded
+      break;  // it is loaded already
     case Request::decide:
       ask(detector, answers->of, call.number, first, last, step);
       break;

@@ -5,9 +5,9 @@
 
 namespace nearmiss::isolation {
 
-/// Loads a plug-in, by the name that the command line has for it, at the first request, and answers the others until the other end of `reply_socket` is closed.
-/// Returns the exit code.
-/// `bytes` limits the memory that the plug-in may use in addition to what loading took; 0 is no limit.
+/// Loads a plug-in, given by its name on the command line, at the first request, and answers later requests
+/// until the other end of `reply_socket` is closed. Returns the exit code. `bytes` limits the memory that the
+/// plug-in may use in addition to what loading took; 0 is no limit.
 int answer_requests(const char* plugin, std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

@@ -6,11 +6,11 @@ namespace nearmiss::isolation {
 /// Closes all files except those of shared.hpp, and discards standard input and output.
 void close_files();
 
-/// Has crashes write no file "core", which could replace one of the user's.
+/// Keeps crashes from writing a file "core", which could replace one of the user's.
 void forbid_core_dumps();
 
-/// Lets the process and its descendants be at most `more` processes and threads more than their user has now. The
-/// system does not apply this limit to root.
+/// Lets the process and its descendants be at most `more` processes and threads more than their user has now.
+/// The system does not apply this limit to root.
 void limit_processes(unsigned long more);
 
 }  // namespace nearmiss::isolation

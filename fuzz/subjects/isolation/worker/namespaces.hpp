@@ -1,18 +1,18 @@
-// Namespaces of its own for a plug-in, in which it can name no other process and reach no network.
+// Namespaces for a plug-in, in which it can name no process outside and reach no network.
 #pragma once
 
 namespace nearmiss::isolation {
 
-/// Lets the first child of this process be process 1 of a new PID namespace. When process 1 ends, the system ends
-/// every process of its namespace. The child also gets a network namespace and a mount namespace. Returns false if
-/// the system refuses that to this user. Must be called before any thread starts.
+/// Lets the first child of this process be process 1 of a new PID namespace. When process 1 ends, the system
+/// ends every process of its namespace. The child also gets a network namespace and a mount namespace.
+/// Returns false if the system refuses that to this user. Must be called before any thread starts.
 bool enter_namespaces();
 
 /// Takes the network away if the system allows that to this user. Must be called before any thread starts.
 void leave_network();
 
-/// Lets process 1 and its descendants see only their own namespace in /proc, which they cannot write to. If the
-/// system refuses that, as it does in some containers, /proc stays as it is.
+/// Lets process 1 and its descendants see only their own namespace in /proc, which they cannot write to. If
+/// the system refuses that, as it does in some containers, /proc stays as it is.
 void mount_own_proc();
 
 }  // namespace nearmiss::isolation

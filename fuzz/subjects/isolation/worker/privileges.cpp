@@ -30,8 +30,8 @@ constexpr unsigned machine = AUDIT_ARCH_AARCH64;
 constexpr unsigned machine = 0;
 #endif
 
-/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden one fails with EPERM. Every rule
-/// begins and ends with the number of the call in the accumulator.
+/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden one fails with EPERM.
+/// Every rule begins and ends with the number of the call in the accumulator.
 class Filter {
  public:
   Filter() {
@@ -51,7 +51,7 @@ class Filter {
     refuse();
   }
 
-  /// Forbids a call with a value of an argument.
+  /// Forbids a call if an argument has this value.
   void forbid(int call, unsigned argument, int value) {
     jump_if_equal(call, 0, 4);
     load_argument(argument);
@@ -81,7 +81,7 @@ class Filter {
   void load(std::size_t offset) {
     code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
   }
-  /// The lower half, since the arguments that are judged have 32 bits; both machines put it first.
+  /// Loads the lower half, since the arguments that are judged have 32 bits; both machines put it first.
   void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
   void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
     code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
@@ -97,7 +97,7 @@ class Filter {
 }  // namespace
 
 void drop_privileges() {
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that it starts get none, either
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // nor can programs that it starts gain any
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
   if (syscall(SYS_capget, &header, sets.data()) != 0) return;
@@ -119,10 +119,10 @@ void confine_signals() {
   for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
                          SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
-  // 0 is the own process group, or the own process.
+  // 0 stands for the caller's own process group, or the caller itself.
   for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64})
     filter.limit(call, self, 0);
-  // The owner of a file gets signals of one's choice.
+  // The owner of an open file gets signals, which the process that sets the owner can choose.
   for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
   for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
   filter.apply();

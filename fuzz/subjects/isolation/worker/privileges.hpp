@@ -3,13 +3,14 @@
 
 namespace nearmiss::isolation {
 
-/// Gives up every privilege (capabilities(7)) except those of root on files, for this process and all that it starts.
-/// It then cannot trace or read the memory of a process that has more privileges, such as its supervisor.
+/// Gives up every privilege (capabilities(7)) except those of root on files, for this process and all that it
+/// starts. It then cannot trace or read the memory of a process that has more privileges, such as its
+/// supervisor.
 void drop_privileges();
 
-/// Lets this process, and all that it starts, signal no process but this one, and trace none. Needs no privilege, only
-/// drop_privileges() before. For a process without a PID namespace of its own. Does nothing if the kernel has no such
-/// filters, or on other machines than x86-64 and AArch64.
+/// Lets this process, and all that it starts, signal no process but this one, and trace none. Meant for a
+/// process without a PID namespace of its own. Call drop_privileges() first; no privilege is needed. Does
+/// nothing if the kernel has no such filters, or on other machines than x86-64 and AArch64.
 void confine_signals();
 
 }  // namespace nearmiss::isolation

@@ -176,7 +176,7 @@ void Program::wait_for(int pipe, short event) {
   const nfds_t count = errors_ >= 0 ? pipes.size() : 1;
   const bool ended = has_ended();
   poll(pipes.data(), count, ended ? 0 : look_again_ms);
-  if (ended && pipes[0].revents == 0) end_like_it();  // a process that it started may hold the pipe open
+  if (ended && pipes[0].revents == 0) end_like_it();  // its own children may hold the pipe open
   if (count > 1 && pipes[1].revents != 0) read_errors();
   timespec time{};
   if (clock_gettime(clock_, &time) == 0)

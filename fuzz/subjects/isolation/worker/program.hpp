@@ -16,11 +16,12 @@ namespace nearmiss::isolation {
 /// A program wrote bytes that answer no question.
 struct UnaskedBytes {};
 
-/// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this process. If
-/// it ends, so does this process, in the same way.
+/// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this
+/// process. If it ends, so does this process, in the same way.
 class Program {
  public:
-  /// Starts the command, and reads what it says about itself. `time` is kept at its computing time, in ns. Throws Error.
+  /// Starts the command, and reads its description. `time` is kept at its computing time, in ns. Throws
+  /// Error.
   Program(const std::string& command, std::atomic<std::uint64_t>& time);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -28,13 +29,13 @@ class Program {
   ~Program();
 
   [[nodiscard]] pid_t process() const { return process_; }
-  /// The program as a detector. At most one program can be used so.
+  /// The program as a detector. A process can have only one.
   [[nodiscard]] const nearmiss_subject& subject() const { return description_.subject; }
 
  private:
   enum class Question : std::uint8_t { decide, bound };
 
-  // As the functions of a nearmiss_subject.
+  // These are the functions of a nearmiss_subject.
   static void decide_with_the_program(void* state, int kind, std::size_t n, const double* x, const double* h,
                                       int* answer, double* toi);
   static double bound_of_the_program(void* state, int kind, const double* x);
@@ -47,8 +48,8 @@ class Program {
   void expect_silence() const;
   void write_all(const void* data, std::size_t size);
   void read_all(void* data, std::size_t size);
-  /// Waits until a pipe can be used, and meanwhile reads what the program prints as errors. Ends this process if the
-  /// program has ended.
+  /// Waits until a pipe can be used, and meanwhile reads what the program writes to standard error. Ends this
+  /// process if the program has ended.
   void wait_for(int pipe, short event);
   [[nodiscard]] bool has_ended() const;
   void read_errors();
@@ -61,7 +62,7 @@ class Program {
   clockid_t clock_{};
   int in_ = -1, out_ = -1,
       errors_ = -1;          ///< pipes to its standard input, and from its standard output and error
-  std::string last_errors_;  ///< the end of what it printed as errors
+  std::string last_errors_;  ///< the end of what it wrote to standard error
   ProgramDescription description_;
 };
 

@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// A number of this type that is at least 0.
+/// Parses a number of this type that is at least 0.
 template <class Number>
 Number number(const std::string& text, const char* expected) {
   Number value = 0;
@@ -38,7 +38,7 @@ int place(const std::string& value, const std::vector<std::string>& words, int f
 
 int yes_or_no(const std::string& value) { return place(value, {"no", "yes"}, 0); }
 
-/// Reads a line of the contract; false if it is none.
+/// Reads a line of the contract; false if it is not one.
 bool read_contract_line(std::string_view key, const std::string& value, nearmiss_contract& contract) {
   if (key == "apart-at-start") {
     contract.apart_at_start = yes_or_no(value);

@@ -1,10 +1,10 @@
-// nearmiss-worker PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that never runs
-// the plug-in's code. The supervisor tells nearmiss how the process ended. When the process or nearmiss ends, it
-// ends all that the plug-in has started, and itself.
+// nearmiss-worker PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
+// never runs the plug-in's code. The supervisor tells nearmiss how the process ended. When the plug-in's
+// process or nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
 //
-// If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no other process
-// can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also waits for the end of nearmiss,
-// and kills the supervisor. The system then ends everything in the namespace.
+// If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
+// other process can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also
+// waits for the end of nearmiss, and kills the supervisor. The system then ends everything in the namespace.
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
@@ -52,7 +52,7 @@ sigset_t end_of_child() {
   return signals;
 }
 
-/// Waits for all children that have ended, which may be orphans. Says how one of them ended, if it did.
+/// Reaps all children that have ended, also adopted orphans. Returns how `process` ended, if it did.
 std::optional<siginfo_t> end_of(pid_t process) {
   std::optional<siginfo_t> end;
   siginfo_t how{};
@@ -63,7 +63,7 @@ std::optional<siginfo_t> end_of(pid_t process) {
   return end;
 }
 
-/// Waits until a child has ended, and says how; or until nearmiss has closed the status socket.
+/// Waits until a child has ended, and returns how it ended, or until nearmiss has closed the status socket.
 std::optional<siginfo_t> watch(pid_t child) {
   const sigset_t wanted = end_of_child();
   const int signals = signalfd(-1, &wanted, SFD_CLOEXEC);
@@ -81,7 +81,7 @@ std::optional<siginfo_t> watch(pid_t child) {
 
 /// The plug-in's process.
 int run_plugin(const Assignment& work) {
-  setsid();  // a signal to its group reaches no process in front of it
+  setsid();  // so that a signal to its group reaches no process of nearmiss
   const sigset_t blocked = end_of_child();
   sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
   tell({.code = 0, .status = 0, .is_in_namespace = work.own_namespace ? 1 : 0});
@@ -92,7 +92,7 @@ int run_plugin(const Assignment& work) {
   return answer_requests(work.plugin, work.bytes);
 }
 
-/// The supervisor. Returns in the plug-in's process only.
+/// The supervisor. Returns only in the plug-in's process.
 int supervise(const Assignment& work) {
   // Nobody without more privileges may trace it, or take its descriptors.
   prctl(PR_SET_DUMPABLE, 0);
@@ -100,7 +100,7 @@ int supervise(const Assignment& work) {
   const pid_t process = fork();
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != supervisor) _exit(1);  // it ended before that call
+    if (getppid() != supervisor) _exit(1);  // the supervisor ended before that call
     return run_plugin(work);
   }
   close_channel();

@@ -1,6 +1,7 @@
-// Bernstein sign classification (Tang, Tong, Wang and Manocha, "Fast and exact continuous collision detection with Bernstein
-// sign classification", 2014), over root parity's arithmetic. It throws an exception for a cubic with an inflection point in
-// the time step, which the authors say they do not handle exactly: such a query has no answer.
+// Bernstein sign classification (Tang, Tong, Wang and Manocha, "Fast and exact continuous collision detection
+// with Bernstein sign classification", 2014), over root parity's arithmetic. It throws an exception for a
+// cubic with an inflection point in the time step, which the authors say they do not handle exactly: such a
+// query has no answer.
 #include <bsc.h>
 
 #include "fuzz/subjects/peers/adapter.hpp"

@@ -1,7 +1,8 @@
-// The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric modeling", 2011, in the
-// implementation of the Tight-Inclusion authors). It looks for the times at which the distance is equal to a separation, and
-// accepts those at which the squared distance is at most h² + h / 10. With h = 0 that leaves no room for rounding, and it
-// finds next to nothing. Its question is one with a separation. If it is smaller at the start, that is not found.
+// The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric
+// modeling", 2011, in the implementation of the Tight-Inclusion authors). It looks for the times at which the
+// distance is equal to a separation, and accepts those at which the squared distance is at most h² + h / 10.
+// With h = 0, that leaves no room for rounding, and it finds next to nothing, so it is always asked with a
+// separation h > 0. It does not notice a distance that is less than h already at t = 0.
 #include <minimum_separation_root_finder.hpp>
 
 #include "fuzz/subjects/peers/sources/eigen.hpp"
@@ -9,8 +10,8 @@
 namespace nearmiss::peers {
 namespace {
 
-/// The separation that stands for contact: what its authors use in their benchmark when they want collisions at distance 0
-/// (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
+/// The separation that stands for contact: what its authors use in their benchmark when they want collisions
+/// at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
 constexpr double contact = 1e-8;
 
 Answer decide(const void* /*state*/, int kind, const Question& q) {

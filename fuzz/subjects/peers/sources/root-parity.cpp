@@ -1,4 +1,5 @@
-// Root parity (Brochu, Edwards and Bridson, "Efficient geometrically exact continuous collision detection", 2012).
+// Root parity (Brochu, Edwards, Bridson, "Efficient geometrically exact continuous collision detection",
+// 2012).
 #include <exactCCDWrapper.h>
 
 #include <cstdlib>
@@ -8,8 +9,9 @@
 namespace nearmiss::peers {
 namespace {
 
-/// An answer must depend on the query alone, but the rays that replace an unlucky one come from rand(). Therefore every query
-/// starts from the same seed. The smallest state that the C library offers makes that cheap.
+/// An answer must depend only on the query, but the rays that replace an unlucky one come from rand().
+/// Therefore every query starts from the same seed. The smallest state that the C library offers makes that
+/// cheap.
 void restart_random_numbers() {
   static std::array<char, 8> smallest;
   static const bool is_set = initstate(1, smallest.data(), smallest.size()) != nullptr;
@@ -28,8 +30,8 @@ nearmiss_subject subject() {
   nearmiss_subject subject =
       detector<decide>("root-parity", "2012",
                        "root parity, with intervals and expansions: whether the number of contacts is odd");
-  // It answers whether the number of contacts is odd, with their multiplicity: a double root counts twice. That is our
-  // question if there is one contact at most, at a simple root.
+  // It answers whether the number of contacts is odd, counted with multiplicity: a double root counts twice.
+  // This agrees with our question if there is at most one contact, at a simple root.
   subject.contract.one_root = 1;
   return subject;
 }

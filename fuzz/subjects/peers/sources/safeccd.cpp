@@ -1,8 +1,10 @@
-// The code that the author of the 2014 paper published with it (Wang, "Defending continuous collision detection against
-// errors"), through the wrapper of the tree that it is taken from, which computes each pair's own bound B.
+// The code that the author of the 2014 paper published with it (Wang, "Defending continuous collision
+// detection against errors"), through the wrapper of the tree that it is taken from, which computes each
+// pair's own bound B.
 //
-// Contact at t = 0 is left to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and case 1 of Vertex_Edge_CCD
-// test the end of the step, and nothing tests its beginning. That is why B "must stay the same over the whole animation process".
+// Contact at t = 0 is left to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and case 1 of
+// Vertex_Edge_CCD test the end of the step, and nothing tests its beginning. That is why B "must stay the
+// same over the whole animation process".
 #include <safeCCDWrapper.h>
 
 #include "fuzz/subjects/peers/adapter.hpp"
@@ -24,8 +26,8 @@ Answer decide(const void* /*state*/, int kind, const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// 41 B ε^¼ with ε^¼ = 2^-13: the paper's claim, and half of `gap` in the code, which says of it that it is twice the largest
-/// distance of a false positive.
+/// 41 B ε^¼ with ε^¼ = 2^-13: the paper's claim, and half of `gap` in the code. The code says that `gap` is
+/// twice the largest distance of a false positive.
 double distance_bound(void* /*state*/, int /*kind*/, const double* x) {
   const Question q{x, 0};
   return 41 * 0x1p-13 *
@@ -38,8 +40,9 @@ nearmiss_subject subject() {
       detector<decide>("safeccd", "1.0", "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B");
   subject.time_sort = NEARMISS_TIME_ESTIMATE;
   subject.contract.apart_at_start = 1;
-  // Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or vanish. Pairs whose
-  // coordinates are multiples of about 1e-50 have a B that is no smaller, unless all of their points coincide at all times.
+  // Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or
+  // vanish. Pairs whose coordinates are multiples of about 1e-50 have a B of at least that, unless all of
+  // their points coincide at all times.
   subject.contract.longest = 1e50;
   subject.contract.grid = 0x1p-166;
   subject.distance_bound = distance_bound;

@@ -1,8 +1,8 @@
-// Bernstein sign classification with a tight bound of the rounding errors (Wang, Tang, Tong and Manocha, "TightCCD: efficient
-// and robust continuous collision detection using tight error bounds", 2015). Where a sign is not certain, it mostly reports a
-// collision.
+// Bernstein sign classification with a tight bound of the rounding errors (Wang, Tang, Tong and Manocha,
+// "TightCCD: efficient and robust continuous collision detection using tight error bounds", 2015). Where a
+// sign is not certain, it mostly reports a collision.
 #include <cassert>
-// The header, which has all of it, uses what it does not include.
+// This header contains the whole code, and uses a standard header that it does not include.
 #include <bsc_tightbound.h>
 
 #include "fuzz/subjects/peers/adapter.hpp"

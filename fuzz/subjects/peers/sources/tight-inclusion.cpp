@@ -1,5 +1,5 @@
-// Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene and Panozzo, "A large-scale benchmark and an inclusion-based
-// algorithm for continuous collision detection", 2021).
+// Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene and Panozzo, "A large-scale benchmark and an
+// inclusion-based algorithm for continuous collision detection", 2021).
 #include <tight_inclusion/ccd.hpp>
 
 #include "fuzz/subjects/peers/sources/eigen.hpp"
