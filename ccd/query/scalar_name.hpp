@@ -23,9 +23,7 @@ constexpr ScaledName split_scalar(std::string_view name) {
 inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
   if (scalar.empty() || scalar == "double") return -52;
   if (scalar == "float") return -23;
-  if (scalar == "longdouble") return -63;
   if (scalar == "dd") return -102;
-  if (scalar == "quad") return -112;
   int bits = 0;
   const char* const end = scalar.data() + scalar.size();
   if (scalar.front() != 'p') return std::nullopt;

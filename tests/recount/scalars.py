@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 ALGORITHMS = ('wang', 'wang-tight')  # algorithms of the ladder of precisions
-EPSILONS = {'': -52, 'double': -52, 'float': -23, 'longdouble': -63, 'dd': -102, 'quad': -112}
+EPSILONS = {'': -52, 'double': -52, 'float': -23, 'dd': -102}
 AS_WANG = ('basic', 'basic-plain', 'wang', 'wang-scalar', 'wang-eps', 'wang-plain')
 
 

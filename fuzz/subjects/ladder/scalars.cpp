@@ -32,12 +32,6 @@ std::optional<ladder::Scalar> scalar_of(std::string_view name) {
 
 }  // namespace
 
-std::vector<ladder::Scalar> named_scalars() {
-  std::vector<ladder::Scalar> all = ladder::machine_scalars();
-  for (ladder::Scalar& scalar : ladder::quad_scalar()) all.push_back(std::move(scalar));
-  return all;
-}
-
 std::unique_ptr<Subject> try_make_scaled(std::string_view name_and_bound, std::optional<double> given_bound) {
   const SplitName split = split_bound(name_and_bound, given_bound);
   const std::string_view name = split.name;

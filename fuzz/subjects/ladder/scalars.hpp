@@ -22,10 +22,6 @@ struct Scalar {
                                    std::optional<double> given_bound);
 };
 
-/// The parts of the list, each from a file of its own. quad_scalar() is empty if the compiler has no
-/// binary128.
-std::vector<Scalar> machine_scalars();
-std::vector<Scalar> quad_scalar();
 /// The scalar with this number of bits: "p40".
 Scalar bits_scalar(int bits);
 
