@@ -5,9 +5,9 @@ import { join } from "node:path";
 import { count, folder, makeReport, open, pageOf, run } from "./session.mjs";
 
 export async function showsThePowerOfDetection(browser) {
-  run("power", "--subject", "defect:vv,defect:proximity", "--way", "families,search", "--time", "2s", "--json", "power.json");
+  run("power", "--subject", "defect:vv,defect:proximity,wang", "--way", "families,search", "--time", "2s", "--json", "power.json");
   const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
-  assert.equal(await count(page, "#power tbody tr"), 2);
+  assert.equal(await count(page, "#power tbody tr"), 3);
   assert.match(await page.locator("#power tbody tr").first().textContent(), /^defect:vv[\d.e-]+ s, [\d,]+/);
   await page.close();
 }
