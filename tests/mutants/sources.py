@@ -16,6 +16,11 @@ def read(path):
     return Path(path).read_bytes().decode('latin-1')
 
 
+def sha(*parts):
+    """A hash of texts, in hexadecimal digits."""
+    return hashlib.sha256('\0'.join(parts).encode()).hexdigest()
+
+
 def shown(text):
     """The text as a person reads it, without line ends."""
     return ' '.join(text.encode('latin-1').decode('utf-8', 'replace').split())
