@@ -14,7 +14,7 @@ from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
 EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
-MOST_SECONDS = 150  # tests that take longer without a mutant are left out
+MOST_SECONDS = 150  # tests that take longer without a drawn mutant are left out
 MEMORY = 6 << 30  # bytes of address space for each process
 MARKS = 4096  # size of the file in bytes, as in switch.hpp
 
@@ -88,13 +88,13 @@ def all_steps():
     return [step for group in [*EXECUTABLES, *commands()] for step in steps_of(group)]
 
 
-def measured(step):
-    """Measures a step without a mutant."""
+def measured(step, most_seconds):
+    """Measures a step without a mutant, and whether it passes within a time."""
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()
         env = {'NEARMISS_MUTANTS_REACHED': marks.name}
-        ended = run_tests(step.group, [step.test], env, MOST_SECONDS)
+        ended = run_tests(step.group, [step.test], env, most_seconds)
         marks.seek(0)
         reached = tuple(number for number, byte in enumerate(marks.read()) if byte)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
@@ -112,14 +112,15 @@ def state():
     return digest.hexdigest()
 
 
-def baseline(steps, jobs, say):
+def baseline(steps, jobs, say, most_seconds=MOST_SECONDS):
     """Measures steps once for each build, and resumes if it was stopped. Says which are left out."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}
     todo = [step for step in steps if step.name not in known]
     with ThreadPoolExecutor(jobs) as pool:
-        for count, step in enumerate(pool.map(measured, todo), 1):
+        done = pool.map(lambda step: measured(step, most_seconds), todo)
+        for count, step in enumerate(done, 1):
             known[step.name] = asdict(step)
             if count % 50 == 0 or step.cpu > 5 or count == len(todo):
                 say(f'without a mutant: {count} of {len(todo)} tests')
