@@ -12,7 +12,7 @@ from survey import Survey, say
 # The groups of tests and their targets, in the order in which they are asked: the hunter is built
 # soonest, and notices most. The proofs notice halved bounds, which random queries do not show.
 GROUPS = {'judge_hunter': 'judge_hunter', 'oracle': 'oracle_tests', 'proofs': 'proofs_tests'}
-QUERIES = 100000  # of the hunter, which take a minute
+QUERIES = 100000  # of the hunter, which take half a minute of a core
 MOST_SECONDS = 1800  # tests that take longer without an edit are left out, on a busy machine too
 
 
