@@ -15,6 +15,7 @@ class Answer:
 
     noticed_by: str = ''  # the first test that failed, or ''
     how: str = ''  # 'failed', 'crashed' or 'too slow'
+    found: str = ''  # the hunter's words: what it found, the query, and how many it asked up to it
     cpu: float = 0
     wall: float = 0
     asked: int = 0  # number of tests
@@ -46,12 +47,12 @@ def by_group(batch, folder):
     return [groups[each] for each in order]
 
 
-def affordable(steps):
-    """The quickest steps that fit the budget, and the names of the others."""
+def affordable(steps, budget):
+    """The quickest steps that fit a budget in seconds, and the names of the others."""
     kept, left, total = [], [], 0
     for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
         total += step.cpu
-        if total <= BUDGET:
+        if total <= budget:
             kept.append(step)
         else:
             left.append(step.name)
@@ -91,11 +92,11 @@ def is_confirmed(number, step):
     return again.code != 0 and (without is None or without.code == 0)
 
 
-def ask(number, steps, folder):
-    """Runs the tests with the mutant of this number, or with the mutant that is built in if it is
-    0."""
-    answer = Answer()
-    kept, answer.unasked = affordable(steps)
+def ask(number, steps, folder, answer, budget=BUDGET):
+    """Adds to an answer what the tests say with the mutant of this number, or with the mutant that
+    is built in if it is 0."""
+    kept, left = affordable(steps, budget)
+    answer.unasked += left
     for batch in batches(kept, folder):
         for group in batch:
             while group:
@@ -110,7 +111,8 @@ def ask(number, steps, folder):
                 failed = next((step for step in group if step.test == test), group[0])
                 if how != 'failed' or is_confirmed(number, failed):
                     answer.noticed_by, answer.how = failed.name, how
-                    return answer
+                    said = re.search('^found (.+)$', ended.output, re.MULTILINE)
+                    answer.found = said[1] if said else ''
+                    return
                 answer.unsteady.append(failed.name)
                 group = [step for step in group if step is not failed]
-    return answer

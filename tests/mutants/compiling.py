@@ -75,8 +75,8 @@ def places(text):
 
 
 def blamed(mutants, block):
-    """The mutants on the line of an error, or else on the lines that the error mentions, or else in the constexpr functions
-    of the files that it mentions."""
+    """The mutants on the line of an error, or else on the lines that the error mentions, or else in
+    the constexpr functions of the files that it mentions."""
     errors = '\n'.join(line for line in block.splitlines() if ' error: ' in line)
     mentioned = places(block)
     return (

@@ -1,5 +1,5 @@
-"""The copy of the tree that contains the mutants. The copy has its own C++ files; all other files
-are links."""
+"""The copy of the tree that contains the mutants. The copy has its own C++ files and headers; all
+other files are links."""
 
 import os
 from pathlib import Path
@@ -32,8 +32,8 @@ def link(target, path):
 
 
 def mirror(source, target, text_of):
-    """Copies a folder. `text_of` gives the text of its C++ files; all other files become links.
-    Removes everything else from the copy."""
+    """Copies a folder. `text_of` gives the text of its C++ files and headers; all other files
+    become links. Removes everything else from the copy."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -42,7 +42,7 @@ def mirror(source, target, text_of):
     for entry in source.iterdir():
         if entry.is_dir() and has_code(entry):
             mirror(entry, target / entry.name, text_of)
-        elif entry.suffix in ('.cpp', '.hpp'):
+        elif entry.suffix in ('.cpp', '.hpp', '.h'):
             write(target / entry.name, text_of(str(entry.relative_to(ROOT))))
         else:
             link(entry, target / entry.name)
@@ -78,7 +78,7 @@ def configure():
     new and removed files."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
-        'NEARMISS_COMPONENTS': 'ccd;oracle;tools;tests',
+        'NEARMISS_COMPONENTS': 'ccd;oracle;tools;python;tests',
         'CMAKE_CXX_COMPILER': 'g++',
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS',
         'NEARMISS_MUTANTS': HERE,

@@ -3,7 +3,6 @@
 The order depends only on each mutant's own text, so that a change elsewhere does not change a
 draw."""
 
-import hashlib
 import inspect
 import multiprocessing
 import pickle
@@ -13,13 +12,9 @@ from itertools import zip_longest
 import syntax
 from processes import Stopped, stopping
 from sites import mutants_of
-from sources import ROOT, WORK, cpp_files, read
+from sources import ROOT, WORK, cpp_files, read, sha
 
 CACHE = WORK / 'trees'
-
-
-def sha(*parts):
-    return hashlib.sha256('\0'.join(parts).encode()).hexdigest()
 
 
 def kept_tree(name):

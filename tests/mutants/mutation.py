@@ -1,10 +1,9 @@
 """A mutant: one small change of a file's text, with the context that decides how it can be
 switched on."""
 
-import hashlib
 from dataclasses import asdict, dataclass
 
-from sources import shown
+from sources import sha, shown
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,11 @@ class Mutation:
 
     @property
     def name(self):
-        return hashlib.sha256(self.identity.encode()).hexdigest()[:12]
+        return sha(self.identity)[:12]
+
+    @property
+    def where(self):
+        return f'{self.file}:{self.line}'
 
     def lines(self, text):
         """The lines that a compiler may name in an error about this mutant."""

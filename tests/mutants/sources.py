@@ -16,6 +16,11 @@ def read(path):
     return Path(path).read_bytes().decode('latin-1')
 
 
+def sha(*parts):
+    """A hash of texts, in hexadecimal digits."""
+    return hashlib.sha256('\0'.join(parts).encode()).hexdigest()
+
+
 def shown(text):
     """The text as a person reads it, without line ends."""
     return ' '.join(text.encode('latin-1').decode('utf-8', 'replace').split())
@@ -32,13 +37,15 @@ def cpp_files(folders, root=ROOT):
 
 
 def fingerprint(folders, suffixes, root=ROOT):
-    """A hash of the files with these suffixes in folders, except those of this tool."""
+    """A hash of the files with these suffixes in folders, except those of this tool and its lists."""
     digest = hashlib.sha256()
     for folder in folders:
         for path in sorted((root / folder).rglob('*')):
-            is_other = {'node_modules', 'mutants'} & set(path.relative_to(root).parts)
+            name = path.relative_to(root)
+            is_list = name.is_relative_to('tests/judge/defects')
+            is_other = is_list or {'node_modules', 'mutants'} & set(name.parts)
             if path.suffix in suffixes and path.is_file() and not is_other:
-                digest.update(f'{path.relative_to(root)}\0'.encode() + path.read_bytes())
+                digest.update(f'{name}\0'.encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 

@@ -14,14 +14,14 @@ from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
 EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
-MOST_SECONDS = 150  # tests that take longer without a mutant are left out
+MOST_SECONDS = 150  # tests that take longer without a drawn mutant are left out
 MEMORY = 6 << 30  # bytes of address space for each process
 MARKS = 4096  # size of the file in bytes, as in switch.hpp
 
 
 @dataclass
 class Step:
-    """One test: a GoogleTest, or a command."""
+    """One test: a GoogleTest, or a command with its last argument."""
 
     group: str
     test: str
@@ -45,7 +45,7 @@ def commands():
     """The commands of the tests that are not GoogleTests."""
     recount = COPY / 'tests/recount/recount_test.py'
     return {
-        'judge_hunter': [BUILD / 'tests/judge/judge_hunter', '10000'],
+        'judge_hunter': [BUILD / 'tests/judge/judge_hunter'],
         'recount': ['/usr/bin/python3', '-B', recount, BUILD / 'nearmiss'],
     }
 
@@ -54,8 +54,9 @@ def run_tests(group, tests, env, seconds, cpu=None):
     """Runs tests of a group until one fails. The tests cannot affect other processes, and their
     files are removed."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
-        words = commands().get(group)
-        if words is None:
+        if group in commands():
+            words = [*commands()[group], *filter(None, tests)]
+        else:
             flags = Path(folder) / 'flags'
             flags.write_text(f'--gtest_filter={":".join(tests)}\n')
             words = [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={flags}']
@@ -76,18 +77,24 @@ def tests_of(group):
     return names
 
 
+def steps_of(group, queries=10000):
+    """The steps of a group. The judge's hunter asks this number of queries."""
+    if group in EXECUTABLES:
+        return [Step(group, test) for test in tests_of(group)]
+    return [Step(group, str(queries) if group == 'judge_hunter' else '')]
+
+
 def all_steps():
-    found = [Step(group, test) for group in EXECUTABLES for test in tests_of(group)]
-    return found + [Step(group, '') for group in commands()]
+    return [step for group in [*EXECUTABLES, *commands()] for step in steps_of(group)]
 
 
-def measured(step):
-    """Measures a step without a mutant."""
+def measured(step, most_seconds):
+    """Measures a step without a mutant, and whether it passes within a time."""
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()
         env = {'NEARMISS_MUTANTS_REACHED': marks.name}
-        ended = run_tests(step.group, [step.test], env, MOST_SECONDS)
+        ended = run_tests(step.group, [step.test], env, most_seconds)
         marks.seek(0)
         reached = tuple(number for number, byte in enumerate(marks.read()) if byte)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
@@ -96,26 +103,30 @@ def measured(step):
 
 
 def state():
-    """A hash of all executables that the tests use."""
+    """A hash of all executables that the tests use and that are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_hunter']
-    for file in files + sorted((BUILD / 'plugins').glob('*')):
+    for file in filter(Path.exists, files + sorted((BUILD / 'plugins').glob('*'))):
         digest.update(file.read_bytes())
     return digest.hexdigest()
 
 
-def baseline(jobs, say):
-    """Measures all steps once for each build, and resumes if it was stopped."""
+def baseline(steps, jobs, say, most_seconds=MOST_SECONDS):
+    """Measures steps once for each build, and resumes if it was stopped. Says which are left out."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}
-    steps = all_steps()
     todo = [step for step in steps if step.name not in known]
     with ThreadPoolExecutor(jobs) as pool:
-        for count, step in enumerate(pool.map(measured, todo), 1):
+        done = pool.map(lambda step: measured(step, most_seconds), todo)
+        for count, step in enumerate(done, 1):
             known[step.name] = asdict(step)
             if count % 50 == 0 or step.cpu > 5 or count == len(todo):
                 say(f'without a mutant: {count} of {len(todo)} tests')
                 BASELINE.write_text(json.dumps({'built': built, 'steps': known}))
-    return [Step(**{**known[s.name], 'reached': tuple(known[s.name]['reached'])}) for s in steps]
+    found = [Step(**{**known[s.name], 'reached': tuple(known[s.name]['reached'])}) for s in steps]
+    for step in found:
+        if not step.fine:
+            say(f'left out, because it fails or takes too long without a mutant: {step.name}')
+    return found

@@ -7,12 +7,12 @@ from dataclasses import asdict
 import compiling
 import copied
 import equivalents
-from asking import ask
+from asking import Answer, ask
 from draw import all_sites, draw
 from results import Results
 from schemata import by_itself
 from sources import ROOT, Compiled, read
-from suite import baseline
+from suite import all_steps, baseline
 
 SPARE = 1.3  # mutants drawn for each requested one, because some need a separate build
 
@@ -26,10 +26,30 @@ def folder_of(mutation):
 
 
 class Survey:
-    """The mutants of a draw, and their results."""
+    """The results of mutants, and a line of progress for each."""
+
+    def __init__(self, jobs):
+        self.jobs = jobs
+        self.results = Results()
+        self.printing = threading.Lock()
+        self.done = 0
+
+    def show(self, mutation, result):
+        """Prints a line of progress."""
+        by = f' by {result["noticed_by"]}, {result["cpu"]:.1f} s' if result['noticed_by'] else ''
+        found = f': {result["found"]}' if result.get('found') else ''
+        with self.printing:
+            self.done += 1
+            text = f'{mutation.where} {mutation.operator}: {result["verdict"]}{by}{found}'
+            say(f'[{self.done}] {text}')
+
+
+class DrawnSurvey(Survey):
+    """The mutants of a draw, most of them as switches in one build."""
 
     def __init__(self, folders, seed, count, alone, jobs):
-        self.folders, self.alone, self.jobs = folders, alone, jobs
+        super().__init__(jobs)
+        self.folders, self.alone = folders, alone
         copied.make_copy(copied.text_of_copy)
         copied.configure()
         self.compiled = Compiled(copied.BUILD, copied.COPY)
@@ -37,19 +57,13 @@ class Survey:
         found = all_sites(self.compiled, copied.COPY, folders, jobs)
         self.drawn = draw(found, folders, seed, int(SPARE * self.quota))
         self.mutants = compiling.Mutants(self.drawn)
-        self.results = Results()
         self.equivalent = equivalents.listed()
-        self.printing = threading.Lock()
-        self.done = 0
 
     def prepare(self):
         """Builds the copy, and measures the tests without a mutant."""
         say(f'{len(self.drawn)} mutants are compiled')
         compiling.build_all(self.mutants, self.compiled, self.jobs, say)
-        self.steps = baseline(self.jobs, say)
-        for step in self.steps:
-            if not step.fine:
-                say(f'left out, because it fails or takes too long without a mutant: {step.name}')
+        self.steps = baseline(all_steps(), self.jobs, say)
 
     def reaching(self, number):
         return [step for step in self.steps if step.fine and number in step.reached]
@@ -89,7 +103,8 @@ class Survey:
             return {'verdict': 'equivalent', 'noticed_by': ''}
         if not steps:
             return {'verdict': 'unreached', 'noticed_by': ''}
-        answer = ask(switch, steps, folder_of(mutation))
+        answer = Answer()
+        ask(switch, steps, folder_of(mutation), answer)
         return {'verdict': 'noticed' if answer.noticed_by else 'survived', **asdict(answer)}
 
     def ask_switched(self, number):
@@ -118,18 +133,6 @@ class Survey:
             self.results.put(mutation, result)
         self.show(mutation, result)
         return mutation, result
-
-    def show(self, mutation, result):
-        """Prints a line of progress."""
-        with self.printing:
-            self.done += 1
-            by = (
-                f' by {result["noticed_by"]}, {result["cpu"]:.1f} s'
-                if result['noticed_by']
-                else ''
-            )
-            place = f'{mutation.file}:{mutation.line}'
-            say(f'[{self.done}] {place} {mutation.operator}: {result["verdict"]}{by}')
 
     def take(self):
         """All results, as pairs of a mutant and its result."""

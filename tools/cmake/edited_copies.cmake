@@ -1,6 +1,6 @@
 # Copies of headers in which named edits are switched on and off while the program runs.
 #
-# A list of edits has this form, which tests/judge/list.mjs reads, too:
+# A list of edits has this form, which tests/mutants/named.py reads, too:
 #
 #   == GROUP ==
 #
