@@ -9,14 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "ccd/query/error.hpp"
 #include "tests/queries.hpp"
+#include "tests/refused.hpp"
 
 namespace nearmiss {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
 
@@ -90,19 +87,14 @@ TEST(Campaign, SaysHowFarARunHasCome) {
 }
 
 TEST(Campaign, AShardIsTakenOnce) {
-  EXPECT_THAT(
-      [] {
-        merged({0, 1, 0});
-      },
-      ThrowsMessage<Error>("0.db and 0.db: both have shard 0/3 of the run with command fuzz, seed 1"));
+  EXPECT_ERROR(merged({0, 1, 0}), "0.db and 0.db: both have shard 0/3 of the run with command fuzz, seed 1");
 }
 
 TEST(Campaign, ARunIsCutInOneWay) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[1].runs[0].shards[0].count = 4;
   const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_THAT([&] { merge_campaigns(campaigns, names); },
-              ThrowsMessage<Error>(HasSubstr("b.db: found a shard of 4, and one of 3 in a.db")));
+  EXPECT_REFUSED(merge_campaigns(campaigns, names), "b.db: found a shard of 4, and one of 3 in a.db");
 }
 
 TEST(Campaign, RunsThatDifferStandSideBySide) {
@@ -126,9 +118,9 @@ TEST(Campaign, ShardsOfDifferentCodeAreRefused) {
   const std::vector<std::string> names{"a.db", "b.db"};
   for (const std::string fact : {"version", "commit", "plug-in boxes sha256", "plug-in boxes version"}) {
     auto campaigns = shards_that_differ_in(fact);
-    EXPECT_THAT([&] { merge_campaigns(campaigns, names); },
-                ThrowsMessage<Error>("b.db: found " + fact +
-                                     " 'b', expected 'a' as in a.db, for the run with command fuzz, seed 1"));
+    EXPECT_ERROR(
+        merge_campaigns(campaigns, names),
+        "b.db: found " + fact + " 'b', expected 'a' as in a.db, for the run with command fuzz, seed 1");
     campaigns[1].runs[0].info["seed"] = "2";  // another night
     EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
     campaigns[1] = campaigns[0];
@@ -141,9 +133,8 @@ TEST(Campaign, ARunWithoutAFactOfItsCodeIsRefused) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[1].runs[0].info["plug-in boxes sha256"] = "b";
   const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_THAT(
-      [&] { merge_campaigns(campaigns, names); },
-      ThrowsMessage<Error>(HasSubstr("b.db: found plug-in boxes sha256 'b', expected '' as in a.db")));
+  EXPECT_REFUSED(merge_campaigns(campaigns, names),
+                 "b.db: found plug-in boxes sha256 'b', expected '' as in a.db");
 }
 
 TEST(Campaign, ShowsOrdinaryQueriesFirstThenFrequentFailuresThenSimpleQueries) {

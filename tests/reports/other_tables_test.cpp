@@ -6,27 +6,22 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ccd/query/error.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 class OtherTables : public testing::TemporaryFolder {
  protected:
   /// Expects that `load` refuses a file that does not exist, and files with other content.
   template <class Load>
   void expect_refusal(const Load& load, const std::string& expected) {
-    EXPECT_THAT([&] { load(file("none.json")); },
-                ThrowsMessage<Error>(HasSubstr("none.json: cannot be read")));
+    EXPECT_REFUSED(load(file("none.json")), "none.json: cannot be read");
     for (const char* text : {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
                              "[{\"subject\": \"a\", \"flags\": \"b\"}]"}) {
       write("other.json", text);
-      EXPECT_THAT([&] { load(file("other.json")); }, ThrowsMessage<Error>(HasSubstr("expected " + expected)))
-          << text;
+      EXPECT_REFUSED(load(file("other.json")), "expected " + expected) << text;
     }
   }
 };

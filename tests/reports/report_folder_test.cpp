@@ -12,6 +12,7 @@
 #include "ccd/query/error.hpp"
 #include "reports/campaign/finding_case.hpp"
 #include "reports/report.hpp"
+#include "tests/refused.hpp"
 #include "tests/reports/some_campaign.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -170,8 +171,8 @@ TEST_F(ReportFolder, AFailureLeavesTheEarlierReport) {
   const std::string before = read("report/report.json");
   const std::map<std::string, std::string> unwritable{{"no/folder.txt", ""}, {"report.json", ""}};
   for (const char* folder : {"report", "absent"})
-    EXPECT_THAT([&] { replace_report(file(folder), own_files(file(folder)), unwritable); },
-                ThrowsMessage<Error>(HasSubstr("the report cannot be written")));
+    EXPECT_REFUSED(replace_report(file(folder), own_files(file(folder)), unwritable),
+                   "the report cannot be written");
   EXPECT_FALSE(fs::exists(file("absent")));
   EXPECT_EQ(files_in("report").size(), 7 + 2 + 1);
   EXPECT_EQ(read("report/report.json"), before);
