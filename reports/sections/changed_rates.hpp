@@ -34,8 +34,7 @@ struct ComparedRates {
 /// samples.
 ///
 /// @param risk the probability that a rate is found to have changed although none has; each comparison has an
-///             equal
-///             part of it (Bonferroni)
+///             equal part of it (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, const Statistics& before, double risk);
 
 }  // namespace nearmiss

@@ -73,8 +73,7 @@ struct ChangedSignatures {
 ///
 /// @param before the sum of the baseline's statistics
 /// @param risk the probability that a signature is found to be new although none is, and also that one is
-///             found to be
-///             gone; each comparison has an equal part of it (Bonferroni)
+///             found to be gone; each comparison has an equal part of it (Bonferroni)
 ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
                                      const Statistics& before, double risk);
 

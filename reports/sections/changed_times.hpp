@@ -50,8 +50,7 @@ struct ComparedTimes {
 /// have not changed. If there are several earlier campaigns, the variance is at least the one between them.
 ///
 /// @param risk the probability that a time is found to have changed although none has; each comparison has an
-///             equal part of
-///             it (Bonferroni)
+///             equal part of it (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
 }  // namespace nearmiss

@@ -1,6 +1,6 @@
-# project() includes this file in the copies that tests/judge/copy.mjs makes. It precompiles the libraries'
-# headers, so that they are compiled once and not for every defect. The files for wider instructions have
-# other flags and cannot share precompiled headers.
+# project() includes this file in the copies of the tree that tests/judge/copy.mjs makes. It precompiles the
+# libraries' headers, so that they are compiled once and not for every defect. The source files for wider
+# instructions have other flags and cannot share precompiled headers.
 function(nearmiss_precompile)
   set(numbers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h>
     <CGAL/Exact_predicates_inexact_constructions_kernel.h> <boost/multiprecision/gmp.hpp> <Eigen/Core> <Eigen/Geometry>)
