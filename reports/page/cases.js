@@ -92,7 +92,8 @@ function drawFilter() {
     Object.assign(filter, { [target.name]: target.value, most: findingsAtOnce });
     drawCards();
   });
-  element("findings-filter").addEventListener("submit", (event) => event.preventDefault()); // Enter must not reload
+  // Enter must not reload the page.
+  element("findings-filter").addEventListener("submit", (event) => event.preventDefault());
   element("more-findings").addEventListener("click", () => {
     const next = filter.most;
     filter.most += findingsAtOnce;

@@ -58,7 +58,8 @@ function logAxis(values, written = "digits(datum.value, 3)") {
   const lowest = exponents.length === 0 ? 0 : Math.floor(Math.min(...exponents));
   const highest = exponents.length === 0 ? 0 : Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
   const step = Math.max(Math.ceil((highest - lowest) / 7), 1);
-  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE); // a scale cannot end at 0 or infinity
+  // A scale cannot end at 0 or infinity.
+  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE);
   const bottom = power(values.includes(0) ? lowest - step : lowest);
   const top = power(values.includes(Infinity) ? highest + step : highest);
   const ticks = [bottom, top];

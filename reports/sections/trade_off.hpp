@@ -46,15 +46,15 @@ std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (
 
 /// An object with these members:
 ///   "left_out"            the names of the timed subjects that are not compared
-///   "subjects"            for each subject ns_per_query, rates, the farthest distance, the sort of its times,
-///                         and the median, the 99 % quantile and the largest magnitude of time - t*; for a sound
-///                         lower bound this magnitude is how early the time is
+///   "subjects"            for each subject ns_per_query, rates, the farthest distance, the sort of its
+///                         times, and the median, the 99 % quantile and the largest magnitude of time - t*;
+///                         for a sound lower bound this magnitude is how early the time is
 ///   "front_by_distance"   the Pareto front by the farthest distance
 ///   "front_by_rate"       the Pareto front by the rate of false positives
 ///   "front_by_earliness"  that by the 99 % quantile of earliness, among subjects with lower bounds as times
-///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of B,
-///                         because fractions of different bounds cannot be compared, and the "paper_bound" of
-///                         double
+///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
+///                         B, because fractions of different bounds cannot be compared, and the
+///                         "paper_bound" of double
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -36,7 +36,7 @@ struct Finding {
   /// The simplest known query that fails in the same way and is of the class of `query`. It may be `query`
   /// itself.
   Query shrunk = {};
-  std::uint64_t place = 0;  ///< place of its case in the order of the whole campaign
+  std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
   double time = 0;          ///< the subject's time for the shrunk query, if it is late
   bool is_shrunk = false;   ///< whether shrinking has come to its end
   QueryClass query_class = QueryClass::unclassified;

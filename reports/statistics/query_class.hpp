@@ -13,10 +13,10 @@ namespace nearmiss {
 /// How near a query, or most queries of a family, are to those of a simulation. fuzz/families/README.md has
 /// the criterion.
 enum class QueryClass : std::uint8_t {
-  ordinary,    ///< what a simulation meets in every step
-  degenerate,  ///< what it meets now and then
-  extreme,     ///< what no simulation should send
-  unclassified  ///< unknown; among families: cases, directed searches, and those that this program does not know
+  ordinary,     ///< what a simulation meets in every step
+  degenerate,   ///< what it meets now and then
+  extreme,      ///< what no simulation should send
+  unclassified  ///< unknown; as families, cases, directed searches, and those unknown to this program
 };
 
 /// Names in files and reports, in order.
