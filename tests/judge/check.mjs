@@ -1,10 +1,11 @@
-// Checks that every defect of the lists, of the oracle and of ccd/, applies to the current sources, and changes them.
+// Checks that every listed defect, of the oracle and of ccd/, can be applied to the current sources, and
+// changes them.
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { source } from './copy.mjs';
 import { applied, filesOf, readDefects } from './list.mjs';
 
-/** The fault of a defect, or nothing. */
+/** Why a defect cannot be applied, or undefined. */
 function complaint(defect) {
   for (const file of filesOf(defect)) {
     const text = readFileSync(path.join(source, file), 'utf8');

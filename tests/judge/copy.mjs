@@ -1,4 +1,5 @@
-// Makes a copy of the tree whose oracle can be altered; everything else is a link to the source.
+// Makes a copy of the tree in which defects can be made: its oracle is a copy, everything else links to the
+// tree.
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -16,7 +17,7 @@ export function filesBelow(root, folder) {
     });
 }
 
-/** Runs a command at low priority: its exit code (null if it was killed) and all that it printed. */
+/** Runs a command at low priority. Returns its exit code (null if it was killed) and all that it printed. */
 export function run(command, args, { cwd, env = {}, seconds = 1800 }) {
   return new Promise((resolve) => {
     const child = spawn('nice', ['-n', '2', command, ...args], { cwd, env: { ...process.env, ...env } });
@@ -30,10 +31,10 @@ export function run(command, args, { cwd, env = {}, seconds = 1800 }) {
   });
 }
 
-/** The folders that a defect may alter: the oracle, and what makes a subject of it. */
+/** The folders that a defect may alter: the oracle, and fuzz/, which makes subjects of it. */
 export const alterable = ['oracle', 'fuzz'];
 
-/** One copy, with a build folder of its own. */
+/** A copy of the tree, with a build folder of its own. */
 export class Copy {
   constructor(folder) {
     this.folder = folder;
@@ -58,7 +59,7 @@ export class Copy {
     if (code !== 0) throw new Error(`${this.folder}: cmake failed\n${output}`);
   }
 
-  /** Alters the oracle, calls `work`, and takes the defect back. */
+  /** Makes a defect in the copy, calls `work`, and undoes the defect. */
   async with(defect, work) {
     const originals = filesOf(defect).map((file) => [file, readFileSync(path.join(source, file), 'utf8')]);
     for (const [file, text] of originals) this.#write(file, applied(defect, file, text));
@@ -72,7 +73,8 @@ export class Copy {
 
   /** Builds a target; returns the compiler's output if that fails, else nothing. */
   async make(target) {
-    // A defect is compiled only once, and with precompiled headers a cache takes longer than the compiler.
+    // A defect is compiled only once, so a compiler cache is of no use, and with precompiled headers it is
+    // slower than the compiler.
     const env = this.altered ? { CCACHE_DISABLE: '1' } : { CCACHE_BASEDIR: this.folder, CCACHE_NOHASHDIR: '1' };
     const { code, output } = await run('ninja', ['-j1', '-C', this.build, target], { cwd: this.folder, env });
     return code === 0 ? undefined : output;

@@ -6,7 +6,7 @@
 //   and in FILE
 //   - the text to find in one more place
 //   + the text that replaces it
-//   = for a defect that nothing finds: why it changes no answer, or what would find it
+//   = for a defect that no step finds: why it changes no answer, or what would find it
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -33,7 +33,10 @@ function parseDefect(lines, group, sources) {
   return { name, about, group, places, reason: reason.join(' ') };
 }
 
-/** All defects of the lists in a folder, in order, in files of the folder `sources`, or of fuzz/, if their names begin with that. */
+/**
+ * All defects of the lists in a folder, in order. Their files are in the folder `sources`, unless their names
+ * begin with fuzz/.
+ */
 export function readDefects(folder = path.join(here, 'defects'), sources = 'oracle') {
   const defects = [];
   let group = '';
@@ -53,7 +56,7 @@ export function readDefects(folder = path.join(here, 'defects'), sources = 'orac
   return defects;
 }
 
-/** A place with its offset and length in the text; blanks and line ends between words of `before` match any others. */
+/** A place with its offset and length in the text. Blanks and line ends in `before` match any others. */
 function found(name, place, text) {
   const words = place.before.split(/\s+/).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
   const matches = [...text.matchAll(new RegExp(words.join('\\s+'), 'g'))];

@@ -1,9 +1,10 @@
-// Hunts every defect of the list. Usage: run.mjs [--jobs N] [--only REGEX] [--every N] [--again] [--queries N] [--steps hunter,...]
+// Tries to find every listed defect.
+// Usage: run.mjs [--jobs N] [--only REGEX] [--every N] [--again] [--queries N] [--steps hunter,...]
 //
-// Results are saved after every defect, so that the same command resumes where it stopped; --again repeats the hunt for
-// defects that nothing found. build/judge/results.json and table.txt say what found each defect, and how
-// soon. Exit code 1 means that a defect was found although the list gives a reason why it cannot be found, or
-// that a defect without such a reason was not found.
+// Results are saved after every defect, so that the same command resumes where it stopped; --again repeats
+// the hunt for defects that nothing found. build/judge/results.json and table.txt say what found each defect,
+// and how soon. Exit code 1 means that a defect was found although the list gives a reason why it cannot be
+// found, or that a defect without such a reason was not found.
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -26,7 +27,10 @@ const store = path.join(folder, 'results.json');
 const defects = readDefects();
 const wanted = steps.filter(({ name }) => options.steps.split(',').includes(name));
 
-/** The state that a result is valid for: the edit, the oracle and what makes a subject of it. */
+/**
+ * A digest of the sources for which a result is valid: the oracle, and the files of fuzz/ that make subjects
+ * of it.
+ */
 const oracle = createHash('sha256');
 const extra = ['contract', 'exact'].map((name) => `fuzz/subjects/${name}.cpp`);
 for (const name of [...filesBelow(source, 'oracle'), ...extra]) oracle.update(readFileSync(path.join(source, name)));
@@ -41,7 +45,7 @@ function save() {
   writeFileSync(path.join(folder, 'table.txt'), table(defects, results));
 }
 
-/** The first step that finds something in the copy as it is. */
+/** The first step that finds something wrong in the copy in its present state. */
 async function look(copy) {
   const asked = [];
   for (const step of wanted) {

@@ -22,7 +22,7 @@ const tests = (name) => async (copy) => {
   return { what: /\[ {2}FAILED {2}\] (\S+)/.exec(output)?.[1].replace(/,$/, '') ?? `${name} ended` };
 };
 
-/** CTest: the first test that fails, of those with a name like this. */
+/** CTest: the first test that fails, among those whose names match. */
 const ctest = (pattern) => async (copy) => {
   const { code, output } = await run('ctest', ['-R', pattern, '--stop-on-failure'], { cwd: copy.build });
   if (output.includes('No tests were found')) throw new Error(`no test is called ${pattern}`);
