@@ -1,4 +1,4 @@
-// Prints the results as a table.
+// Formats the results of run.mjs as a table.
 import { steps } from './steps.mjs';
 
 const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor((numbers.length - 1) / 2)];
@@ -9,7 +9,7 @@ function columns(rows) {
   return rows.map((row) => row.map((cell, i) => String(cell).padEnd(widths[i])).join('  ').trimEnd()).join('\n');
 }
 
-/** Whether no step found a defect: of all steps, or of those that were asked so far. */
+/** Whether no step found a defect: after all steps have looked for it, or (isOpen) after only some have. */
 const isMissed = (result) => result?.by === 'nothing' && steps.every(({ name }) => result.asked.includes(name));
 const isOpen = (result) => result?.by === 'nothing' && !isMissed(result);
 
@@ -35,7 +35,7 @@ function byGroup(defects, results) {
   return columns(rows);
 }
 
-/** By group, then each defect. */
+/** The text of the table: a row for each group, then a row for each defect. */
 export function table(defects, results) {
   const rows = [['defect', 'found by', 'what', 'query', 'queries', 'seconds']];
   for (const { name } of defects) {

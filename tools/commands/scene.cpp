@@ -282,7 +282,7 @@ void add_plan_options(CLI::App& command, Options& options) {
       ->type_name("FILE");
 }
 
-/// With --thickness, asks all suitable subjects unless the user names some.
+/// With --thickness, the candidates are all built-in subjects, unless the user names some.
 void name_subjects(const CLI::App& command, Options& options) {
   if (options.thickness.empty() || command.count("--subject") > 0) return;
   options.trial.subjects.clear();
