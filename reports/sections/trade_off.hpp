@@ -27,7 +27,7 @@ struct TradeOff {
     return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: it has no failure, unless that it sometimes could not tell.
+  /// Whether the subject may be on a front: its only failure, if any, is that it could not tell.
   [[nodiscard]] bool sound() const {
     Failures failures = failures_of(subject, all.counts);
     failures.erase(FailureKind::unknown);

@@ -174,7 +174,7 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
                in_table(median_ratio(times[s], times.front()), 3));
 }
 
-/// What is known of the inputs that were timed.
+/// The results for all inputs that were timed.
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};
