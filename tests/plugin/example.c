@@ -1,5 +1,6 @@
 /* A complete example of a plug-in: a conservative test on axis-aligned boxes. It reports every pair whose
- * swept boxes meet, so it never misses a collision. It claims no bound on the distance of its false positives.
+ * swept boxes meet, so it never misses a collision. It claims no bound on the distance of its false
+ * positives.
  *
  *   cc -shared -fPIC -I. tests/plugin/example.c -o example.so
  *   build/release/nearmiss fuzz --subject ./example.so --cases 100000
