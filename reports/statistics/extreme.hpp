@@ -15,8 +15,8 @@ namespace nearmiss {
 struct Extreme {
   enum class Of : std::uint8_t {
     accepting_tolerance,  ///< the largest factor with which a collision is missed; 0 if no factor misses one
-    keeping_tolerance,  ///< for a tolerance that keeps degenerate primitives out, the smallest factor
-                        ///< with which a collision is missed; infinity if no factor misses one
+    keeping_tolerance,    ///< for a tolerance that keeps degenerate primitives out, the smallest factor
+                          ///< with which a collision is missed; infinity if no factor misses one
     distance,  ///< the largest distance / bound of a false positive of these tests; 0 without false positives
   };
 
