@@ -172,7 +172,7 @@ class Options(unittest.TestCase):
         swapped = near.astype('>f4')
         ends = [near[0].astype(np.float32), near[0]]
         plain = nearmiss.queries('near-underflow', 'vt', 50)[0]
-        for mode in (0x8040, 0x2000, 0x4000, 0x6000):  # flush to zero, or round in another direction
+        for mode in (0x8040, 0x2000, 0x4000, 0x6000):  # flush to zero, or round otherwise
             with processor_mode(mode):
                 hits = [
                     nearmiss.collides('vt', near, h),

@@ -114,4 +114,4 @@ for kind, number in (('vt', 1), ('ee', 2)):
     single = x.astype(np.float32)
     measure_answers(kind, number, x)
     measure_answers(kind, number, single)
-    measure_times(kind, number, x[: COUNT // 20])  # fewer queries, because times take longer than answers
+    measure_times(kind, number, x[: COUNT // 20])  # times take longer than answers

@@ -94,7 +94,7 @@ class Counts:
     false_positives: int = 0  # queries that it reported and that are not collisions
     late: int = 0  # times promised as lower bounds that are after the earliest time
     no_answer: int = 0  # queries without an answer, such as a collision without a time
-    farthest: float = 0.0  # largest distance of a false positive / bound of the subject, or of wang
+    farthest: float = 0.0  # largest distance of a false positive / bound (its own, or wang's)
 
     def __add__(self, other: 'Counts') -> 'Counts':
         sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
