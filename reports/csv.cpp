@@ -17,7 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// A text field, in quotes if it needs them. An apostrophe keeps spreadsheets from computing what begins like a formula.
+/// A text field, in quotes if it needs them. A text that begins like a formula gets an apostrophe in front,
+/// so that spreadsheets do not evaluate it.
 std::string field(std::string text) {
   if (text.find_first_of("=+-@") == 0) text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -32,7 +33,7 @@ struct Field {
 };
 using Fields = std::vector<Field>;
 
-/// Adds the field of a value; of a range, the fields of its ends.
+/// Adds the field of a value, or the two fields of a range's ends.
 struct AddField {
   Fields& fields;
   const std::string& heading;
@@ -69,18 +70,19 @@ void add_counter(Fields& fields, const Counts& counts, const Counter<Counts, Sub
   }
 }
 
-/// These members have no column: distances.csv and times.csv have the histograms, and case files have the farthest false
-/// positives.
+/// These members have no column: distances.csv and times.csv have the histograms, and case files have the
+/// farthest false positives.
 template <class Member>
 void add_counter(Fields& /*fields*/, const Counts& /*counts*/, const Counter<Counts, Member>& /*counter*/) {}
 
-/// The ends of an interval that statistics.csv has for every family, also for one whose queries are no random sample.
+/// The confidence interval of the rate of false positives. statistics.csv has it for every family, even if
+/// the queries are not a random sample.
 Value interval_of_false_positives(const Counts& counts) {
   const auto [lo, hi] = clopper_pearson(counts.false_positives, counts.others());
   return Bin{lo, hi};
 }
 
-/// The counters, each followed by what is computed from it.
+/// Adds the counters, each followed by the measures that are computed from it.
 void add_counters(Fields& fields, const CountsSum& sum) {
   for_each_counter<Counts>([&](const auto& counter) {
     add_counter(fields, sum.counts, counter);
@@ -105,7 +107,7 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a file; `any` is a row with the headings.
+/// The text of a file; `any` is any row, which gives the headings.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);
   for (const Fields& row : rows) text += line(row, &Field::text);

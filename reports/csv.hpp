@@ -16,11 +16,12 @@ std::string classes_csv(const Statistics& statistics);
 /// A row for each non-empty bin of the distance histograms.
 std::string distances_csv(const Statistics& statistics);
 
-/// A row for each non-empty bin of the histograms of times: on the side "early" of t* - time, on the side "after" of time - t*.
+/// A row for each non-empty bin of the histograms of times: t* - time on the side "early", time - t* on the
+/// side "after".
 std::string times_csv(const Statistics& statistics);
 
-/// A row for each finding. "shrunk" and "query" are 24 hex floats each, or 25 with a separation, as in a query file; "seen" is the
-/// number of findings with the same signature.
+/// A row for each finding. "shrunk" and "query" are 24 hex floats each, or 25 with a separation, as in a
+/// query file; "seen" is the number of findings with the same signature.
 std::string findings_csv(const Campaign& campaign);
 
 }  // namespace nearmiss

@@ -35,7 +35,8 @@ ordered_json extreme_json(const Extreme& extreme) {
   return json;
 }
 
-/// The command that repeats the results; nothing if a time limit ended several shards.
+/// The command that repeats the results; nothing if a time limit ended several shards, because no command
+/// does that.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const auto again = run.info.find("again");
   if (again == run.info.end()) return std::nullopt;

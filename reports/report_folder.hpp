@@ -12,17 +12,18 @@ namespace nearmiss {
 /// Paths of files in a report's folder, such as "cases/a.case".
 using ReportPaths = std::set<std::string>;
 
-/// The files of the report that has this report.json: those with fixed names, and the cases that it names.
+/// The files of the report with this report.json: those with fixed names, and the cases that report.json
+/// names.
 ReportPaths files_of(const nlohmann::ordered_json& report);
 
-/// The files in a folder that an earlier report has written, also one that was interrupted; none if the folder is
-/// empty or does not exist. Throws Error if the folder is something else.
+/// The files in a folder that belong to an earlier report, even if its writing was interrupted; none if the
+/// folder is empty or does not exist. Throws Error if the folder is not that of a report.
 ReportPaths own_files(const std::filesystem::path& folder);
 
-/// Replaces the files `own` in a folder by `files`, whose keys are their paths and whose values are their contents; no
-/// other file is changed. All files are written beside, and then renamed; report.json comes last. An interrupted
-/// replacement is completed by the next one. Throws Error, before any file is replaced, if another file is in the
-/// way or the files cannot be written.
+/// Replaces the files `own` in a folder by `files`, a map from paths to contents; no other file is changed.
+/// All files are first written under temporary names and then renamed, report.json last. If this is
+/// interrupted, the next call completes it. Throws Error, before any file is replaced, if another file is in
+/// the way or the files cannot be written.
 void replace_report(const std::filesystem::path& folder, const ReportPaths& own,
                     const std::map<std::string, std::string>& files);
 

@@ -33,16 +33,18 @@ void add_comparison_options(CLI::App& command, Comparison& comparison);
 struct SeparationOption {
   std::string text;
 
-  /// `drawn`: whether the option may be "drawn".
+  /// Adds the option. `can_be_drawn`: whether its value may be "drawn", for a random separation of each
+  /// query.
   CLI::Option* add_to(CLI::App& command, bool can_be_drawn = false);
   [[nodiscard]] bool is_given() const { return !text.empty(); }
-  /// The separation of families that have none of their own: "drawn" or a positive number; "" for contact. Throws Error.
+  /// The separation to use in families that have none of their own: "drawn" or a positive number; "" for
+  /// contact. Throws Error.
   [[nodiscard]] std::string of_families() const;
   /// The query with the separation, if one is given. Throws Error.
   [[nodiscard]] Query apply(const Query& query) const;
 };
 
-/// Throws Error if the subject does not take a separation, or if one of them does not.
+/// Throws Error if the subject, or one of several subjects, does not take separations.
 void expect_separation(const Subject& subject);
 void expect_separations(const Subjects& subjects);
 
@@ -69,8 +71,8 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// Makes the subjects of these texts (fuzz/subjects/subjects.hpp), under different names; each plug-in runs in its own process.
-/// Throws Error.
+/// Makes the subjects that these texts denote (fuzz/subjects/subjects.hpp), with distinct names; each plug-in
+/// runs in its own process. Throws Error.
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 

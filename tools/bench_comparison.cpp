@@ -67,7 +67,9 @@ std::string_view Change::verdict() const { return hi < 1 ? "faster" : lo > 1 ? "
 
 Change change_of(std::vector<double> ratios) {
   std::sort(ratios.begin(), ratios.end());
-  // The median is between the order statistics k and n + 1 - k unless fewer than k ratios are on one side of it.
+  // The true median is between the order statistics k and n + 1 - k, unless fewer than k ratios are on one
+  // side of it. The loop finds the largest k for which that happens with a probability of at most 2.5 % for
+  // each side.
   const boost::math::binomial below(static_cast<double>(ratios.size()), 0.5);
   std::size_t k = 1;
   while (k < ratios.size() / 2 && boost::math::cdf(below, static_cast<double>(k)) <= 0.025) ++k;

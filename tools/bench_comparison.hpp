@@ -1,4 +1,4 @@
-// What two series of runs of nearmiss bench, taken in turn, say about a change.
+// Compares two series of runs of nearmiss bench, before and after a change, that were made in turn.
 #pragma once
 
 #include <string>
@@ -20,12 +20,14 @@ struct Change {
   [[nodiscard]] std::string_view verdict() const;
 };
 
-/// The change that the ratios of at least `fewest_pairs` pairs show. The interval is that between two order statistics, which
-/// assumes nothing about the distribution (David and Nagaraja, Order Statistics, 3rd edition, 7.1).
+/// Computes the change from the ratios of at least `fewest_pairs` pairs. The ends of the interval are two of
+/// the ratios (order statistics), so it is valid for any distribution (David and Nagaraja, Order Statistics,
+/// 3rd edition, 7.1).
 Change change_of(std::vector<double> ratios);
 
-/// A table of the changes of all rows. Run i of one series is compared with run i of the other, by the medians over their
-/// passes. Throws Error if the series are of different lengths or too short, or if the runs are those of different processors.
+/// A table of the changes of all rows. Run i of one series is compared with run i of the other, by the
+/// medians over their passes. Throws Error if the series have different lengths or are too short, or if the
+/// runs used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

@@ -16,7 +16,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// JSON has no NaN; a time that is none is null.
+/// Times as JSON. JSON has no NaN, so a missing time is null.
 nlohmann::ordered_json times_to_json(const std::vector<double>& times) {
   auto json = nlohmann::ordered_json::array();
   for (const double time : times) json.push_back(time);
@@ -89,7 +89,7 @@ void append_to_history(const std::filesystem::path& file, const BenchRun& run) {
   std::string text;
   if (std::filesystem::exists(file)) {
     text = text_of(file);
-    runs_of(text, file);  // refuses a file of another kind
+    runs_of(text, file);  // throws if the file is of another kind
     if (!text.empty() && text.back() != '\n') text += '\n';
   }
   replace_file(file, text + to_json(run).dump() + '\n');

@@ -12,7 +12,7 @@
 
 namespace nearmiss::tools {
 
-/// What is timed: a subject on the queries of one kind of an input.
+/// What a row of the table times: a subject on the queries of one kind in one input.
 struct TimedRow {
   std::string input, kind;
   std::size_t queries = 0;
@@ -33,7 +33,8 @@ nlohmann::ordered_json to_json(const BenchRun& run);
 /// The runs in a file, one a line as JSON, in their order. Throws Error.
 std::vector<BenchRun> read_history(const std::filesystem::path& file);
 
-/// Adds a run at the end of such a file, which may not exist yet. The file stays as it was if that is impossible. Throws Error.
+/// Adds a run at the end of such a file, which may not exist yet. Throws Error, and leaves the file as it
+/// was, if that is impossible.
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
 }  // namespace nearmiss::tools

@@ -24,7 +24,7 @@ namespace {
 /// The time limit of a campaign.
 using TimeLimit = std::optional<std::chrono::duration<double>>;
 
-/// The finished fraction of the campaign: of its cases, or of its time if that ends sooner.
+/// The finished fraction of the campaign's cases, or of its time if that is larger.
 std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
@@ -61,7 +61,7 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
-  // "all" means the families that fit the question.
+  // "all" includes the families with separations of their own only if separations are to be drawn.
   const std::string separation = options.separation.of_families();
   const bool is_drawn = separation == drawn_separation;
   const auto all = std::span(known).first(is_drawn ? known.size() : contact);

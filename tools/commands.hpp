@@ -5,15 +5,16 @@
 
 namespace nearmiss::tools {
 
-/// Exit codes: a contract with scripts. They are the same for every subcommand that shows results.
+/// Exit codes, on which scripts depend. They are the same for every subcommand that shows results.
 inline constexpr int exit_fine = 0;
-/// The results that were shown have one of usual_failures() (reports/statistics/failure.hpp), or one that --fail-on names, whether
-/// or not a baseline has it too.
+/// The shown results have a failure of usual_failures() (reports/statistics/failure.hpp), or one that
+/// --fail-on names, even if a baseline has it, too.
 inline constexpr int exit_found = 1;
 inline constexpr int exit_bad_input = 2;  ///< bad usage or bad input, or output that cannot be written
 inline constexpr int exit_interrupted = 130;
 
-// Each function adds its subcommand to the command line. A subcommand that runs stores its exit code.
+// Each function adds its subcommand to the command line. When the subcommand runs, it stores its exit code in
+// `exit_code`.
 void add_demo(CLI::App& app, int& exit_code);
 void add_oracle(CLI::App& app, int& exit_code);
 void add_verdict(CLI::App& app, int& exit_code);

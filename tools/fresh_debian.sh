@@ -1,17 +1,19 @@
 # shellcheck shell=bash
-# A fresh Debian in a folder: sourced by scripts, after options.sh. Needs root, mmdebstrap, and Debian's mirror.
+# A fresh Debian in a folder: sourced by scripts, after options.sh. Needs root, mmdebstrap, and Debian's
+# mirror.
 
-# make_debian RELEASE FOLDER [OPTION...]: installs a release, such as trixie; the options are those of mmdebstrap.
+# make_debian RELEASE FOLDER [OPTION...]: installs a release, such as trixie; the options are those of
+# mmdebstrap.
 make_debian() {
   ((EUID == 0)) || refuse "needs root"
   command -v mmdebstrap >/dev/null || refuse "found no mmdebstrap, expected Debian's package"
   mmdebstrap --quiet --variant=minbase --include=mount "${@:3}" "$1" "$2"
 }
 
-# in_debian FOLDER COMMAND...: runs a command in it as root, with /proc, /sys and /dev. VARIABLE=VALUE may precede the command. Only
-# the command sees the mounts, which end with it.
+# in_debian FOLDER COMMAND...: runs a command in this Debian as root, with /proc, /sys and /dev.
+# VARIABLE=VALUE may precede the command. The mounts are visible only to the command and end with it.
 in_debian() {
-  # shellcheck disable=SC2016  # the variables are those of the inner shell
+  # shellcheck disable=SC2016  # the inner shell expands the variables
   unshare --mount sh -ec '
     mount --bind "$0" "$0"
     cd "$0"

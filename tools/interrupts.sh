@@ -1,9 +1,10 @@
 # shellcheck shell=bash
-# Interrupts of scripts that run other programs for hours. Bash runs a trap only after the foreground program has ended.
-# Therefore a script sources this file and runs programs with `attend`.
+# Lets scripts that run other programs for hours react to interrupts at once. Bash itself runs a trap only
+# after the foreground program has ended. Therefore a script sources this file and runs programs with
+# `attend`.
 
 interrupted=false  # whether INT, TERM or HUP has come
-attended=          # the process to which they are passed on
+attended=          # the process to which these signals are passed on
 
 # Passes a signal on as TERM, because a background program of a script ignores INT.
 on_interrupt() {
@@ -12,7 +13,8 @@ on_interrupt() {
 }
 trap on_interrupt INT TERM HUP
 
-# await PROCESS: waits for a background process to end, whatever signals come meanwhile, and returns its exit code.
+# await PROCESS: waits until a background process has ended, even if signals come meanwhile, and returns its
+# exit code.
 await() {
   local code=0
   while kill -0 "$1" 2>/dev/null; do wait "$1" || true; done  # a signal ends the wait
@@ -20,20 +22,22 @@ await() {
   return $code
 }
 
-# attend COMMAND...: runs a program. An interrupt ends it with TERM, or keeps it from starting. Returns its exit code, or
-# 130 if it did not start. A program that leaves its children behind needs setsid(1): then TERM goes to all of them.
+# attend COMMAND...: runs a program. An interrupt ends it with TERM, or keeps it from starting. Returns its
+# exit code, or 130 if it did not start. A program that leaves its children behind needs setsid(1): then TERM
+# goes to all of them.
 attend() {
   local code=0
   ! $interrupted || return 130
   "$@" &
   attended=$!
-  if $interrupted; then on_interrupt; fi  # it came before the process was known
+  if $interrupted; then on_interrupt; fi  # the signal came before the process was known
   await "$attended" || code=$?
   attended=
   return $code
 }
 
-# shield COMMAND...: runs a short program that an interrupt must not end, such as the one that writes the report.
+# shield COMMAND...: runs a short program that an interrupt must not end, such as the one that writes the
+# report.
 shield() {
   setsid "$@" &
   await $!

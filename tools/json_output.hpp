@@ -1,4 +1,4 @@
-// --json FILE: the results as JSON, apart from the text that people read.
+// --json FILE: results as JSON, in addition to the text that people read.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,8 +9,8 @@
 
 namespace nearmiss::tools {
 
-/// Where a command writes its results as JSON: to a file, to standard output (-), or nowhere. With --json -, standard
-/// output gets the JSON and nothing else; the text goes to standard error.
+/// Where a command writes its results as JSON: to a file, to standard output (-), or nowhere. With --json -,
+/// standard output gets the JSON and nothing else; the text goes to standard error.
 class JsonOutput {
  public:
   /// Adds --json.
@@ -22,14 +22,14 @@ class JsonOutput {
   /// Where the command prints its text.
   [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
 
-  /// Throws Error if the file cannot be written, as far as can be known before.
+  /// Throws Error if it is already clear that the file cannot be written.
   void expect_writable() const;
 
   /// Throws Error if the JSON would replace this file.
   void expect_other_file(const std::filesystem::path& file) const;
 
-  /// Writes the JSON if it is wanted, indented by `indent` blanks; a file whole or not at all. Throws Error if it
-  /// cannot be written.
+  /// Writes the JSON if it is wanted, indented by `indent` blanks; a file whole or not at all. Throws Error
+  /// if it cannot be written.
   void write(const nlohmann::ordered_json& json, int indent = 2) const;
 
   /// The file; empty if there is none.

@@ -44,7 +44,7 @@ constexpr const char* exit_codes =
     "as the\n"
     "machine can, which is the default. It changes no answer.";
 
-/// The number of letters to change, add or leave out to make one word of another.
+/// The smallest number of letters to change, add or remove that turns one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -59,7 +59,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Throws Error if the first word is no subcommand, and names the nearest one.
+/// Throws Error if the first word is not a subcommand; the message names the nearest subcommand.
 void expect_subcommand(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -85,8 +85,8 @@ std::string with_short_words(std::string_view text) {
   return result;
 }
 
-/// Throws Error if an argument or the value of an option is empty, or a list of nothing, as from a variable of a
-/// shell that is not set.
+/// Throws Error if an argument or the value of an option is empty, or consists only of commas. This happens
+/// if a variable of the shell is not set.
 void expect_values(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
@@ -101,7 +101,8 @@ void expect_values(int argc, char** argv) {
   }
 }
 
-/// Sets how many doubles are computed side by side, if a variable of the environment says so.
+/// Sets how many doubles vector instructions compute at once, if the environment variable NEARMISS_LANES says
+/// so.
 void choose_lanes(const char* variable) {
   if (variable == nullptr || *variable == '\0') return;
   try {
@@ -122,7 +123,7 @@ void expect_output() {
     throw nearmiss::Error(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
 }
 
-/// Prints the command that continues an interrupted one, if that has a store.
+/// Prints the command that continues an interrupted command, if that has a store.
 void print_continuation(const CLI::App& command, int argc, char** argv) {
   const CLI::Option* const store = command.get_option_no_throw("--db");
   const CLI::Option* const resume = command.get_option_no_throw("--resume");
@@ -166,9 +167,10 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-/// Lets the next slice of work use the memory of the last one. By default, the C library returns it to the system, which takes a
-/// tenth of the time of a fast campaign. A fixed threshold for returning memory also fixes the size of the blocks that come from
-/// the system one by one, so that is set to its maximum.
+/// Keeps freed memory for the next slice of work. By default, the C library returns it to the system, which
+/// takes a tenth of the time of a fast campaign. Setting the threshold for this also fixes the size from
+/// which a block gets a mapping of its own, which otherwise adapts to the program; therefore that size is set
+/// to its maximum.
 void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 << 20);  // bytes of each thread's memory
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -195,7 +197,7 @@ int main(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     print_reason(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
-    if (std::ferror(stdout) != 0)  // fmt::print throws, and does not name the stream
+    if (std::ferror(stdout) != 0)  // the exception of fmt::print does not name the stream
       print_reason(fmt::format("standard output cannot be written: {}", error.code().message()));
     else
       print_reason(error.what());

@@ -1,10 +1,11 @@
-// The options of scripts that node runs, by the rule of tools/options.sh: --help and -h print the comment at the top of the
-// script, and an unknown option ends the script with exit code 2 before it has done anything.
+// Reads the options of scripts for Node.js, in the same way as tools/options.sh: --help and -h print the
+// comment at the top of the script, and an unknown option ends the script with exit code 2 before it has done
+// anything.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";
 
-/** The options and other arguments of the script, which are declared as for parseArgs. */
+/** The options and other arguments of the script. Options are declared as for parseArgs of node:util. */
 export function readOptions(declared = {}, allowPositionals = false) {
   const script = process.argv[1];
   try {

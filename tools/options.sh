@@ -1,21 +1,21 @@
 # shellcheck shell=bash
-# The options of all scripts. A script sources this file before anything else, and declares its options with `options`.
-# A script's usage is the comment at its top.
+# The options of all scripts. A script sources this file before anything else, and declares its options with
+# `options`. A script's usage is the comment at its top.
 script=$(realpath "$0")
 script_name=${script#"$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")/"}
 
-# Ends the script before it has done anything: one line says why.
+# refuse WHY: ends the script with exit code 2 and one line that says why.
 refuse() { echo "$script_name: $1" >&2; exit 2; }
 
 # Prints the usage.
 usage() { sed -n '2,/^[^#]/ { /^#SBATCH/d; /^# shellcheck/d; s/^# \{0,1\}//p }' "$script"; }
 
 # options SPECIFICATION ARGUMENTS...: reads the arguments of the script.
-# The specification lists the options: 'time= first' stands for --time VALUE (or --time=VALUE) and the flag --first. A
-# value goes to the variable with the option's name, in which - is replaced by _; a flag's variable becomes true. Other
-# arguments go to the array `arguments`. With * in the specification, unknown options are among them. After --, every
-# argument is one of them; the array has the -- too.
-# -h and --help print the usage. An unknown option or a missing value is refused.
+# The specification lists the options: 'time= first' stands for --time VALUE (or --time=VALUE) and the flag
+# --first. A value goes to the variable with the option's name, in which - is replaced by _; a flag's variable
+# becomes true. Other arguments go to the array `arguments`. With * in the specification, so do unknown
+# options. The array also gets a -- and every argument after it. -h and --help print the usage. An unknown
+# option or a missing value is refused.
 options() {
   local specification=" $1 " name
   shift
@@ -50,7 +50,7 @@ options() {
   done
 }
 
-# Takes an option that is not in the specification of `options`.
+# Handles an option that is not in the specification of `options`.
 keep_unknown() {
   local known
   if [[ $specification == *" * "* ]]; then arguments+=("$1"); return; fi

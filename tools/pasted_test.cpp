@@ -56,8 +56,8 @@ std::string what_is_true(const Query& query) {
   return fmt::format("{}, first between t = {} and t = {}.", what_happens(query), to_hex(lo), to_hex(hi));
 }
 
-/// The largest double that is not a late time. Throws Error if the distance first only touches h, because an answer after
-/// that may be right.
+/// The largest double that is not a late time. Throws Error if the distance first touches h without falling
+/// below it: then it is not a failure to give a later time.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;
@@ -98,13 +98,13 @@ std::string comment(const Finding& finding, std::string_view mark) {
   return text;
 }
 
-/// A function of the reader that the test calls.
+/// A function that the test calls and that the reader of the test must write.
 struct Asked {
   std::string name, returns;
   std::string type;  ///< in C++
 };
 
-/// Whether the subject reported a collision with a time that is none.
+/// Whether the subject reported a collision with an invalid time.
 bool is_of_invalid_time(const Finding& finding, TimeSort sort) {
   return finding.what == Finding::What::fault && sort != TimeSort::none &&
          is_of_invalid_answer(finding.signature);
@@ -124,7 +124,7 @@ std::vector<Asked> functions(const Finding& finding, TimeSort sort) {
   return all;
 }
 
-/// The condition that the test asserts, with these arguments of all calls.
+/// The condition that the test asserts; `arguments` are the arguments of every call.
 std::string expectation(const Finding& finding, TimeSort sort, const std::string& arguments, Form language) {
   const bool python = language == Form::python;
   const std::string time = "time_of_impact" + arguments;
@@ -141,7 +141,7 @@ std::string expectation(const Finding& finding, TimeSort sort, const std::string
                    : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);
 }
 
-/// The request for functions of the reader, as a comment, and in C++ their declarations.
+/// A comment that asks the reader to write the functions, followed in C++ by their declarations.
 std::string request(const std::vector<Asked>& functions, bool has_separation, Form language) {
   const bool python = language == Form::python;
   std::string text, declarations;

@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::size_t printed_findings = 10;
 constexpr auto save_interval = std::chrono::milliseconds(500);
-constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // because all findings are written
+constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // rare, because it writes all findings
 
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
@@ -39,7 +39,7 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// Prints what failed, the simplest query that fails in the same way, and what explains it.
+/// Prints what failed, the simplest query that fails in the same way, and an explanation of this query.
 void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
   fmt::print(text, "  {} {} {} ({} query; {}, {} in all)\n", name(finding.what), finding.subject,
              finding.provenance, name(finding.query_class), finding.signature, seen_text(seen));
@@ -93,7 +93,7 @@ Record::~Record() {
   if (!store_) return;
   try {
     if (unsaved_) save_now();
-  } catch (const std::exception&) {  // such as a full disk, which has ended the command, too
+  } catch (const std::exception&) {  // the cause, such as a full disk, has also ended the command
   }
   if (saved_) return;
   store_.reset();
@@ -188,14 +188,14 @@ int Record::finish(bool interrupted, bool complete) {
              funnel_tables(statistics_));
   const auto findings = campaign.findings();
   print_broken(text, findings, statistics_);
-  std::set<Signature> printed;  // one finding of each way to fail
+  std::set<Signature> printed;  // prints one finding of each way to fail
   for (const Finding& each : findings) {
     if (printed.size() == printed_findings) break;
     if (!printed.insert(signature_of(each)).second) continue;
     if (printed.size() == 1) fmt::print(text, "\nthe first findings:\n");
     print(text, each, statistics_.times_seen(signature_of(each)));
   }
-  std::fflush(text);  // so that it is there if the file cannot be written
+  std::fflush(text);  // so that the text is shown even if the file cannot be written
   options_.json.write(summary_json(campaign));
   if (interrupted) return exit_interrupted;
   return options_.fail_on.exit_code(statistics_);

@@ -30,10 +30,10 @@ struct RecordOptions {
   void add_to(CLI::App& command);
 };
 
-/// The part of a run's description that all commands share: this version and commit, and the command.
+/// The facts of a run that all commands have: the version and the commit of nearmiss, and the command.
 RunInfo run_info(const std::string& command);
 
-/// The compiler, its flags and the processor behind a run's times.
+/// The facts on which a run's times depend: the compiler, its flags and the processor.
 RunInfo environment();
 
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
@@ -43,14 +43,15 @@ class Record {
   Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
-  /// Saves what was added, if an exception ends the command. Removes the store if nothing was ever saved in it.
+  /// Saves what was added, if an exception ends the command. Removes the store if nothing was ever saved in
+  /// it.
   ~Record();
 
-  /// The shard, with what earlier processes did of it.
+  /// The shard, including the work of earlier processes if the run was resumed.
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result, and replaces findings that are shrunk now; saves at intervals.
+  /// Adds a result, and replaces findings that have been shrunk since; saves at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
@@ -58,7 +59,7 @@ class Record {
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
-  /// Counts that these subjects were on trial, also those that could be asked nothing.
+  /// Adds these subjects to the results, including those that could not be asked any query.
   void add_unasked(const Subjects& subjects);
 
   /// Saves, writes the JSON, prints the summary and the first findings, and returns the exit code.
@@ -76,10 +77,10 @@ class Record {
   Shard shard_;
   double seconds_before_ = 0;
   std::optional<Store> store_;
-  bool saved_ = false;    // ever
+  bool saved_ = false;    // whether anything was ever saved
   bool unsaved_ = false;  // something was added since the last save
   Statistics statistics_;
-  std::set<CountsKey> set_aside_;  // those that were announced
+  std::set<CountsKey> set_aside_;  // slow subjects whose setting aside was already announced
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved

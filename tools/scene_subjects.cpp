@@ -18,7 +18,8 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The largest bound B (§5) of all pairs whose boxes meet, over all steps, rounded up to four digits.
+/// The largest bound B (§5 of the paper) of all pairs whose boxes meet, over all steps, rounded up to four
+/// digits.
 double scene_bound(const Scene& scene) {
   double largest = 0;
   for_each_step(scene, never_over, [&](std::size_t, const MovingMesh& mesh) {
@@ -31,7 +32,7 @@ double scene_bound(const Scene& scene) {
   return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
 }
 
-/// Whether a given bound makes a difference to a subject.
+/// Whether a subject's answers depend on a given bound.
 bool uses_bound(const std::string& text) {
   Query query;
   query.x[0] = 1;

@@ -22,9 +22,9 @@ struct SceneSubjects {
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene, const Stop& stop);
 
-/// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of contact;
-/// prints the claim and the cost of each subject to `out`. Throws Error if there is no such subject, or if the
-/// thickness is not a number.
+/// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of
+/// contact; prints the claim and the cost of each subject to `out`. Throws Error if there is no such subject,
+/// or if the thickness is not a number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects, std::FILE* out);
 

@@ -31,7 +31,7 @@ extern "C" void on_signal(int /*signal*/) {
 
 void handle_interrupts(void (*handler)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    // A signal that is ignored from the start, as nohup(1) arranges, stays so.
+    // A signal that was ignored when the program started, as under nohup(1), stays ignored.
     if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
@@ -58,7 +58,8 @@ std::string cut(std::string line) {
 }  // namespace
 
 void occupy_standard_streams() {
-  // open() takes the lowest free descriptor. The stream is opened for the direction in which it is not used.
+  // open() takes the lowest free descriptor. The stream is opened for the direction in which it is not used,
+  // so that its use fails.
   using Stream = std::pair<int, int>;
   for (const auto& [descriptor, direction] :
        {Stream{STDIN_FILENO, O_WRONLY}, Stream{STDOUT_FILENO, O_RDONLY}, Stream{STDERR_FILENO, O_RDONLY}})

@@ -1,4 +1,4 @@
-// The terminal and the signals: progress on stderr, and the request to stop.
+// Progress on stderr, and the signals that ask the program to stop.
 #pragma once
 
 #include <atomic>
@@ -8,20 +8,22 @@
 
 namespace nearmiss::tools {
 
-/// Opens /dev/null for each standard stream that was closed when the program started, so that no store and no socket
-/// gets its descriptor. As with a closed stream, reading or writing it is an error. To be called before any file is
-/// opened.
+/// Opens /dev/null for each standard stream that was closed when the program started, so that no store and no
+/// socket gets its descriptor. Reading or writing the stream is still an error. Must be called before any
+/// file is opened.
 void occupy_standard_streams();
 
-/// Until `interrupted` is called, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code of an interrupt.
-/// A pipe without a reader, and a file that reaches the limit of its size, become errors of the one who writes.
+/// Until `interrupted` is called, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code of
+/// an interrupt. Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an error
+/// instead of a signal.
 void end_on_signals();
 
-/// SIGINT, SIGTERM and SIGHUP set this flag, from the first call of this function on. A second signal, at least two
-/// seconds later, ends the program at once.
+/// The flag that SIGINT, SIGTERM and SIGHUP set, from the first call of this function on. A second signal, at
+/// least two seconds later, ends the program at once.
 const std::atomic<bool>& interrupted();
 
-/// Shows progress on stderr: one line that is overwritten; a new line every minute if stderr is not a terminal.
+/// Shows progress on stderr: one line that is overwritten; a new line every minute if stderr is not a
+/// terminal.
 class Progress {
  public:
   explicit Progress(bool quiet = false);
@@ -29,7 +31,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// Whether a new line is due. Callers need not make a line before that.
+  /// Whether it is time for a new line. Until then, callers need not make one.
   [[nodiscard]] bool due() const;
   /// `done` is the finished fraction, if it is known; a terminal shows it as a bar.
   void show(const std::string& line, std::optional<double> done = std::nullopt);

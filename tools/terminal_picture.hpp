@@ -7,8 +7,9 @@
 
 namespace nearmiss::tools {
 
-/// Lines of text that show the query in parallel projection along the axis along which it is the shortest: both primitives at
-/// a time, the first with 'o' and the second with '#', their vertices with their numbers, and the vertices' paths with '.'.
+/// Lines of text that show the query at a time, in parallel projection along the axis of its smallest extent:
+/// the first primitive with 'o', the second with '#', vertices with their numbers, and the paths of the
+/// vertices with '.'.
 std::string terminal_picture(const Query& query, double time);
 
 }  // namespace nearmiss::tools

@@ -129,7 +129,7 @@ std::string shrinking_line(std::size_t left) {
 
 namespace {
 
-/// The text of a plug-in with the whole path of its file. A program's command stays as it is.
+/// The text that denotes a plug-in, with the whole path of its file. The command of a program stays as it is.
 std::string absolute_text(const Subject& subject) {
   const auto [name, plugin] = SubjectText::parse(text_of(subject));
   const std::string given = name.empty() ? "" : name + "=";

@@ -11,7 +11,8 @@
 
 namespace nearmiss::tools {
 
-/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --shrink, --jobs
+/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --shrink,
+/// --jobs
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
   bool beyond_contract = false;
@@ -22,24 +23,26 @@ struct TrialOptions {
 
   void add_to(CLI::App& command);
 
-  /// The limits of plug-ins in trials, which end when `stop` is due.
+  /// The limits of plug-ins. When `stop` is due, questions to plug-ins end, too.
   [[nodiscard]] isolation::PluginLimits plugin_limits(const Stop& stop) const;
 
-  /// The subjects, which are asked what their contracts allow (contracted.hpp). Throws Error for an unknown name.
+  /// The subjects, wrapped so that they are asked only what their contracts allow (contracted.hpp). Throws
+  /// Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
-  /// The same of subjects that are made without regard to their contracts, under different names (tell_apart).
+  /// Wraps subjects in the same way that were made without regard to their contracts, and gives them distinct
+  /// names (tell_apart).
   Subjects keep_contracts(Subjects made) const;
 
-  /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is the
-  /// subcommand with its own arguments. The entry `again` is the command that repeats the run.
+  /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is
+  /// the subcommand with its own arguments. The entry `again` is the command that repeats the run.
   [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
 
-/// Notes the value of an option that a run's results depend on, and adds the option to the command that repeats
-/// the run.
+/// Notes an option on which a run's results depend: its value as a fact, and the option in the command that
+/// repeats the run.
 void note_option(RunInfo& info, const std::string& fact, const std::string& option, const std::string& value);
 
-/// The progress of a command that has asked everything, and shrinks what it has found.
+/// The line of progress of a command that has asked all queries and shrinks its findings.
 std::string shrinking_line(std::size_t left);
 
 /// The path of each plug-in on this machine, and its build id.

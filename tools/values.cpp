@@ -14,7 +14,8 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The number that digits give; nothing if there are other characters, or more than 64 bits.
+/// The number that the text's digits denote; nothing if it has other characters, or if the number exceeds 64
+/// bits.
 std::optional<std::uint64_t> digits(std::string_view text) {
   std::uint64_t value = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -22,7 +23,7 @@ std::optional<std::uint64_t> digits(std::string_view text) {
   return value;
 }
 
-/// The number that DIGITS or DIGITSeDIGITS gives.
+/// The number that DIGITS or DIGITSeDIGITS denotes.
 std::optional<std::uint64_t> count(std::string_view text) {
   const std::size_t e = text.find_first_of("eE");
   auto value = digits(text.substr(0, e));
@@ -63,7 +64,7 @@ std::uint64_t parse_size(std::string_view text, std::string_view option) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   const auto number = digits(text.substr(0, end));
   const std::string_view unit = text.substr(end);
-  const std::size_t power = unit.empty() ? 0 : units.find(unit.front()) + 1;  // 0 also if it is no unit
+  const std::size_t power = unit.empty() ? 0 : units.find(unit.front()) + 1;  // also 0 for an unknown unit
   const std::string_view rest = unit.substr(std::min<std::size_t>(unit.size(), power == 0 ? 0 : 1));
   const bool is_unit = rest.empty() || rest == "B" || (power != 0 && rest == "iB");
   const std::size_t shift = bits_of_unit * power;

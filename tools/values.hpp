@@ -1,4 +1,4 @@
-// Values of options as people write them. A value that is refused is named with its option.
+// Parses values of options as people write them. Errors name the value and its option.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,11 +19,12 @@ std::uint64_t parse_count(std::string_view text, std::string_view option, std::u
 /// Parses "500ms", "30s", "2m", "8h". Throws Error that names the option.
 std::chrono::duration<double> parse_duration(std::string_view text, std::string_view option);
 
-/// Parses a number of bytes: "0", "512M", "1G", "1GiB"; units are powers of 1024. Throws Error that names the option.
+/// Parses a number of bytes: "0", "512M", "1G", "1GiB"; units are powers of 1024. Throws Error that names the
+/// option.
 std::uint64_t parse_size(std::string_view text, std::string_view option);
 
-/// Adds an option whose value is a whole number from `least` to `most`; help shows its present value. `value` must live
-/// as long as the command.
+/// Adds an option whose value is a whole number from `least` to `most`. --help shows the present value as the
+/// default. `value` must live as long as the command.
 template <class Integer>
 CLI::Option* add_count_option(CLI::App& command, const std::string& name, Integer& value, std::uint64_t least,
                               std::uint64_t most, const std::string& description) {

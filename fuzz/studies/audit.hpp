@@ -1,4 +1,5 @@
-// The rounding constants of the paper and of ccd/: as quoted, as derived by the paper's Theorem 4.1, and as proven.
+// The rounding constants of the paper and of ccd/, each with the quoted value, the value by the paper's
+// Theorem 4.1, and the proven value.
 #pragma once
 
 #include <limits>
@@ -17,13 +18,15 @@ struct RoundingConstant {
   std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
   std::string_view unit;
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
-  /// The bound by Theorem 4.1 for the operations in ccd/ on exact vectors, to first order; or the value that follows from other rows.
+  /// The first-order bound by Theorem 4.1 for the operations in ccd/ on exact vectors; or the value that
+  /// follows from other rows.
   double derived = none;
-  /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors (ccd/wang/bounds/proven.hpp).
+  /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors
+  /// (ccd/wang/bounds/proven.hpp).
   double proven = none;
   std::string_view note = "";
 
-  /// Whether nothing shows that the constant is large enough.
+  /// Whether neither the theorem nor a proof shows that the constant is large enough.
   [[nodiscard]] bool is_too_small() const {
     return quoted > 0 && !(derived <= quoted) && !(proven <= quoted);
   }
@@ -32,7 +35,8 @@ struct RoundingConstant {
   [[nodiscard]] double slack() const { return quoted / derived; }
 };
 
-/// Bounds of rounding errors. tests/proofs/ checks each row: the theorem gives `derived`, and Gappa proves `proven`.
+/// Bounds of rounding errors. tests/proofs/ checks each row: the theorem gives `derived`, and Gappa proves
+/// `proven`.
 std::vector<RoundingConstant> rounding_bounds();
 
 /// Constants that follow from other constants.

@@ -19,11 +19,12 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// Families of contact for a subject; if it takes a separation, also the same families with drawn separations.
+/// The families of contact; for a subject that takes separations, also the same families with drawn
+/// separations.
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact);
 
-/// Runs a campaign until a subject misses a collision, its distance bound is refuted, or its time is late; nothing if the
-/// campaign ends before.
+/// Runs a campaign until a subject misses a collision, its distance bound is refuted, or its time is late;
+/// nothing if the campaign ends before.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const Stop& stop);
 

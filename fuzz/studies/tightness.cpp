@@ -22,7 +22,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Some of the accepting tests, and the subject that is wang without the tests that accept from farther away.
+/// A group of the tests with which wang accepts a query. The subject is wang without the tests that accept
+/// from farther away than this group.
 struct Tests {
   std::string_view name, subject;
 };
@@ -37,8 +38,8 @@ struct Gauge {
   Extreme nothing;
   std::unique_ptr<Subject> subject;
   Family search;
-  /// The value of a query. It is `nothing.value` if the query has no value, and nothing if the query does not
-  /// count.
+  /// Measures a query. The result is `nothing.value` if the query shows nothing, and std::nullopt if it is
+  /// not of the kind that is measured (collisions, or false positives).
   std::function<std::optional<double>(const Query&)> read;
 };
 
@@ -50,8 +51,8 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance) {
   const auto read = [&tolerance, &subject = *subject,
                      none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
-    // The needed factor is known to a few bits, from above. A slightly smaller factor must make the subject
-    // miss; otherwise the query gives no value.
+    // needed_tolerance is a slight overestimate. The query gives a value only if the subject indeed misses it
+    // with a slightly smaller factor.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;
@@ -80,7 +81,7 @@ Gauge gauge_of(std::string_view name) {
                           fmt::join(tightness_names(), ", ")));
 }
 
-/// The extreme value among some queries of a family.
+/// The extreme value among a block of queries of a family.
 Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed, std::uint64_t first,
                    std::uint64_t count) {
   Extreme sum = gauge.nothing;

@@ -22,16 +22,18 @@ struct TightnessPlan {
   int jobs = 1;
 };
 
-/// The names of the tolerances, and of the tests that accept: "proximity", "vertex-edge", "vertex-vertex".
+/// The names of the tolerances, and of the groups of accepting tests: "proximity", "vertex-edge",
+/// "vertex-vertex".
 std::vector<std::string> tightness_names();
 
-/// Receives the result for a name so far; `done` is set when its time is over.
+/// Receives the result so far for a name; `done` is set when the time for this name is over.
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
 /// For a tolerance, half of the queries are drawn from all families, and directed search finds the other
-/// half, which are collisions that need most of the tolerance. Each collision has a factor of the tolerance
-/// below (or above) which the subject misses it. For tests, the same is done with false positives of wang
-/// without the tests that accept from farther away. Throws Error for an unknown name.
+/// half: collisions that need most of the tolerance. Each collision gives a factor: if the tolerance is
+/// multiplied by less than it (or by more), the subject misses the collision. For a group of tests, false
+/// positives are measured instead, those of wang without the tests that accept from farther away. Throws
+/// Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

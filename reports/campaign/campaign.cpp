@@ -18,10 +18,10 @@ namespace nearmiss {
 
 namespace {
 
-/// Sorts findings as one machine would have found them, and drops findings that one machine would not have
-/// kept.
+/// Sorts findings into the order in which one machine would have found them, and drops those that it would
+/// not have kept.
 void keep_first(std::vector<Finding>& findings) {
-  // The findings of a case are those of one shard, and in order.
+  // All findings of a case come from one shard, which has them in order.
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
@@ -70,7 +70,7 @@ std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& o
 
 namespace {
 
-/// The place of a finding in the order in which they are shown.
+/// The key by which findings are sorted for display.
 auto place_of(const Finding& finding, const Statistics& statistics) {
   const bool is_of_oracle = finding.subject.empty();
   const auto times_seen = statistics.times_seen(signature_of(finding));
@@ -103,7 +103,7 @@ std::vector<Finding> Campaign::findings() const {
 
 namespace {
 
-/// Throws Error if it is not known which run some results are of, because they could count twice.
+/// Throws Error if the campaign has results of an unknown run: merged, they could count twice.
 void expect_known_runs(const Campaign& campaign, const std::string& name) {
   if (std::any_of(campaign.runs.begin(), campaign.runs.end(),
                   [](const Run& run) { return run.info.contains(origin_fact); }))
@@ -176,7 +176,7 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
 
 namespace {
 
-/// How far a run of one shard has come that is not complete.
+/// How far an incomplete run of one shard has come.
 std::string how_far(const Run& run) {
   const Shard& shard = run.shards.front();
   const std::string after = "stopped after " + with_separators(shard.cases);
@@ -192,7 +192,7 @@ std::string how_far(const Run& run) {
 std::string missing_shards(const Run& run) {
   std::vector<std::uint64_t> missing;
   std::vector<std::uint64_t> unfinished;
-  std::vector<std::string> asked;  ///< by the unfinished ones
+  std::vector<std::string> asked;  ///< number of cases of each unfinished shard
   auto shard = run.shards.begin();
   const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;
   for (std::uint64_t index = 0; index < count; ++index) {

@@ -1,4 +1,5 @@
-// A campaign: what was run, how far it got, and what it found. A store holds campaigns, and a report shows one.
+// A campaign: what was run, how far it got, and what it found. A store holds campaigns, and a report shows
+// one.
 #pragma once
 
 #include <cstdint>
@@ -17,28 +18,29 @@ namespace nearmiss {
 /// Facts by name.
 using RunInfo = std::map<std::string, std::string>;
 
-/// Beginning of the names of facts about a plug-in: "plug-in NAME sha256" and "plug-in NAME version" in a run, and
-/// "plug-in NAME", which names it on the command line with its whole path, and "plug-in NAME build id" in the environment of
-/// a shard.
+/// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256" and "plug-in NAME
+/// version". The environment of a shard has "plug-in NAME", which is how the command line names the plug-in,
+/// with its whole path, and "plug-in NAME build id".
 inline constexpr std::string_view about_plugin = "plug-in ";
-/// Beginning of the name of the fact about a run's built-in subject that was renamed: "subject NAME" is "NAME=SUBJECT".
+/// Beginning of the name of a run's fact about a renamed built-in subject: "subject NAME" is "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";
 
-/// Whether a fact of a run says which code ran, and not what it was asked to do: the version and the commit of nearmiss,
-/// and the bytes and the version of each plug-in.
+/// Whether a fact of a run says which code ran, not what the code was asked to do. Such facts are the version
+/// and the commit of nearmiss, and the bytes and the version of each plug-in.
 bool says_which_code(std::string_view fact);
 
-/// A fact that differs between two runs, and its two values; "" if a run does not have it. The command to repeat a run
-/// is not compared, because it repeats other facts.
+/// A fact that differs between two runs, and its two values; "" if a run does not have it. The command to
+/// repeat a run is not compared, because it repeats other facts.
 struct DifferentFact {
   std::string name, one, other;
 };
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
-/// Name of the fact of a run that says what a salvage lost of it. With this fact, it is another run, so that nothing
-/// resumes it.
+/// Name of the fact of a run that says what was lost when its store was salvaged. The fact makes it another
+/// run, so that no command resumes it.
 inline constexpr const char* salvaged_fact = "salvaged";
-/// Name of the fact that a salvage gives a run if rows about runs were lost, so that some results are of unknown runs.
+/// Name of the fact that a salvage gives to all runs if rows about runs were lost: some results may then
+/// belong to an unknown run.
 inline constexpr const char* origin_fact = "origin";
 
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
@@ -57,10 +59,10 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// A command with everything on which its results depend; equal runs give equal results. This includes the code that
-/// ran: the commit of nearmiss, and the bytes of each plug-in (`says_which_code`). The compiler of nearmiss, its flags
-/// and the path of a plug-in belong to the environment of a shard: answers do not depend on them, so that different
-/// machines can share a run.
+/// A command with everything on which its results depend; equal runs give equal results. The facts of a run
+/// include the code that ran: the commit of nearmiss, and the bytes of each plug-in (`says_which_code`). The
+/// compiler of nearmiss, its flags and the path of a plug-in belong to the environment of a shard: answers do
+/// not depend on them, so different machines can share a run.
 struct Run {
   RunInfo info;
   std::vector<Shard> shards;      ///< by index
@@ -75,17 +77,18 @@ struct Campaign {
   std::vector<Run> runs;  ///< by their facts
   Statistics statistics;
 
-  /// The findings of all runs, in the order in which they are shown: those of the oracle first, since they concern all others;
-  /// then by the class of the query, ordinary first; by the number of times that the signature was seen; and the simplest
-  /// first. If several findings of a signature and class are shrunk to the same query, only the first of them is listed.
+  /// The findings of all runs in the order of display. Failures of the oracle come first, since they put all
+  /// other findings in doubt. The rest is sorted by the class of the query, ordinary first; then by how often
+  /// the signature was seen; then the simplest first. If several findings of a signature and class are shrunk
+  /// to the same query, only the first of them is listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 
-/// Several campaigns as one: counters add up, shards of the same run come together, and the first findings of each
-/// signature are kept, so that all shards give the campaign that one machine would have run. The result does not depend
-/// on the order of the inputs. Throws Error, with the inputs' names, if two have the same shard of a run, divide a run
-/// into different numbers of shards, or have runs that differ only in the code that ran. Runs that were asked to do
-/// different things, as in different nights, stand side by side.
+/// Merges campaigns into one: counters add up, shards of the same run come together, and the first findings
+/// of each signature are kept. Thus all shards together give the campaign that one machine would have run.
+/// The result does not depend on the order of the inputs. Throws Error, with the inputs' names, if two inputs
+/// have the same shard of a run, divide a run into different numbers of shards, or have runs that differ only
+/// in the code that ran. Runs with different tasks, such as those of different nights, stay separate.
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
 
 /// A line that names the missing and the incomplete shards of a run; "" if all shards are complete.

@@ -9,7 +9,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The part of a magnitude in Complexity::awkward.
+/// The contribution of a magnitude to Complexity::awkward.
 int awkwardness(double magnitude) {
   if (magnitude < 10 && magnitude == std::floor(magnitude)) return 0;
   return magnitude < 100 && 4 * magnitude == std::floor(4 * magnitude) ? 1 : 2;

@@ -10,13 +10,12 @@
 
 namespace nearmiss {
 
-/// The complexity of a query. Two queries are compared by the members in this order.
+/// The complexity of a query. Two complexities are compared member by member, in the order of declaration.
 struct Complexity {
-  /// The sum over magnitudes that are hard to draw: 0 for an integer of one digit, 1 for another multiple of 1/4 below 100,
-  /// and 2 for any other.
+  /// How hard the distinct magnitudes are to draw: the sum of 0 for each integer of one digit, 1 for each
+  /// other multiple of 1/4 below 100, and 2 for each remaining magnitude.
   int awkward = 0;
-  int numbers =
-      0;  ///< nonzero coordinates, of which one at rest counts once, and the separation unless it is 0
+  int numbers = 0;    ///< nonzero coordinates (one at rest counts once), plus 1 if there is a separation
   int moving = 0;     ///< coordinates that are not at rest
   int distinct = 0;   ///< magnitudes other than 0, of the coordinates and the separation
   int bits = 0;       ///< sum of the significant bits of these magnitudes

@@ -9,18 +9,19 @@
 
 namespace nearmiss {
 
-/// The finding with its shrunk query in place of the original one. It has no ratio, which belongs to the original query.
+/// The finding with its shrunk query in place of the original one, and without the ratio of the original
+/// query.
 Finding of_shrunk(const Finding& finding);
 
 /// The case of a finding, with its truth if the finding implies one.
 Case to_case(const Finding& finding);
 
-/// A name for the case's file: what failed, the subject, and an `id` that distinguishes it. Subjects with similar names, such
-/// as "a b" and "a;b", have the same name, so the id must distinguish their cases too.
+/// A name for the case's file: what failed, the subject, and an `id` that distinguishes it. Subjects with
+/// similar names, such as "a b" and "a;b", have the same name, so the id must distinguish their cases too.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
-/// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A text of more
-/// than 60 bytes is cut, and a hash of it added.
+/// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A
+/// text of more than 60 bytes is cut, and a hash of it added.
 std::string file_name(std::string text);
 
 }  // namespace nearmiss

@@ -10,7 +10,7 @@ function failureTitle(finding) {
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** A picture with what there is to say about it. */
+/** A card with a picture and the text that belongs to it. */
 const pictureCard = (figure, content, attributes = {}) => made("article", [figure, made("div", content)], { class: "card", ...attributes });
 
 /** A query that is shown on demand. */
@@ -30,13 +30,20 @@ const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, fi
 
 // --- findings -------------------------------------------------------------------------------------
 
-/** The findings with their indices, new ones first, otherwise in the report's order: ordinary ones first, then those of the most frequent ways to fail; and the text in which a filter looks for words. */
+/**
+ * The findings, each with its index and the text in which a filter looks for words. New findings come first;
+ * otherwise
+ * the order is the report's: ordinary queries first, then the most frequent ways to fail.
+ */
 const findings = report.findings.map((finding, index) => ({ finding, index,
   words: [failureTitle(finding), finding.what, finding.signature, finding.kind, kindTitles[finding.kind], finding.family, finding.provenance,
     finding.explanation].join(" ").toLowerCase() }))
   .sort((a, b) => Number(b.finding.new) - Number(a.finding.new));
 const findingsAtOnce = 24;
-/** The chosen value of each field, "" for all; the words that must occur; and how many findings are shown at most. */
+/**
+ * The filter that hides nothing: the chosen value of each field ("" for all), the words that must occur, and
+ * how many findings are shown at most.
+ */
 const noFilter = { subject: "", what: "", kind: "", class: "", family: "", words: "", most: findingsAtOnce };
 const filter = { ...noFilter };
 
@@ -85,12 +92,13 @@ function drawFilter() {
     Object.assign(filter, { [target.name]: target.value, most: findingsAtOnce });
     drawCards();
   });
-  element("findings-filter").addEventListener("submit", (event) => event.preventDefault()); // Enter sends nothing
+  // Enter must not reload the page.
+  element("findings-filter").addEventListener("submit", (event) => event.preventDefault());
   element("more-findings").addEventListener("click", () => {
     const next = filter.most;
     filter.most += findingsAtOnce;
     drawCards();
-    element("findings").children[next].focus(); // the button may be gone
+    element("findings").children[next].focus(); // the button that had the focus may be gone
   });
 }
 
@@ -124,7 +132,8 @@ function drawExtremeTimes() {
   const rows = report.extreme_times;
   if (rows.length === 0) return;
   show("extreme-times-section");
-  // If the distance only touches h, a time after t* is not late. Where both occur, nobody says which this one is.
+  // A time after t* is not late if the distance of the primitives only touches h. If a subject has times of
+  // both sorts, the report does not say which sort this time is, so it is not called late.
   const isLate = ({ subject, kind, side }) => {
     const { late, after_histogram: after } = report.subjects[subject][kind];
     return side === "after" && late === after.reduce((a, b) => a + b, 0);

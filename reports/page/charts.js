@@ -15,7 +15,10 @@ const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-seri
 
 const drawn = {};
 
-/** Draws a chart in place of an earlier one. It makes no code from strings, so that the strictest content policy allows it. */
+/**
+ * Draws a chart in place of an earlier one. Makes no code from strings, so that the page's content policy
+ * allows it.
+ */
 async function draw(id, description, spec) {
   const node = element(id);
   node.style.minHeight = `${node.offsetHeight}px`; // keeps the page below from jumping
@@ -46,13 +49,17 @@ const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 /** A line of a tooltip: whose bound is the unit of distances. */
 const boundField = { field: "bound_of_distances", title: "bound" };
 
-/** A logarithmic axis whose ends stand for 0 and infinity. `at` returns the place of a value, and `written` is how the chart writes one. */
+/**
+ * A logarithmic axis whose ends stand for 0 and infinity. The result's `at` returns the place of a value on
+ * it; `written` is the expression that formats a value.
+ */
 function logAxis(values, written = "digits(datum.value, 3)") {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
   const lowest = exponents.length === 0 ? 0 : Math.floor(Math.min(...exponents));
   const highest = exponents.length === 0 ? 0 : Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
   const step = Math.max(Math.ceil((highest - lowest) / 7), 1);
-  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE); // a scale cannot end at 0 or infinity
+  // A scale cannot end at 0 or infinity.
+  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE);
   const bottom = power(values.includes(0) ? lowest - step : lowest);
   const top = power(values.includes(Infinity) ? highest + step : highest);
   const ticks = [bottom, top];
@@ -158,7 +165,8 @@ function drawMisses() {
 }
 
 function drawDistances() {
-  // The first bin begins at 0 and the last one does not end: each is drawn as wide as its neighbour.
+  // The first bin begins at 0 and the last bin ends at infinity; on a logarithmic axis, each is drawn as wide
+  // as its neighbour.
   const borders = report.histogram_borders;
   const [width, last] = [borders[2] / borders[1], borders.length - 1];
   const begins = borders.map((border, i) => (i === 0 ? borders[1] / width : border));
@@ -216,7 +224,7 @@ function stageValues() {
   return values;
 }
 
-/** Whether any subject reports the stages that accept. Plug-ins do not. */
+/** Whether any subject reports which of its stages accepted a query. Plug-ins do not. */
 const hasStages = () => stageValues().some(({ stage, count }) => count > 0 && stage !== "unspecified");
 
 function drawStages() {

@@ -22,14 +22,22 @@ const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKin
   Object.entries(ofKind).flatMap(([kind, counts]) =>
     Object.entries(counts.classes).map(([name, each]) => ({ subject, kind, family: "", class: name, ...each }))));
 
-/** Whether a subject is no algorithm over one of many scalars. */
+/** Whether a subject is not on the ladder, whose rungs are one algorithm over many scalars. */
 const isNoRung = ({ subject, algorithm }) => subject === algorithm;
 
-/** Whether distances are fractions of the bound that the subject claims; else they are in units of wang's bound. */
+/**
+ * Whether distances are fractions of the bound that the subject claims; else they are in units of wang's
+ * bound.
+ */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
-/** Marks a distance that is no fraction of a claim; the notes of class "units" explain the mark. */
+/**
+ * The mark of a distance that is not a fraction of a claimed bound; the notes of class "units" explain it.
+ */
 const unitMark = (row) => (isOfClaim(row) ? "" : "**");
-/** The same for all kinds of a subject. */
+/**
+ * The mark of a subject: that of a distance, unless its distances of all kinds are fractions of a claimed
+ * bound.
+ */
 const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");
 
 /** The separation of a query: its number after the 24 coordinates, or 0. */

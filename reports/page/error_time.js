@@ -14,12 +14,13 @@ function drawErrorTime() {
   return ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach();
 }
 
-/** The share of an axis between its ends, both logarithmic, at which a value is. */
+/** The position of a value on a logarithmic axis: 0 at one end, 1 at the other. */
 const partOfAxis = (value, [from, to]) => Math.log(value / from) / Math.log(to / from);
 const atPartOfAxis = (part, [from, to]) => from * (to / from) ** part;
 
 /**
- * Layers with the names of points in a chart with logarithmic axes; a line leads to a name that is not right beside its point.
+ * Layers with the names of points in a chart with logarithmic axes. A line joins a point to its name unless
+ * the name is right beside it.
  * @param rows [{subject, x, y, rank}]
  * @param x, y the channels of the chart
  */
@@ -89,7 +90,10 @@ function drawErrorTimeOfEach() {
 const labelSize = 10;
 const isEmulated = (row) => /^p\d/.test(row.scalar);
 
-/** Orders the points of each line from few digits to many: one algorithm, with scalars of the machine or emulated ones. */
+/**
+ * Divides points into lines, one for each algorithm and sort of scalars (the machine's or emulated), and
+ * orders the points of each line from few digits to many.
+ */
 function makeStrands(rows) {
   const strands = new Map();
   for (const row of rows) {
@@ -102,7 +106,10 @@ function makeStrands(rows) {
   }
 }
 
-/** Places around a point for a label of this size, in the order in which they are tried: beside it, then up to `reach` pixels away. */
+/**
+ * Places around a point for a label of this size, in the order in which they are tried: beside it, then up to
+ * `reach` pixels away.
+ */
 function* placesAround([w, h], reach) {
   yield* [[6, -h / 2], [-6 - w, -h / 2], [-w / 2, -6 - h], [-w / 2, 6], [5, -4 - h], [5, 4], [-5 - w, -4 - h], [-5 - w, 4]];
   for (let radius = 22; radius <= reach; radius += 8)
@@ -113,8 +120,10 @@ function* placesAround([w, h], reach) {
 }
 
 /**
- * Finds places for labels near their points, without overlaps among labels and points; a label without a place is left out.
- * @param points [{at: [x, y] in pixels, label, rank: lower ranks choose first; an infinite rank means no label}]
+ * Finds places for labels near their points, without overlaps among labels and points; a label without a
+ * place is left out.
+ * @param points [{at: [x, y] in pixels, label, rank: lower ranks choose first; an infinite rank means no
+ * label}]
  * @param reach how far from its point a label may be, in pixels; 0 means right beside it
  */
 function placedLabels(points, [width, height], reach = 0) {

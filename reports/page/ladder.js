@@ -6,7 +6,10 @@ const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
 const partsOfClaimed = (fit) => `${fraction(fit.least_part_of_claimed)}–${fraction(fit.greatest_part_of_claimed)}`;
 const exponent = (fit) => `${fit.exponent.toFixed(4)} ± ${Number(fit.half_width_95.toPrecision(2))}`;
 
-/** If the claimed distances are almost reached, a fit would only restate their formula. */
+/**
+ * The text of a fit. If the claimed distances are almost reached, the text says so, because the fit would
+ * only restate their formula.
+ */
 const fitText = (fit) => `${fit.algorithm}: ` + (fit.restates_the_bound
   ? `the farthest are at ${partsOfClaimed(fit)} of the claimed distance`
   : `the farthest distance goes as ε to the power of ${exponent(fit)} (95 % confidence), at ${partsOfClaimed(fit)} of the claimed distance`) +

@@ -2,7 +2,10 @@
 // picture.
 "use strict";
 
-/** Colours of marked primitives: the bits of a mark, its meaning, and the name of the colour. The first match applies. */
+/**
+ * Colours of marked primitives: a list with the bits of a mark, their meaning, and the name of the colour.
+ * The first entry that matches a mark applies.
+ */
 function markColours(meanings, subject) {
   const bit = (meaning) => (meanings.includes(meaning) ? 1 << meanings.indexOf(meaning) : 0);
   return [

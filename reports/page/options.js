@@ -1,7 +1,10 @@
-// Draws what the values of an option of a subject trade for what.
+// Draws how the values of a subject's option trade misses, false positives, earliness and run time for one
+// another.
 "use strict";
 
-/** The charts of an option: what a chart shows, its title, and how it writes numbers other than the usual way. */
+/**
+ * The charts of an option: what a chart shows, its title, and how it writes numbers if not in the usual way.
+ */
 const optionCharts = [
   ["false_negative_rate", "missed, among collisions", "share(datum.value)"],
   ["late_rate", "late, among promised times", "share(datum.value)"],

@@ -52,7 +52,7 @@ void replace(std::string& text, std::string_view what, const std::string& by) {
   text.replace(text.find(what), what.size(), by);
 }
 
-/// A random word; the page runs only scripts that carry it.
+/// A random word (nonce). The page's content policy runs only scripts that carry it.
 std::string make_nonce() {
   std::random_device random;
   std::string nonce;
@@ -60,7 +60,7 @@ std::string make_nonce() {
   return nonce;
 }
 
-/// JSON for a script element: without "</" and "<!--".
+/// JSON for a script element, with "<" escaped: the browser would take "</script" for its end.
 std::string inside_script(const nlohmann::ordered_json& json) {
   std::string text;
   for (const char c : json.dump()) {

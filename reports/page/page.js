@@ -1,4 +1,4 @@
-// Draws the report. All numbers are in report.json; nothing is computed here.
+// Draws the report. All numbers come from report.json; the page computes none of its own.
 "use strict";
 
 const element = (id) => document.getElementById(id);
@@ -28,7 +28,7 @@ function drawNavigation() {
     document.querySelector("nav").append(made("a", titles[section.parentNode.id] ?? section.textContent, { href: `#${section.parentNode.id}` }));
 }
 
-/** Run times that differ by more than those of equal campaigns do. */
+/** Lists the run times that differ by more than those of equal campaigns do. */
 function drawChangedTimes({ changed_times: times, compared_times: compared, campaigns_with_times: campaigns }) {
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   if (campaigns === 0) return say("Run times are not compared: the baseline ran on another model of processor.");
@@ -124,7 +124,7 @@ const noAnswer = {
 };
 const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 
-/** The farthest of some false positives; undefined without any. */
+/** The farthest of some false positives; undefined if the list is empty. */
 const farthestAmong = (some) => some.reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
 const farthestOfSubject = (subject) => farthestAmong(report.farthest.filter((far) => far.subject === subject));
 /** The farthest false positive of a subject and kind, in one family, in one class or in all. */
@@ -169,7 +169,7 @@ function drawSlowest() {
   ], rows, true);
 }
 
-/** Draws which stage decided, for subjects that pass queries on. */
+/** Draws which stage decided, for subjects that pass queries on to another stage if they are not sure. */
 function drawDeciders() {
   const rows = report.deciders;
   if (!rows) return;
@@ -319,7 +319,9 @@ async function drawOne([id, chart]) {
   }
 }
 
-/** Draws charts one after the other. A later call replaces the charts that earlier calls have not yet drawn. */
+/**
+ * Draws charts one after the other. A later call replaces the charts that earlier calls have not yet drawn.
+ */
 let calls = 0;
 let drawing = Promise.resolve();
 function drawCharts(some) {

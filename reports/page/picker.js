@@ -1,5 +1,5 @@
-// Chooses the subjects for charts with a row or a line for each: all subjects, or a selection if there are
-// many.
+// Chooses the subjects for charts that have a row or a line for each subject: all subjects, or a selection if
+// there are many.
 "use strict";
 
 const subjectNames = Object.keys(report.subjects);
@@ -11,7 +11,10 @@ const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
 const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47",
   isDark ? "#9a7fe0" : "#5e3c99", isDark ? "#f2f2f2" : "#1b1b1b", "#a2b627", "#f28e8e"];
 
-/** Subjects in the order of their names; if there are many, grouped by algorithm and sorted from few digits to many. */
+/**
+ * Subjects in the order of their names; if there are many, grouped by algorithm and sorted from few digits to
+ * many.
+ */
 const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
 if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
 
@@ -19,7 +22,10 @@ if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.a
 const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
-/** As many subjects as there are colours: those of the Pareto fronts; the clean ones; the failed ones. */
+/**
+ * As many subjects as there are colours: first those of the Pareto fronts, then the clean ones, then the
+ * failed ones.
+ */
 function firstChoice() {
   const { front_by_distance, front_by_rate, front_by_earliness, ladder } = report.error_against_time;
   const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate, ...front_by_earliness]);
@@ -54,7 +60,9 @@ const paletteColor = (index) => palette[index % palette.length];
 const subjectColor = { field: "subject", type: "nominal", title: "subject",
   scale: { domain: subjectNames, range: subjectNames.map((_, i) => paletteColor(i)) } };
 
-/** Colours of the chosen subjects, with a legend. @param others the colour of all others, if they are drawn */
+/**
+ * Colours of the chosen subjects, with a legend. @param others the colour of all others, if they are drawn
+ */
 function chosenColor(others) {
   const names = chosenNames();
   const colors = names.map((name) => paletteColor(chosenColors.get(name)));

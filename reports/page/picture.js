@@ -1,5 +1,5 @@
-// Draws a query: both primitives at t = 0, at t* or when closest, at the time that a subject gave, and at t = 1, with the paths of
-// their vertices.
+// Draws a query: both primitives at t = 0, at t* or when closest, at the time that a subject gave, and at t =
+// 1, with the paths of their vertices.
 "use strict";
 
 /**
@@ -20,10 +20,10 @@ function drawPicture(kind, query, time, toi) {
   const at = (t) => [0, 1, 2, 3].map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[12 + 3 * i + k]));
   const moments = [[0, "start"], [1, "end"], ...(hasTwoTimes ? [[toi, "given"]] : []), [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
 
-  /** Points scaled and moved into [-1, 1]. */
+  /** The points, scaled and moved into [-1, 1]. */
   function fitted(points) {
     fitted.box ??= [0, 1, 2].map((k) => {
-      const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // no difference overflows
+      const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // so that no difference overflows
       return { middle: (Math.min(...all) + Math.max(...all)) / 2, half: (Math.max(...all) - Math.min(...all)) / 2 };
     });
     const half = Math.max(...fitted.box.map((side) => side.half)) || 1;

@@ -1,12 +1,11 @@
-// Draws scenes: what became of their pairs, and the subjects' answers for the pairs that they were asked
-// about.
+// Draws scenes: how many pairs were left out and why, and the subjects' answers for the remaining pairs.
 "use strict";
 
 const isStep = (family) => family.startsWith("scene:");
 const sceneOf = (step) => step.replace(/^scene:/, "").replace(/#\d+$/, "");
 const stepNumber = (step) => Number(step.match(/#(\d+)$/)?.[1] ?? 0);
 
-/** Adds up the numbers of rows that have the same fields `by`. */
+/** Groups rows whose fields `by` are equal, and adds up their numbers. */
 function summed(rows, by) {
   const sums = new Map();
   for (const row of rows) {

@@ -6,7 +6,7 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
   .filter(([, counts]) => counts?.collisions > 0)
   .map(([kind, counts]) => `${kind} ${integer(counts.false_negatives)} of ${integer(counts.collisions)}`).join(", ");
 
-/** The least exotic class by kind, then the rates of the others, and the sum. */
+/** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */
 const missedCell = ({ counts, classes, subject, failures }) => {
   if (failures.includes("not-asked")) return [made("strong", "not asked", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
@@ -29,7 +29,10 @@ const falseCell = ({ counts, subject }) => {
     small(far ? made("a", farthest, { href: far.file }) : farthest), ...unknown];
 };
 
-/** The number of queries without an answer; the reasons are its title. Slow queries and those that break a contract are no failures. */
+/**
+ * The number of queries without an answer, with the reasons as a tooltip. Slow queries and those that break a
+ * contract are not failures.
+ */
 function noAnswerCell(verdict) {
   const reasons = [...new Set(Object.keys(verdict.faults).map((why) => (["time", "not-asked"].includes(why) ? "slow" : why)))];
   if (reasons.length === 0) return "0";
@@ -38,17 +41,22 @@ function noAnswerCell(verdict) {
     small(reasons.length === 1 ? reasons[0] : `${reasons[0]}, …`)];
 }
 
-/** The scale of the bars: logarithmic, from somewhat below the fastest subject to the slowest 99 % quantile. */
+/**
+ * The scale of the bars: logarithmic, from somewhat below the fastest subject to the slowest 99 % quantile.
+ */
 const barScale = (() => {
   const times = report.verdicts.flatMap((v) => [v.times.median_ns, v.times.q99_ns, v.counts.ns_per_query]).filter((ns) => ns > 0);
   const [least, most] = [Math.min(...times) / 2, Math.max(...times)];
   return (ns) => `${(100 * Math.log(ns / least)) / Math.log(most / least)}%`;
 })();
 
-/** The median of single queries, or that of batches if there are none. */
+/** The median time of queries that were timed one by one, or that of batches if none were. */
 const usualTime = ({ counts, times }) => times.median_ns ?? counts.ns_per_query;
 
-/** The run time: the median and the 99 % quantile of single queries, or the mean of batches if there are none. */
+/**
+ * The run time: the median and the 99 % quantile of queries that were timed one by one, or the time of
+ * batches if none were.
+ */
 const timeCell = (verdict) => {
   const { median_ns: median, q99_ns: q99 } = verdict.times;
   const usual = usualTime(verdict);
@@ -83,14 +91,17 @@ const againCell = ({ finding, clean }) => {
   return [button, " ", link];
 };
 
-/** The name, which leads to the subject's findings, or to its counts if there are none. */
+/** The subject's name, which links to its findings, or to its counts if it has no findings. */
 function subjectCell({ subject, finding }) {
   const link = made("a", subject, { href: finding === null ? "#counts-section" : "#findings-section", title: subject });
   if (finding !== null) link.addEventListener("click", () => filterFindings({ subject }));
   return link;
 }
 
-/** Failed subjects by their rates of misses, ordinary ones first, then the others by their run times. */
+/**
+ * Sorts the failed subjects by their rates of misses, ordinary misses first; then the others by their run
+ * times.
+ */
 function inOrder(verdicts) {
   const rates = ({ classes }) => ["ordinary", "degenerate", "extreme", "unclassified"].map((name) => -(classes[name]?.false_negative_rate ?? 0));
   const key = (verdict) => [verdict.clean ? 1 : 0, ...rates(verdict), -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
@@ -101,7 +112,10 @@ function inOrder(verdicts) {
   });
 }
 
-/** The rows that are folded into one: those of a ladder that did not fail if there are many, and the other clean ones if these are many, too. */
+/**
+ * The rows of clean subjects that are folded into one row if there are many: those on the ladder, and also
+ * the others if these are still many.
+ */
 function foldedRows(rows) {
   const good = rows.filter(({ clean }) => clean);
   if (good.length <= fewSubjects) return [];
@@ -142,7 +156,10 @@ function drawScorecard() {
   table.append(rest);
 }
 
-/** Versions of one CCD: the queries that each of two fails, and the first one that the later version breaks. */
+/**
+ * Draws pairs of versions of a CCD: how many queries each fails, and the first query that the later version
+ * breaks.
+ */
 function drawVersions() {
   if (!report.versions) return;
   show("versions-section");

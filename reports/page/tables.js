@@ -2,20 +2,24 @@
 "use strict";
 
 const integer = (n) => n.toLocaleString("en-US");
-/** A number of so many digits: with an exponent below a thousandth and from ten million on. */
+/**
+ * A number with this many digits, written with an exponent if it is below a thousandth or at least ten
+ * million.
+ */
 function rounded(x, digits) {
   const size = Math.abs(x);
   if (x !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace(/\.?0*e\+?/, "e");
   return Number(x.toPrecision(digits)).toLocaleString("en-US", { maximumFractionDigits: 20 });
 }
-/** Three digits, or all of a whole number below ten million. */
+/** A number with three digits, or with all digits if it is a whole number below ten million. */
 const short = (x) =>
   x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) && Math.abs(x) < 1e7 ? integer(x) : rounded(x, 3);
 /** "1 query", "1,234 queries" */
 const counted = (n, one, many) => `${integer(n)} ${n === 1 ? one : many}`;
 /**
- * Formats a ratio with three digits, or with more if a number below 1 would be rounded to 1. Only an upper bound is known of a
- * ratio below all borders.
+ * Formats a ratio with three digits, or with more if a number below 1 would be rounded to 1. A ratio in the
+ * lowest bin of the
+ * histogram is known only to be below the bin's upper border.
  */
 function fraction(x) {
   const lowest = report.histogram_borders[1];
@@ -26,13 +30,13 @@ function fraction(x) {
 }
 /** How far a false positive is; `row` says whose bound is the unit. */
 function timesTheBound(x, row) {
-  const isClaim = row.bound_of_distances === undefined || isOfClaim(row); // only bounds that are claimed are refuted
+  const isClaim = row.bound_of_distances === undefined || isOfClaim(row); // a refuted bound was claimed
   const whose = isClaim ? "its" : "wang's";
   const text = x === Infinity ? `beyond ${isClaim ? "a" : "wang's"} bound of 0` : x > 1 ? `${fraction(x)} times ${whose} bound` : `at ${fraction(x)} of ${whose} bound`;
   return isClaim ? text : `${text} (it claims none)`;
 }
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
-/** A column of ranges that contain a number. */
+/** A column whose cells are ranges, each of which contains the true number. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
   text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? rounded(x, 2) : "∞")).join("–") + unitMark(r) : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
@@ -48,10 +52,10 @@ function made(tag, content = [], attributes = {}) {
 /** A line of small print. */
 const small = (content) => made("div", content, { class: "small" });
 
-/** "14.8 % (14.4–15.2 %)"; the interval is left out if the queries are no random sample. */
+/** "14.8 % (14.4–15.2 %)"; the interval is left out if the queries are not a random sample. */
 const rateText = (rate, interval) => percent(rate) + (interval ? ` (${percentRange(interval)})` : "");
 
-/** "4,576 of 30,998"; if nothing was seen, also what the rate is below. */
+/** "4,576 of 30,998"; if there was no miss, also the upper confidence bound of the rate. */
 function missedText(counts) {
   const seen = `${integer(counts.false_negatives)} of ${integer(counts.collisions)}`;
   if (counts.false_negatives > 0 || counts.collisions === 0 || counts.false_negative_rate_upper_95 === null) return seen;
@@ -60,7 +64,8 @@ function missedText(counts) {
 
 /**
  * Draws a table.
- * @param columns {title, text(row): text or node, number(row): the key to sort by, bad(row): whether it is marked}
+ * @param columns {title, text(row): text or node, number(row): the key to sort by, bad(row): whether it is
+ * marked}
  * @param sortable whether a click on a heading sorts
  */
 function fillTable(table, columns, rows, sortable = false) {
@@ -126,10 +131,16 @@ function copyButton(content, title = "copy") {
 /** A command, and a button that copies it. */
 const command = (content) => made("div", [made("code", content), copyButton(content)]);
 
-/** A button that copies a query as a line of 24 numbers, or 25 with the separation, for nearmiss oracle and verdict. */
+/**
+ * A button that copies a query as a line of 24 numbers, or 25 with the separation, for nearmiss oracle and
+ * verdict.
+ */
 const copyQuery = (x) => copyButton(x.join(" "));
 
-/** A line for each vertex: its place at t = 0, and its place at t = 1 if it moves; then the separation, if there is one. */
+/**
+ * A line for each vertex: its place at t = 0, and its place at t = 1 if it moves; then the separation, if
+ * there is one.
+ */
 function queryText(x) {
   const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;
   const vertex = (i) => `x${i} ${point(i)}` + (point(i) === point(4 + i) ? "" : ` → ${point(4 + i)}`);

@@ -2,17 +2,17 @@
 "use strict";
 
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
-/** The two sorts of time, told apart by two looks. */
+/** The encoding of a chart that shows the two sorts of time with two `looks`, such as shapes or dashes. */
 const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
   legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
 
-/** The subjects, by kind, that gave times. */
+/** A row for each subject and kind with times. */
 const timedRows = () => countRows(false).filter((row) => row.times_given > 0)
   .map((row) => ({ ...row, sort: sortsOfTime[row.time_sort] }));
 
 // --- error against run time -----------------------------------------------------------------------
 
-/** The subjects of the picture; the fields of their errors are upper ends of bins. */
+/** A row for each subject of the picture. Its quantiles of errors are the upper ends of bins. */
 const earlinessRows = () => Object.entries(report.error_against_time.subjects)
   .filter(([, { time_sort }]) => time_sort !== "none")
   .map(([subject, row]) => ({ ...row, subject, sort: sortsOfTime[row.time_sort],
@@ -58,7 +58,7 @@ function drawEarliness() {
 
 // --- table ----------------------------------------------------------------------------------------
 
-/** The number of late times, of a subject that promises lower bounds. */
+/** The column of late times, for subjects that promise lower bounds. */
 const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
 
 function drawTimes() {
@@ -81,7 +81,10 @@ function drawTimes() {
 
 // --- histograms -----------------------------------------------------------------------------------
 
-/** The histogram of a row from the earliest to the latest: bin i of early times is at place -i, that of times after t* at i. */
+/**
+ * The histogram of a row from the earliest to the latest: bin i of early times is at place -i, that of times
+ * after t* at i.
+ */
 function binsOfErrors(row) {
   const { early_histogram: early, after_histogram: after } = row;
   const borders = report.histogram_borders.map(short);
@@ -94,7 +97,7 @@ function binsOfErrors(row) {
   ];
 }
 
-/** A strip for each chosen subject and kind, all over the same axis. */
+/** Draws a strip for each chosen subject and kind, all over the same axis. */
 function drawTimeErrors() {
   const rows = timedRows();
   const all = rows.flatMap(binsOfErrors);
@@ -133,5 +136,5 @@ function drawTimeErrors() {
     { data: { values }, hconcat: kinds.map((kind, i) => strips(kind, i === 0)) });
 }
 
-/** The name of a subject's strip: with the sort of its times. */
+/** The name of a subject's strip, with the sort of the subject's times. */
 const rowName = (rows, subject) => `${subject} (${rows.find((row) => row.subject === subject).sort})`;

@@ -2,6 +2,7 @@
 "use strict";
 
 /**
+ * Lets the user turn a picture.
  * @param node the element that shows the picture
  * @param view an object whose yaw and pitch are changed
  * @param slowness pixels of mouse movement per radian

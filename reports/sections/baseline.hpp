@@ -32,22 +32,24 @@ struct Changes : ChangedSignatures {
   std::set<std::pair<std::string, FailureKind>> failed_before = {};
 };
 
-/// The probability that `changes` reports a changed rate although no rate has changed; also that it
-/// reports a new way to fail although none is new, one that is gone although none is, and a changed run time.
+/// The probability that `changes` reports a changed rate although no rate has changed. Each other sort of
+/// report has the same probability of a false alarm: a new way to fail, one that is gone, and a changed run
+/// time.
 inline constexpr double false_alarm_risk = 1e-3;
 
-/// Several campaigns as a baseline: their counters add up. They may have asked the same cases and meshes. Throws Error if
-/// two have a shard of random queries in common, because these would count twice.
+/// Adds up campaigns to serve as a baseline. They may have asked the same cases and meshes. Throws Error if
+/// two of them have a shard of random queries in common, because these queries would count twice.
 Campaign add_up(std::span<const Campaign> campaigns);
 
-/// Compares a campaign with earlier ones, the oldest first: rates and signatures with their sum (`compare_rates`,
-/// `compare_signatures`), run times with each of them (`compare_times`).
+/// Compares a campaign with earlier ones, given from the oldest. Rates and signatures are compared with the
+/// sum of the baseline (`compare_rates`, `compare_signatures`), run times with each campaign of it
+/// (`compare_times`).
 Changes changes(const Campaign& now, std::span<const Campaign> baseline);
 
 /// Compares a campaign with one earlier campaign.
 Changes changes(const Campaign& now, const Campaign& baseline);
 
-/// A line for each new way to fail that is one of the failures that count, and for each rate that is worse.
+/// A line for each new way to fail whose failure is in `failing`, and for each rate that is worse.
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
 constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
 
-/// The rates that are compared, for one subject, kind and family.
+/// The rates of one subject, kind and family that are compared between campaigns.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
@@ -43,16 +43,16 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, const Statistics&
   return pairs;
 }
 
-/// A family has few failures up to one of these numbers. All are tried, because larger campaigns have more
-/// failures.
+/// Thresholds: a family has few failures if it has at most one of these numbers. All three are tried, because
+/// larger campaigns have more failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The pairs that have at least one failure and at most `few` in both campaigns together, by the rate's name.
-/// Selecting pairs by this sum favours neither campaign, because each failure counted in the sum is as likely
-/// in one campaign as in the other.
+/// The pairs (now, before) that have at least one failure and at most `few` in both campaigns together, by
+/// the rate's name. Selecting pairs by the sum of both counts favours neither campaign, so the later test
+/// stays valid.
 std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_few(
     const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> found;
@@ -68,7 +68,7 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   std::map<RateName, ChangedRate> best;
   for (const std::uint64_t few : fews)
     for (const auto& [name, proportions] : pairs_with_few(pairs, few)) {
-      if (proportions.size() == 1) continue;  // a single family is compared elsewhere
+      if (proportions.size() == 1) continue;  // pairs_of_rates already compares single families
       ChangedRate sum{name.second, name.first, "vt, ee", fmt::format("families with at most {}", few),
                       {},          {}};
       for (const auto& [now, before] : proportions) {
@@ -84,7 +84,7 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   return sums;
 }
 
-/// Names the bound of subjects that claim none.
+/// Says in the name of a rate that the bound is wang's, for subjects that claim no bound.
 void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
   std::set<std::string> claim_nothing;
   for (const auto& [key, counts] : now.counts)

@@ -13,8 +13,8 @@ namespace nearmiss {
 
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
-  /// "false negatives", "false positives", "false positives beyond the bound", or "no answer". For a subject that
-  /// claims no bound: "false positives beyond wang's bound (no claim)".
+  /// "false negatives", "false positives", "false positives beyond the bound", or "no answer". For a subject
+  /// that claims no bound: "false positives beyond wang's bound (no claim)".
   std::string_view what;
   std::string subject, kind, family;
   Proportion before, now;
@@ -28,12 +28,13 @@ struct ComparedRates {
   std::size_t compared = 0;
 };
 
-/// Compares the rates of all families that both have, by Fisher's exact test. For each subject it also compares
-/// the sum over all families and kinds in which both have few failures, to notice a new way to fail
-/// that is spread over many families. Cases and meshes are left out, because they are not random samples.
+/// Compares the rates of all families that both campaigns have, by Fisher's exact test. For each subject it
+/// also compares the sum over all families and kinds with few failures in both campaigns, to notice a new way
+/// to fail that is spread over many families. Cases and meshes are left out, because they are not random
+/// samples.
 ///
-/// @param risk the probability that a rate is found to have changed although none has; each comparison has an equal
-///             part of it (Bonferroni)
+/// @param risk the probability that a rate is found to have changed although none has; each comparison has an
+///             equal part of it (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, const Statistics& before, double risk);
 
 }  // namespace nearmiss

@@ -26,9 +26,9 @@ double level_of(double risk, std::size_t tests) {
   return risk / static_cast<double>(std::max<std::size_t>(1, tests));
 }
 
-/// The expected number of new signatures in a campaign with `ratio` times as many queries. This number is
-/// computed from the number of times that each known signature was seen, with the series of Good and Toulmin
-/// 1956, or with its first term for a larger campaign.
+/// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline. It
+/// is computed from how often each known signature was seen, by the series of Good and Toulmin (1956), or by
+/// the first term of that series if the campaign is larger than the baseline.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
   for (const std::uint64_t times : seen) {
@@ -82,12 +82,13 @@ std::uint64_t unasked(const Counts& counts) {
   return counts.without_answer(Fault::not_asked) + counts.without_answer(Fault::contract);
 }
 
-/// The number of queries that could have failed in a sort: a miss needs an answer, a fault only a question.
+/// The number of queries that could have shown this sort of failure: a miss needs an answered query, a fault
+/// only an asked one.
 std::uint64_t chances(const Counts& counts, What what) {
   return counts.queries - (what == What::fault ? unasked(counts) : counts.faults_total());
 }
 
-/// The number of failures of a sort; 0 for the oracle's.
+/// The number of failures of a sort; 0 for failures of the oracle.
 std::uint64_t failures(const Counts& counts, What what) {
   if (what == What::false_negative) return counts.false_negatives;
   if (what == What::refuted_bound) return counts.refuted_bounds;
@@ -95,12 +96,12 @@ std::uint64_t failures(const Counts& counts, What what) {
   return what == What::fault ? counts.faults_total() - unasked(counts) : 0;
 }
 
-/// How often a subject could fail in a sort now, compared with before. Nobody knows in which family a signature was seen.
+/// How many queries could have shown a sort of failure now, compared with before. The counters do not say in
+/// which families a signature was seen, so only the range of the ratio over families is known.
 struct Chances {
-  std::uint64_t before = 0;  ///< number of random queries
-  double least =
-      HUGE_VAL;  ///< the smallest ratio of the numbers of queries now and before, over the families and kinds before
-  double most = 0;  ///< the largest one
+  std::uint64_t before = 0;  ///< number of such random queries in the baseline
+  double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
+  double most = 0;           ///< the largest such ratio
 
   [[nodiscard]] bool known() const { return before != 0; }
   [[nodiscard]] std::uint64_t now(double ratio) const {
@@ -108,7 +109,7 @@ struct Chances {
   }
 };
 
-/// The chances of each sort in which a signature was seen.
+/// The chances of each sort of failure, computed on demand.
 class AllChances {
  public:
   AllChances(const Statistics& now, const Statistics& before) : now_(now), before_(before) {}
@@ -138,7 +139,7 @@ class AllChances {
   std::map<Sort, Chances> known_;
 };
 
-/// The number of failures of a sort in cases and meshes.
+/// The number of failures of a sort in cases and meshes, which are not random samples.
 std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   std::uint64_t sum = 0;
   for (const auto& [key, counts] : statistics.counts)
@@ -146,7 +147,8 @@ std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   return sum;
 }
 
-/// The probability that a failure which was seen `before` times is seen at least `now` times, if nothing has changed.
+/// The probability that a failure which was seen `before` times is seen at least `now` times, if nothing has
+/// changed.
 double chance_of_more(std::uint64_t now, std::uint64_t before, const Chances& chances) {
   if (!chances.known()) return 1;
   return fisher_test({now, std::max(now, chances.now(chances.most))},
@@ -217,7 +219,7 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, All
   }
 }
 
-/// "in version 2" or "since sha256 0123456789ab", if the code is another; "" otherwise.
+/// "in version 2" or "since sha256 0123456789ab" if the code has changed; "" otherwise.
 std::string fixed_text(const SubjectCode& then, const SubjectCode& now) {
   if (now == then || now.text().empty() || then.text().empty()) return "";
   return now.version != then.version && !now.version.empty() ? "in version " + now.version

@@ -19,11 +19,11 @@ namespace {
 /// Logarithms of times, or of ratios of times.
 using Logs = std::map<CountsKey, double>;
 
-/// With at least this many families and kinds, a subject's families are compared with each other.
+/// A subject's families are compared with each other if they and the kinds make at least this many times.
 constexpr std::size_t fewest_families = 8;
-/// The standard deviation of ratios' logarithms between two nights, in addition to what the batches of a family show: of a
-/// family's time to those of the subject's other families, at least; of a subject's time to those of other subjects; and of
-/// any time.
+/// Standard deviations of the logarithm of a ratio between two nights, in addition to the spread that a
+/// family's batches show. The ratios are: a family's time to those of the subject's other families (at least
+/// this much); a subject's time to those of other subjects; and a time without anything to compare it with.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
@@ -35,7 +35,7 @@ bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_fami
 
 double square(double x) { return x * x; }
 
-/// The median; of an even number of values, that of the two in the middle which is nearer to 0.
+/// The median; for an even number of values, whichever of the two middle ones is nearer to 0.
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double low = values[(values.size() - 1) / 2];
@@ -47,7 +47,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The variance of a population from which the values are drawn; 0 for a single value.
+/// An estimate of the variance of the population from which the values are drawn; 0 for a single value.
 double sample_variance(const std::vector<double>& values) {
   if (values.size() < 2) return 0;
   const double middle = mean(values);
@@ -56,7 +56,7 @@ double sample_variance(const std::vector<double>& values) {
   return squares / static_cast<double>(values.size() - 1);
 }
 
-/// The variance of values around 0 as most of them show it, whatever the others are.
+/// A robust estimate of the variance of values around 0: outliers hardly change it.
 double usual_variance(std::vector<double> values) {
   for (double& each : values) each = std::abs(each);
   return square(1.4826 * median(std::move(values)));  // exact for a normal distribution
@@ -85,11 +85,11 @@ struct Variance {
   [[nodiscard]] double degrees_of_freedom() const { return std::min(square(value) / weight, 1e6); }
 };
 
-/// The logarithm of a time per query in ns: the mean over all batches, weighted by their numbers of queries.
+/// The logarithm of a time per query in ns: its mean over all batches, weighted by their numbers of queries.
 struct LogTime {
   double mean = 0;
   Variance variance =
-      {};  ///< of the mean; the variance of a batch's time is inverse to its number of queries
+      {};  ///< of the mean, if the variance of a batch's time is inversely proportional to its queries
 };
 
 /// Nothing if there are fewer than two batches.
@@ -117,7 +117,7 @@ std::optional<LogTime> log_time(const SubjectTimes& times) {
 
 using LogTimes = std::map<CountsKey, LogTime>;
 
-/// The times of the families of random queries.
+/// The times of each subject, kind and family of random queries.
 LogTimes log_times(const Statistics& statistics) {
   LogTimes times;
   for (const auto& [key, counts] : statistics.counts)
@@ -125,15 +125,17 @@ LogTimes log_times(const Statistics& statistics) {
   return times;
 }
 
-/// Logarithms of ratios of a time now to that of each earlier campaign.
+/// Logarithms of the ratios of a time now to its value in each earlier campaign, each as the sum of two
+/// parts.
 struct Ratios {
-  std::vector<double> common = {};  ///< the part that other times share
+  std::vector<double> common = {};  ///< the part that other times share, such as that of a busy machine
   std::vector<double> own = {};     ///< the rest
   Variance sampling = {};           ///< sum of the variances of the earlier times
 
   [[nodiscard]] double change() const { return mean(own); }
   [[nodiscard]] double campaigns() const { return static_cast<double>(own.size()); }
-  /// The factor between the variance of a single time, and that of its difference to the mean of the campaigns.
+  /// The variance of the difference between a time and the mean of the campaigns, divided by that of one
+  /// time.
   [[nodiscard]] double of_difference() const { return 1 + 1 / campaigns(); }
 };
 
@@ -197,7 +199,7 @@ class Times {
     place.sampling += variance;
   }
 
-  /// The variance of a change that the batches show.
+  /// The part of the variance of a change that follows from the spread among batches.
   [[nodiscard]] Variance sampling(const CountsKey& key) const {
     Variance sum;
     if (is_whole(key)) {
@@ -211,13 +213,13 @@ class Times {
     return sum;
   }
 
-  /// The variance that is assumed where nothing shows it.
+  /// The additional variance that is assumed if the subject has too few families to estimate it from.
   [[nodiscard]] Variance assumed_spread(const Ratios& ratios) const {
     const double spread = families_.size() > 1 ? spread_of_subject : spread_of_machine;
     return {square(spread) * ratios.of_difference() / 2, HUGE_VAL};
   }
 
-  /// The variance of a family's change in addition to that of its batches, as the subject's families show it.
+  /// The additional variance of a family's change, estimated from the spread among the subject's families.
   [[nodiscard]] Variance spread_of_families(const std::string& subject) const {
     std::vector<double> changes;
     std::vector<double> variances;

@@ -34,21 +34,23 @@ struct ComparedTimes {
   std::size_t campaigns = 0;  ///< number of the baseline's campaigns on a processor of the same model
 };
 
-/// Compares the run times of a campaign with those of earlier ones on a processor of the same model: of each subject as a
-/// whole, and of each of its families and kinds. A time is the geometric mean over batches, weighted by their numbers of
-/// queries; that of a subject as a whole is the geometric mean over families and kinds.
+/// Compares the run times of a campaign with those of earlier campaigns on a processor of the same model: the
+/// times of each subject as a whole, and of each of its families and kinds. The time of a family is the
+/// geometric mean over batches, weighted by their numbers of queries; that of a subject is the geometric mean
+/// over families and kinds.
 ///
-/// A busy machine makes everything slower. Therefore each family is compared with the subject's other families: its time is
-/// divided by its time in the earlier campaign, and this ratio by the median ratio of the subject's families. A subject as a
-/// whole is compared with the other subjects: its median ratio is divided by the median of all subjects' and of 1. This is also
-/// done for the families of a subject that has only a few.
+/// A busy machine makes everything slower. Therefore each family is compared with the subject's other
+/// families: the ratio of its time to its earlier time is divided by the median of this ratio over the
+/// subject's families. A subject as a whole is compared with the other subjects: its median ratio is divided
+/// by the median of 1 and the median ratios of all subjects. The families of a subject that has only a few
+/// are divided by this median, too.
 ///
-/// Welch's test compares the remaining change with its spread. The variance of a logarithm has two parts: one that the batches
-/// show, and the additional spread among the subject's families, most of which have not changed. It is at least the variance
-/// between the earlier campaigns, if there are several.
+/// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
+/// parts: one that follows from the batches, and one estimated from the subject's families, most of which
+/// have not changed. If there are several earlier campaigns, the variance is at least the one between them.
 ///
-/// @param risk the probability that a time is found to have changed although none has; each comparison has an equal part of
-///             it (Bonferroni)
+/// @param risk the probability that a time is found to have changed although none has; each comparison has an
+///             equal part of it (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
 }  // namespace nearmiss

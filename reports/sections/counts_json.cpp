@@ -20,7 +20,7 @@ ordered_json value_json(std::uint64_t count) { return count; }
 
 ordered_json value_json(const Histogram& histogram) { return histogram.bins; }
 
-/// `key` names what the cases are extreme in.
+/// The cases as JSON; `key` names the quantity in which they are extreme.
 ordered_json cases_json(const std::vector<FarCase>& cases, const char* key) {
   ordered_json json = ordered_json::array();
   for (const FarCase& far : cases)
@@ -72,7 +72,7 @@ void add_counters(ordered_json& json, const Owner& owner) {
   for_each_counter<Owner>([&](const auto& counter) { add_counter(json, owner, counter); });
 }
 
-/// A measure's value: null if there is none, and both ends of a range.
+/// A measure's value as JSON: null if there is none; for a range, an array of both ends.
 struct AsJson {
   ordered_json operator()(std::monostate /*nothing*/) const { return nullptr; }
   ordered_json operator()(const Bin& range) const { return ordered_json::array({range.from, range.to}); }

@@ -11,13 +11,13 @@ namespace nearmiss {
 /// A number, or null if there is none.
 nlohmann::ordered_json or_null(const std::optional<double>& number);
 
-/// Adds measures of a sum under their keys.
+/// Adds measures of a sum of counters to an object, under their keys.
 void add_measures(nlohmann::ordered_json& json, const MeasureKeys& measures, const CountsSum& sum);
 
-/// The measures of every sum: rate_measures().
+/// An object with the measures that reports show of every sum: rate_measures().
 nlohmann::ordered_json rates_json(const CountsSum& sum);
 
-/// rates_json, and the other counters.
+/// rates_json with the other counters added.
 nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);
@@ -25,7 +25,7 @@ nlohmann::ordered_json oracle_json(const OracleCounts& counts);
 /// An object with "all", a count for each fate under its name, "touching", and "times".
 nlohmann::ordered_json funnel_json(const Funnel& funnel);
 
-/// Adds "disagreements" and "mismatches_with_recorded_truth".
+/// Adds the oracle's "disagreements" and "mismatches_with_recorded_truth" to an object.
 void add_campaign_counters(nlohmann::ordered_json& json, const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -40,8 +40,8 @@ std::string row_family(const std::string& family) {
   return family.starts_with("scene:") ? scene_of(family) : shown_family(family);
 }
 
-/// The run time of a subject divided by that of another, over the keys that are shown and timed for both;
-/// nothing if there are no such keys.
+/// The run time of a subject divided by that of another, over the kinds and families that are shown and that
+/// have times of both; nothing if there are none.
 template <class IsShown>
 std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
                                 const std::string& other, const IsShown& is_shown) {
@@ -59,7 +59,7 @@ std::optional<double> time_over(const Statistics& statistics, const std::string&
   return ns && ns_of_other ? std::optional(*ns / *ns_of_other) : std::nullopt;
 }
 
-/// A row of a subject's family, or of all its families if that is "". `sum` is over the row's queries.
+/// The row of a subject's family, or of all its families if `family` is "". `sum` counts the row's queries.
 DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family,
                const CountsSum& sum) {
   const auto shown = [&](const CountsKey& key) { return family.empty() || row_family(key.family) == family; };

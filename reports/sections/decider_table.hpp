@@ -1,4 +1,5 @@
-// For subjects that pass queries on if their own algorithm is not sure: which stage decides, by family.
+// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. These tables
+// show which stage decides, by family.
 #pragma once
 
 #include <array>
@@ -16,25 +17,26 @@ namespace nearmiss {
 
 inline constexpr std::size_t decider_count = 4;
 
-/// Names of the deciders in files, in the order in which they are asked. A stage or rejection with one of
-/// the last three names belongs to that decider, and every other one to "algorithm".
+/// Names of the deciders in files, in the order in which a subject asks them. A stage or rejection with one
+/// of the last three names belongs to that decider; every other stage or rejection belongs to "algorithm".
 inline constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer",
                                                                            "exact"};
 
-/// Queries of both kinds together, by what decided them.
+/// The queries of a family, of both kinds together, by what decided them.
 struct DeciderRow {
   std::string subject;
   std::string family;  ///< "" for all families; a scene is one family with all its steps
   std::array<std::uint64_t, decider_count> queries{};
   std::optional<double> ns_per_query;       ///< nothing if the subject was not timed
-  std::map<std::string, double> time_over;  ///< time divided by another subject's, over the same families and
-                                            ///< kinds
+  std::map<std::string, double> time_over;  ///< time divided by that of the subject in the key, over the same
+                                            ///< families and kinds
 
   [[nodiscard]] std::uint64_t all() const;
 };
 
-/// The rows of each subject for which both its algorithm and another stage decide something: one for all families, then
-/// one for each. Times are compared with those of wang and exact, if these are in the statistics.
+/// The rows of each subject for which both its algorithm and another stage decide something: one for all
+/// families, then one for each. Times are compared with those of wang and exact, if these are in the
+/// statistics.
 std::vector<DeciderRow> decider_rows(const Statistics& statistics);
 
 /// A table for each subject; "" without rows.

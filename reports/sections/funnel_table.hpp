@@ -11,10 +11,11 @@ namespace nearmiss {
 /// The scene of "scene:NAME#STEP": "scene:NAME".
 std::string scene_of(const std::string& step);
 
-/// A table for each scene over all its steps, with a line for each fate and a column for each kind; "" without scenes.
+/// A table for each scene over all its steps, with a line for each fate and a column for each kind; ""
+/// without scenes.
 std::string funnel_tables(const Statistics& statistics);
 
-/// funnel_json (counts_json.hpp) by step and kind.
+/// An object STEP.KIND whose values are funnel_json (counts_json.hpp).
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 }  // namespace nearmiss

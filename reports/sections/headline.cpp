@@ -68,8 +68,8 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
 
 bool is_not_asked(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::not_asked); }
 
-/// Who failed: how, if it is one subject; otherwise in which class of queries, the least exotic one first. Who was asked nothing. Who
-/// did not fail.
+/// Says which subjects failed, which were asked nothing, and which did not fail. If one subject failed, it
+/// says how; otherwise in which class of queries, the least exotic class first.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
   std::vector<std::string> not_asked;
@@ -96,7 +96,7 @@ std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Headline::alarms.
+/// The reasons for an alarm, as Headline::alarms describes them.
 std::vector<std::string> alarms_of(const std::vector<SubjectVerdict>& verdicts, const std::string& complaint,
                                    const std::optional<Changes>& since, const Failures& failing) {
   std::vector<std::string> alarms;

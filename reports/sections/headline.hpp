@@ -13,13 +13,13 @@ namespace nearmiss {
 struct Headline {
   bool clean;  ///< nothing failed, and nothing is worse than in the baseline
   std::string text;
-  /// The reasons for a night to wake somebody, a line each: every failure that breaks a promise, every other failure that the
-  /// baseline does not have, and each way to fail and each rate that is worse since the baseline.
+  /// The reasons for an alarm, a line each: every failure that breaks a promise (`breaks_promise`), every
+  /// other failure that the baseline does not have, every new way to fail, and every rate that is worse.
   std::vector<std::string> alarms;
 };
 
-/// Which subjects failed, in which class of queries, the number of queries, and whether anything is new since the baseline, if there
-/// is one. `failing` are the failures that count.
+/// Says which subjects failed and in which class of queries, how many queries were asked, and, with a
+/// baseline, whether anything is new. `failing` are the failures that count.
 Headline headline(const Statistics& statistics, const std::optional<Changes>& since,
                   const Failures& failing = usual_failures());
 

@@ -28,13 +28,13 @@ constexpr int finest = -127;
 constexpr int coarsest = -23;
 constexpr int double_exponent = -52;
 
-/// The distance bound in units of B for ε = 2^exponent.
+/// The distance bound that an algorithm claims for ε = 2^exponent, in units of B.
 double claimed_distance(const std::string& algorithm, int exponent) {
   const ToleranceConstants c = algorithm == "wang" ? closed_forms(exponent) : solve_tight(exponent);
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Only an upper bound is known of a ratio below all borders of the histogram.
+/// Whether the farthest ratio of a rung is known. Below all borders of the histogram, only an upper bound is.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -54,7 +54,7 @@ LadderPlace place_of(const std::string& subject) {
   LadderPlace place{std::string(algorithm) + given_bound, scalar.empty() ? "double" : std::string(scalar),
                     *exponent, std::nullopt};
   if (!given_bound.empty()) return place;
-  if (algorithm == "basic" || algorithm == "basic-plain")  // these claim no bound, and are measured by wang's
+  if (algorithm == "basic" || algorithm == "basic-plain")  // they claim no bound; wang's is their unit
     place.unit = claimed_distance("wang", double_exponent);
   else if (algorithm == "wang-tight")
     place.unit = claimed_distance("wang-tight", *exponent);

@@ -13,7 +13,7 @@ namespace nearmiss {
 
 /// A subject's place on a ladder. For a subject that is not on a ladder, the algorithm is the subject itself.
 struct LadderPlace {
-  std::string algorithm, scalar;  ///< the algorithm includes its bound if one is given: "wang@0.5"
+  std::string algorithm, scalar;  ///< the algorithm's name includes a bound that the user gave: "wang@0.5"
   int epsilon_exponent = 0;
   /// The distance bound that divides the false positives' distances, in units of B; nothing if it is not
   /// known.
@@ -22,7 +22,7 @@ struct LadderPlace {
 
 LadderPlace place_of(const std::string& subject);
 
-/// "algorithm", "scalar" and "epsilon".
+/// An object with "algorithm", "scalar" and "epsilon".
 nlohmann::ordered_json place_json(const LadderPlace& place);
 
 /// A subject of the ladder; distances in units of B.
@@ -42,8 +42,8 @@ struct Rung : LadderPlace {
 /// queries of one origin (family.hpp), or of all origins if `origin` is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view origin = "");
 
-/// The farthest distance of an algorithm as a power of ε, fitted by least squares to logarithms, for one
-/// origin or for all.
+/// The farthest distance of an algorithm as a power of ε: a line fitted to logarithms by least squares, for
+/// the queries of one origin or of all.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
@@ -67,7 +67,7 @@ std::vector<Fit> fits(const Statistics& statistics);
 /// A fit in a line, for people.
 std::string describe(const Fit& line);
 
-/// "rungs" and "fits"; nothing unless an algorithm has at least two precisions.
+/// An object with "rungs" and "fits"; nothing unless an algorithm has at least two precisions.
 std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics);
 
 /// A row for each rung, and the fits over all origins; "" unless an algorithm has at least two precisions.

@@ -26,13 +26,13 @@ Value of(const CountsSum& sum) {
   return as_value(std::invoke(member, sum.counts));
 }
 
-/// The bin of a quantile, of which `quantile` is a member function of Counts.
+/// The bin of a quantile, which the member function `quantile` of Counts computes.
 template <auto quantile, int hundredths>
 Value quantile_of(const CountsSum& sum) {
   return std::invoke(quantile, sum.counts, hundredths / 100.0);
 }
 
-/// The bin of the distance that all but one per cent of the early times do not exceed.
+/// The bin of the 99 % quantile of Counts::travelled.
 Value far_travelled(const CountsSum& sum) { return sum.counts.travelled.quantile(0.99); }
 
 Value ns_per_query(const CountsSum& sum) { return as_value(sum.counts.times.ns_per_query()); }
@@ -58,7 +58,7 @@ Value interval(const CountsSum& sum) {
   return Bin{lo, hi};
 }
 
-/// "-" if no time was to be a lower bound.
+/// The number of late times; "-" if no time was promised to be a lower bound.
 std::string late_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.late);
 }
@@ -110,7 +110,7 @@ constexpr std::array other_measures{
     Measure{"max_time_error", of<&Counts::max_time_error>},
 };
 
-/// A value on the terminal; the upper end of a range.
+/// The text of a value on the terminal; for a range, its upper end.
 struct AsText {
   std::string operator()(std::monostate /*nothing*/) const { return "-"; }
   std::string operator()(std::uint64_t count) const { return with_separators(count); }

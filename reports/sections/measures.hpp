@@ -1,5 +1,6 @@
-// The table of measures: each number that reports compute from a subject's counters, with its names in files and tables. A section of
-// a report sums counters by some key (sums_by), and shows a list of measures of each sum.
+// The table of measures: each number that reports compute from a subject's counters, with its names in files
+// and tables. A section of a report sums counters by some key (sums_by), and shows a list of measures of each
+// sum.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +26,15 @@ struct Measure {
   std::string_view key;              ///< in report.json
   Value (*value)(const CountsSum&);  ///< as files show it
   std::string_view heading = "";     ///< in tables on the terminal
-  std::string_view csv_after = "";   ///< counter whose column its own follows in CSV files; "" for no column
+  std::string_view csv_after = "";   ///< counter after whose column CSV files have it; "" for no column
   std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal, if it is not the value as text
 };
 
 /// The measures that report.json shows of every sum, in its order.
 std::span<const Measure> rate_measures();
 
-/// The measure with this key: of rate_measures(), or of the few others. Throws std::out_of_range if there is none.
+/// The measure with this key: one of rate_measures(), or one of the few that report.json shows only in some
+/// places. Throws std::out_of_range if there is none.
 const Measure& measure(std::string_view key);
 
 /// Keys of measures.
@@ -45,8 +47,8 @@ std::vector<std::string> headings(std::vector<std::string> cells, const MeasureK
 std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKeys& measures,
                                 const CountsSum& sum);
 
-/// A table on the terminal with a row for each sum. `cells_of` makes the first cells of a row from the sum's key; `first` are their
-/// headings. The first `left_aligned` columns are aligned left.
+/// A table on the terminal with a row for each sum. `cells_of` makes the first cells of a row from the sum's
+/// key; `first` are their headings. The first `left_aligned` columns are aligned left.
 template <class Key, class CellsOf>
 std::string table(const std::map<Key, CountsSum>& sums, std::vector<std::string> first,
                   const CellsOf& cells_of, const MeasureKeys& measures, std::size_t left_aligned) {

@@ -51,7 +51,8 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of the simplest failure: of the least exotic query, a miss if there is one, else a late time.
+/// The index of the failure with the least exotic query; of several, a miss if there is one, else a late
+/// time.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings) {
   const auto rank = [](const Finding& finding) {
     return std::tuple(exoticness(finding.shrunk, finding.query_class),

@@ -12,9 +12,10 @@
 
 namespace nearmiss {
 
-/// For each subject, in the order of their names: its verdict, its failures, the gravest first, its place on the ladder of precisions, its rates over both kinds
-/// as a whole and class by class, its run times, the number of changes since the baseline, and the index of its simplest
-/// query among the findings that are shown; null without findings.
+/// An object for each subject, in the order of their names. It has the subject's verdict; its failures, the
+/// gravest first; its place on the ladder of precisions; its rates over both kinds, as a whole and class by
+/// class; its run times; the number of changes since the baseline; and the index of its simplest failure
+/// among the findings that are shown (null without findings).
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                                       const std::optional<Changes>& since,
                                       const Failures& failing = usual_failures());

@@ -27,7 +27,7 @@ std::string without_case(std::string name) {
 /// Gives each file a name of its own, also on a machine that ignores case.
 class OwnNames {
  public:
-  /// NAME.case; NAME-2.case, NAME-3.case ... if that is taken.
+  /// NAME.case, or NAME-2.case, NAME-3.case ... if NAME.case is taken.
   std::string take(const std::string& name) {
     std::string own = name;
     for (int i = 2; !taken_.insert(without_case(own)).second; ++i) own = fmt::format("{}-{}", name, i);
@@ -53,7 +53,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  std::map<std::string, std::size_t> number;  // of files with the same name, but for the number
+  std::map<std::string, std::size_t> number;  // how many files have this name, apart from their number
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (first.take(finding))
@@ -102,7 +102,7 @@ const Run* run_of(const Campaign& campaign, const Finding& finding) {
   return nullptr;
 }
 
-/// The text for a subject's plug-in on the command line of the machine that asked it; nothing for a built-in subject.
+/// How the command line of the machine that ran it names a subject's plug-in; nothing for a built-in subject.
 std::optional<std::string> plugin_text(const Run& run, const std::string& subject) {
   for (const Shard& shard : run.shards)
     if (const auto text = shard.environment.find(std::string(about_plugin) + subject);
@@ -111,7 +111,8 @@ std::optional<std::string> plugin_text(const Run& run, const std::string& subjec
   return std::nullopt;
 }
 
-/// The text for a subject of a run on the command line, with the scene's bound if it has that.
+/// How the command line names a subject of a run, with the bound of the scene if the subject was asked with
+/// it.
 std::string text_of(const Run& run, const std::string& subject) {
   const auto renamed = run.info.find(std::string(about_subject) + subject);
   std::string text = renamed == run.info.end() ? subject : renamed->second;

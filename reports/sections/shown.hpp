@@ -1,5 +1,5 @@
-// Single queries that a report shows: findings, the farthest false positives, and the earliest and latest times. Findings and
-// false positives become case files too.
+// Single queries that a report shows: findings, the farthest false positives, and the earliest and latest
+// times. Findings and false positives become case files too.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ struct ShownFinding {
   Exported shrunk, original;
 };
 
-/// The first findings of each signature and class (FirstFindings). The files are numbered separately for each kind of failure and
-/// each subject; subjects whose file names differ in case alone, or not at all, share the numbers. All findings are in
-/// findings.csv.
+/// The first findings of each signature and class (FirstFindings); findings.csv has all findings. The files
+/// are numbered separately for each kind of failure and each subject. Subjects whose file names are equal,
+/// apart from upper and lower case, share the numbers.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
 /// The command that replays a finding in the report's folder, with the run's limits and bound. A plug-in's
@@ -42,24 +42,25 @@ struct ShownFarthest {
   Exported exported;
 };
 
-/// The farthest false positive of each subject, kind and family that has one, in the order of their keys. No two files have
-/// the same name, case ignored.
+/// The farthest false positive of each subject, kind and family that has one, in the order of their keys.
+/// File names differ even if upper and lower case are not distinguished.
 std::vector<ShownFarthest> farthest_cases(const Statistics& statistics);
 
-/// The time of one subject and kind that is the farthest before t*, or the farthest after it.
+/// The time that is the farthest before t*, or the farthest after it, among those of a subject and kind.
 struct ShownTime {
   std::string subject;
   Kind kind{};
   bool is_early = false;
   FarCase far;  ///< its ratio is the magnitude of time - t*
 
-  /// The time that the subject gave, to the precision of the ratio, if t* is `earliest`.
+  /// The time that the subject gave, computed from t* (`earliest`) and the ratio, to the precision of the
+  /// ratio.
   [[nodiscard]] double given(double earliest) const {
     return std::clamp(is_early ? earliest - far.ratio : earliest + far.ratio, 0.0, 1.0);
   }
 };
 
-/// The earliest and the latest time of each subject and kind that gave some, in the order of their names.
+/// The earliest and the latest time of each subject and kind with times, in the order of their names.
 std::vector<ShownTime> extreme_times(const Statistics& statistics);
 
 }  // namespace nearmiss

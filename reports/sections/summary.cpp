@@ -53,7 +53,7 @@ constexpr const char* footnote_on_times =
     "time "
     "that is none, or a collision without the time that\nis promised\n";
 
-/// Explains the mark of distances that are not fractions of a claim; "" if there are none.
+/// Explains the mark "**" of distances that are not fractions of a claimed bound; "" if there are none.
 std::string footnote_on_units(const Statistics& statistics) {
   const bool is_marked = std::any_of(
       statistics.counts.begin(), statistics.counts.end(),
@@ -80,7 +80,7 @@ constexpr const char* footnotes =
     "(Clopper-Pearson)\nns/query: without waiting for a processor, less that of an empty subject; the "
     "median over batches of each family\n";
 
-/// A table and an empty line; "" without a table.
+/// A table followed by an empty line; "" for an empty table.
 std::string spaced(const std::string& text) { return text.empty() ? "" : text + "\n"; }
 
 }  // namespace

@@ -11,26 +11,28 @@
 
 namespace nearmiss {
 
-/// Sums by the value of the parameter, both kinds together.
+/// Sums of counters over both kinds, by the value of the parameter.
 using Sweep = std::map<double, CountsSum>;
 
 /// The sweeps in a campaign by family and subject: families NAME@VALUE with at least two values.
 std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& statistics);
 
-/// Sums by class of families and value of the option, both kinds together.
+/// Sums of counters over both kinds, by class of families and value of the option.
 using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
-/// The sweeps of options in a campaign by pattern: subjects NAME:KEY=NUMBER with at least two numbers have the pattern NAME:KEY=*.
+/// The sweeps of options in a campaign by pattern: subjects NAME:KEY=NUMBER with at least two different
+/// numbers have the pattern NAME:KEY=*.
 std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics);
 
-/// A table for each sweep and subject with a row for each value, then one for each sweep of an option with a row for each class
-/// and value; "" without sweeps.
+/// A table for each sweep and subject with a row for each value, then one for each sweep of an option with a
+/// row for each class and value; "" without sweeps.
 std::string sweep_tables(const Statistics& statistics);
 
 /// An object FAMILY.SUBJECT with a list in the order of the values; empty without sweeps.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 
-/// An object with a list for each pattern, in the order of classes and values; empty without sweeps of options.
+/// An object with a list for each pattern, in the order of classes and values; empty without sweeps of
+/// options.
 nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -32,7 +32,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The most subjects that have a family in common; if there are several such sets, the one with the most families.
+/// The largest set of subjects with a common family; of several such sets, the one with the most common
+/// families.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -89,7 +90,7 @@ bool has_ladder(const std::vector<TradeOff>& all) {
   return std::any_of(scalars.begin(), scalars.end(), [](const auto& each) { return each.second.size() > 2; });
 }
 
-/// The front of the subjects whose times are lower bounds.
+/// The Pareto front by earliness, among the subjects whose times are lower bounds.
 std::vector<std::string> front_by_earliness(std::vector<TradeOff> all) {
   std::erase_if(all,
                 [](const TradeOff& each) { return each.timed.counts.time_sort() != TimeSort::lower_bound; });

@@ -12,11 +12,11 @@
 
 namespace nearmiss {
 
-/// Run time and error of a subject, over the kinds and families that it has in common with all others that are compared.
+/// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over timed families. Rates are computed from it too, because the rates of a directed search are
-  /// meaningless.
+  /// The sum over timed families. Rates are computed from it, too, because directed searches, which are not
+  /// timed, have no meaningful rates.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -27,7 +27,7 @@ struct TradeOff {
     return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: it answered every query, even if it could not tell, and failed in no other way.
+  /// Whether the subject may be on a front: its only failure, if any, is that it could not tell.
   [[nodiscard]] bool sound() const {
     Failures failures = failures_of(subject, all.counts);
     failures.erase(FailureKind::unknown);
@@ -35,8 +35,8 @@ struct TradeOff {
   }
 };
 
-/// A TradeOff for each timed subject, in the order of their names. If there is no family about which all were asked, only the
-/// largest set of subjects that have one in common is compared.
+/// A TradeOff for each timed subject, in the order of their names. If no family was asked of all subjects,
+/// only the largest set of subjects with a common family is compared.
 std::vector<TradeOff> trade_offs(const Statistics& statistics);
 
 /// The Pareto front of the sound subjects, fastest first. A subject is on the front unless another sound
@@ -44,12 +44,17 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics);
 /// only the first name is on the front. `error` computes the error of a subject.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
-/// "left_out" has the names of the timed subjects that are not compared. "subjects" with ns_per_query, rates and the farthest distance of each; "front_by_distance", of the
-/// farthest distance; "front_by_rate", of the rate of false positives; "front_by_earliness", of the 99 % quantile of earliness,
-/// of the subjects whose times are lower bounds. A subject has its sort of time, and the median, the 99 % quantile and the
-/// largest magnitude of time - t*; for a sound lower bound these are its earliness. If an algorithm has at least three
-/// scalars, also "ladder": "front_by_distance" and the "paper_bound" of double in units of B, because
-/// fractions of different bounds cannot be compared.
+/// An object with these members:
+///   "left_out"            the names of the timed subjects that are not compared
+///   "subjects"            for each subject ns_per_query, rates, the farthest distance, the sort of its
+///                         times, and the median, the 99 % quantile and the largest magnitude of time - t*;
+///                         for a sound lower bound this magnitude is how early the time is
+///   "front_by_distance"   the Pareto front by the farthest distance
+///   "front_by_rate"       the Pareto front by the rate of false positives
+///   "front_by_earliness"  that by the 99 % quantile of earliness, among subjects with lower bounds as times
+///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
+///                         B, because fractions of different bounds cannot be compared, and the
+///                         "paper_bound" of double
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
 }  // namespace nearmiss

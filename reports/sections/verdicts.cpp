@@ -32,8 +32,9 @@ std::map<std::string, OfSubject> by_subject(const Statistics& statistics) {
   return subjects;
 }
 
-/// "ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001": how often a subject failed so, class by class, and in the first
-/// class kind by kind. Leaves out what has nothing to fail in, and the name of the class if queries of no class are all there is.
+/// "ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way,
+/// class by class, and in the first class kind by kind. Leaves out classes and kinds in which nothing could
+/// fail, and the name of the class if all queries are unclassified.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   const auto of = [](std::uint64_t count, std::uint64_t total) {
     return fmt::format("{} of {}", with_separators(count), with_separators(total));
@@ -59,7 +60,8 @@ std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   return fmt::format("{}", fmt::join(classes, "; "));
 }
 
-/// "missed 53 of 504 ordinary vt collisions": how a subject failed in a class, in the kinds in which it did.
+/// "missed 53 of 504 ordinary vt collisions": how often a subject failed in a class, for each kind with
+/// failures.
 std::string said_of(const FailureInfo& failure, QueryClass in, const std::map<Kind, Counts>& by_kind) {
   std::vector<std::string> kinds_text;
   std::uint64_t total = 0;
@@ -75,7 +77,7 @@ std::string said_of(const FailureInfo& failure, QueryClass in, const std::map<Ki
                      is_one ? failure.one : failure.many);
 }
 
-/// The least exotic class of families in which a subject failed so.
+/// The least exotic class of families in which a subject failed in this way.
 Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& failure) {
   const auto has_failed = [&](const auto& of_kind) { return failure.count(of_kind.second) > 0; };
   return std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
@@ -83,7 +85,8 @@ Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& f
   });
 }
 
-/// The least exotic class of the queries that a subject missed, if no family of this class or a less exotic one has a miss.
+/// The least exotic class of the queries that a subject missed, if it is less exotic than the class of every
+/// family with a miss; nothing otherwise.
 std::optional<QueryClass> class_of_missed(const OfSubject& subject) {
   const auto& missed = subject.all.missed_by_class;
   const auto in = least_exotic_part(subject.parts, failure_info(FailureKind::miss));
@@ -92,7 +95,8 @@ std::optional<QueryClass> class_of_missed(const OfSubject& subject) {
   return std::nullopt;
 }
 
-/// "missed 12 ordinary vt collisions in degenerate families": what a subject missed of a class of queries.
+/// "missed 12 ordinary vt collisions in degenerate families": what a subject missed among the queries of a
+/// class.
 std::string said_of_queries(const Parts& parts, QueryClass of) {
   std::map<Kind, std::uint64_t> by_kind;
   std::set<QueryClass> families;
@@ -113,8 +117,8 @@ std::string said_of_queries(const Parts& parts, QueryClass of) {
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// Puts the failures that count into words, each in the least exotic class in which it was seen: that of the families, or of the
-/// missed queries if it is less exotic.
+/// Puts the failures that count into words, each for the least exotic class in which it was seen: the class
+/// of the families, or that of the missed queries if it is less exotic.
 void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
@@ -158,7 +162,8 @@ std::string slow_text(const Counts& counts) {
   return text + ")";
 }
 
-/// "12 false positives, 3 of them unknown, the farthest at 0.5 of the bound". The distance of an unknown answer is not measured.
+/// "12 false positives, 3 of them unknown, the farthest at 0.5 of the bound". The distance of an unknown
+/// answer is not measured.
 std::string false_positive_text(const Counts& counts) {
   if (counts.false_positives == 0) return "no false positive";
   const std::uint64_t unknown = counts.false_by_stage[static_cast<std::size_t>(Stage::unknown)];
@@ -203,7 +208,8 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
   return parts;
 }
 
-/// The text of a verdict on a subject that answered. Lists of classes have semicolons, and semicolons around them.
+/// The text of a verdict on a subject that answered. Its parts are separated by commas, or by semicolons if
+/// one of them is a list of classes, which has semicolons itself.
 std::string answered_text(const Failures& failures, const OfSubject& subject) {
   const bool has_list = failures.contains(FailureKind::miss) || failures.contains(FailureKind::late);
   std::string text = fmt::format("{}", fmt::join(verdict_parts(failures, subject), has_list ? "; " : ", "));

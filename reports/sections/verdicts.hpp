@@ -14,14 +14,13 @@ namespace nearmiss {
 /// What a campaign says about a subject.
 struct SubjectVerdict {
   std::string subject;
-  Failures failures;  ///< all that there are
-  bool clean = true;  ///< none of them is among those that count
+  Failures failures;  ///< all failures of the subject
+  bool clean = true;  ///< whether none of them is among those that count
   std::string text;   ///< "no miss in 1,234 collisions" and so on
-  /// The failures that count: how the subject failed in the least exotic class in which it did, such as "missed 53 of 504
-  /// ordinary vt collisions".
+  /// For each failure that counts: how the subject failed in the least exotic class with this failure, such
+  /// as "missed 53 of 504 ordinary vt collisions".
   std::map<FailureKind, std::string> said;
-  QueryClass least_exotic =
-      QueryClass::unclassified;  ///< the class in which a failure that counts was first seen
+  QueryClass least_exotic = QueryClass::unclassified;  ///< the least exotic class with a failure that counts
 
   /// The gravest of the failures that count in the least exotic class, in words; "" for a clean subject.
   std::string first = {};

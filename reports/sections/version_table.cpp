@@ -19,7 +19,7 @@ namespace nearmiss {
 
 namespace {
 
-/// What is shown of two versions.
+/// A number that is shown of two versions.
 struct VersionMeasure {
   std::string_view key;   ///< in report.json
   std::string_view text;  ///< behind the number; "" if the terminal does not show it
@@ -54,7 +54,8 @@ std::string in_words(const VersionCounts& counts, bool shows_zeros) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// "; ee not compared, because old was not asked about it" for each kind that one of two versions was asked about and both were not.
+/// "; ee not compared, because old was not asked about it", for each kind that only one of two versions was
+/// asked about.
 std::string not_compared(const Versions& versions, const Parts& parts, const Statistics& statistics) {
   const auto [before, after] = versions;
   std::set<Kind> compared;

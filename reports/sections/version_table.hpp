@@ -8,8 +8,9 @@
 
 namespace nearmiss {
 
-/// A line for each pair of versions, "new against old: 12 fixed, 3 broken, 41 both fail, of 5,000 queries (ordinary vt 3
-/// broken; ...)", with the kinds that are not compared because one of them was not asked; "" if there are no versions.
+/// A line for each pair of versions, "new against old: 12 fixed, 3 broken, 41 both fail, of 5,000 queries
+/// (ordinary vt 3 broken; ...)". It names the kinds that are not compared because only one version was asked
+/// about them. "" without versions.
 std::string version_lines(const Statistics& statistics);
 
 /// A list with an object for each pair of versions, class of families and kind.

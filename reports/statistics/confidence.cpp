@@ -37,7 +37,7 @@ double student_t_quantile_975(std::size_t degrees_of_freedom) {
 
 namespace {
 
-/// P(X >= count) and P(X <= count) for X >= least.
+/// P(X >= count) and P(X <= count) for a random number X whose smallest value is `least`.
 template <class Distribution, class Number>
 ExactTest tails(const Distribution& distribution, Number count, Number least) {
   return {count == least ? 1 : cdf(complement(distribution, count - 1)), cdf(distribution, count)};
@@ -71,7 +71,7 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     expected += both * static_cast<double>(now.total) / static_cast<double>(now.total + before.total);
     seen += static_cast<double>(now.count);
   }
-  if (std::abs(seen - expected) < 1) return {};  // the theorem does not apply, but the sum is as expected
+  if (std::abs(seen - expected) < 1) return {};  // too near for the theorem; nothing has changed
   return tails(Binomial(trials, expected / trials), seen, 0.0);
 }
 

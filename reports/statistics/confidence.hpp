@@ -10,8 +10,8 @@
 namespace nearmiss {
 
 /// The one-sided 95 % upper confidence bound of a rate if `count` events were seen in `total` trials (Clopper
-/// and Pearson 1934). With this rate, the probability of at most `count` events is 5 %. The bound is 1 if
-/// `total` is 0.
+/// and Pearson 1934): at this rate, the probability of at most `count` events is 5 %. It is 1 if `total` is
+/// 0.
 double clopper_pearson_upper(std::uint64_t count, std::uint64_t total);
 
 /// A confidence interval of a rate, within [0, 1].
@@ -21,8 +21,8 @@ struct ConfidenceInterval {
   bool operator==(const ConfidenceInterval&) const = default;
 };
 
-/// The two-sided interval of Clopper and Pearson: the true rate is below it with probability at most `risk` / 2, and
-/// above it with probability at most `risk` / 2. [0, 1] if total is 0.
+/// The two-sided confidence interval of Clopper and Pearson: the probability that the true rate is below it
+/// is at most `risk` / 2, and likewise above it. [0, 1] if total is 0.
 ConfidenceInterval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk = 0.05);
 
 /// The 0.975 quantile of Student's t-distribution.
@@ -55,11 +55,11 @@ struct ExactTest {
 /// the counts a million, a binomial distribution replaces the hypergeometric one; its p-values are larger.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);
 
-/// The same test for the sum over several pairs {now, before}; each pair has its own rate. If the sum of a
-/// pair's counts is given, now.count is a sum of independent trials with mean probability now.total /
-/// (now.total + before.total). Hoeffding's theorem (1956) bounds the tails of the sum over all pairs at a
+/// An exact test like fisher_test, for the sum over several pairs {now, before}, each with its own rate.
+/// Given the sum of a pair's counts, now.count is a sum of independent trials with mean probability now.total
+/// / (now.total + before.total). Hoeffding's theorem (1956) bounds the tails of the sum over all pairs at a
 /// distance of more than 1 from the expectation: they are at most those of a binomial distribution with the
-/// same number of trials and their mean probability.
+/// same number of trials and the mean of their probabilities.
 ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
 
 }  // namespace nearmiss

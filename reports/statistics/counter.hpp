@@ -1,6 +1,7 @@
-// Declarations of counters. A counter is declared once: its name, its member, and where files show it. Merging
-// (merge_counters), the store (store/values.hpp), report.json (sections/counts_json.hpp) and statistics.csv
-// (csv.hpp) go through the declarations. sections/measures.hpp declares what reports compute from counters.
+// Declarations of counters. A counter is declared once: its name, its member, and where files show it.
+// Merging (merge_counters), the store (store/values.hpp), report.json (sections/counts_json.hpp) and
+// statistics.csv (csv.hpp) go through the declarations. sections/measures.hpp declares what reports compute
+// from counters.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ struct Counter {
   Member Owner::*member;
   std::string_view json_key = name;
   std::string_view json_object =
-      "";  ///< key of the object in report.json that has it; "" for the owner's object
+      "";  ///< key of the object in report.json that contains it; "" for the object of the owner
 };
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
@@ -31,8 +32,8 @@ struct NamedCounts {
   std::array<std::uint64_t, size> Owner::*member;
   std::array<std::string_view, size> names;
   std::string_view
-      json_key;  ///< key of an object with an entry for each name; "" if the entries are in the owner's
-                 ///< object
+      json_key;  ///< key of an object with an entry for each name; "" if the entries are in the object of
+                 ///< the owner
   std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv, where Counts are shown
   std::size_t first = 0;          ///< index of the first entry that is counted and shown
   bool shows_zeros = false;       ///< whether report.json shows zero entries
@@ -44,7 +45,8 @@ constexpr void for_each_counter(const Use& use) {
   std::apply([&](const auto&... counters) { (use(counters), ...); }, Owner::counters());
 }
 
-/// Whether every member of `Owner` is a declared counter. Members must be aligned so that there is no padding.
+/// Whether every member of `Owner` is a declared counter. Members must be aligned so that there is no
+/// padding.
 template <class Owner>
 constexpr bool declares_all_members() {
   std::size_t declared = 0;

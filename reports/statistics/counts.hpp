@@ -21,8 +21,8 @@
 
 namespace nearmiss {
 
-/// A query that is kept because it is among the most extreme: the false positives that are the farthest apart, or the times
-/// that are the earliest or the latest.
+/// A query that is kept because its answer is among the most extreme: a false positive whose primitives are
+/// farthest apart, or the earliest or the latest time.
 struct FarCase {
   double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or the error of the time
   Query query;
@@ -36,19 +36,19 @@ void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 
 /// How the time that a subject gave for a true collision compares with t*, the earliest time.
 struct TimeError {
-  double early = 0;  ///< t* - time if that is positive, in the same sense as Outcome::ratio
+  double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
   double after = 0;  ///< time - t* if that is positive, likewise
-  /// How far a vertex of one primitive moves relative to one of the other in the time by which it is early, at most, divided by
-  /// the pair's bound B; rounded.
+  /// The early time as a distance: an upper bound of how far a vertex of one primitive moves between `time`
+  /// and t*, relative to a vertex of the other, divided by the pair's bound B; rounded.
   double travelled = 0;
-  bool promised = false;  ///< the time is to be a lower bound
-  bool late = false;      ///< something happens before a time that is to be a lower bound
+  bool promised = false;  ///< the subject promises that the time is a lower bound
+  bool late = false;      ///< contact, or a distance below h, before a promised lower bound
   bool stuck = false;     ///< the time is 0, and t* is not
 
   bool operator==(const TimeError&) const = default;
 };
 
-/// A subject's answer with the oracle's.
+/// A subject's answer to a query, compared with the oracle's.
 struct Outcome {
   Verdict verdict;
   bool collision = false;
@@ -60,8 +60,8 @@ struct Outcome {
   /// Whether the subject claims no bound, so that wang's bound for the same pair divides the distance.
   bool measured_by_wang = false;
   std::string fault_text = {};                        ///< what an exception said
-  std::optional<TimeError> time = {};                 ///< of a true positive with a time
-  QueryClass query_class = QueryClass::unclassified;  ///< of a query that failed
+  std::optional<TimeError> time = {};                 ///< for a true positive with a time
+  QueryClass query_class = QueryClass::unclassified;  ///< set only if the subject failed on the query
 };
 
 /// Counters of one subject, kind and family.
@@ -73,14 +73,14 @@ struct Counts {
   std::array<std::uint64_t, class_names.size()>
       missed_by_class{};  ///< false negatives by the class of the query
   std::uint64_t false_positives = 0;
-  std::uint64_t refuted_bounds = 0;    ///< false positives that are farther away than claimed
-  std::uint64_t measured_by_wang = 0;  ///< false positives for which the subject claims no bound
-  std::uint64_t times_given = 0;       ///< true positives for which the subject gives a time
-  std::uint64_t times_promised = 0;    ///< of these, with a time that is to be a lower bound
-  std::uint64_t late = 0;              ///< of these, with a time that is too late
-  std::uint64_t stuck = 0;             ///< of all times, those that are 0 although nothing happens then
-  std::array<std::uint64_t, fault_count> faults{};           ///< queries without an answer, by reason
-  SubjectTimes times;                                        ///< run times in ns
+  std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
+  std::uint64_t measured_by_wang = 0;               ///< false positives for which the subject claims no bound
+  std::uint64_t times_given = 0;                    ///< true positives for which the subject gives a time
+  std::uint64_t times_promised = 0;                 ///< given times that are promised to be lower bounds
+  std::uint64_t late = 0;                           ///< promised times that are too late
+  std::uint64_t stuck = 0;                          ///< given times that are 0 although t* is not
+  std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
+  SubjectTimes times;                               ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
   std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by reason
@@ -127,7 +127,7 @@ struct Counts {
 
   static constexpr std::size_t far_cases = 5;
 
-  /// Counts an outcome. Keeps `query` and its provenance if the outcome is a far false positive.
+  /// Counts an outcome. Keeps `query` and its provenance if the outcome is among the most extreme (FarCase).
   void add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance);
   void merge(const Counts& other) { merge_counters(*this, other); }
 
@@ -155,27 +155,27 @@ struct Counts {
   /// The error of the earliest time, and of the latest one; 0 if there is none.
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// The least ratio of a case that would be kept among some that are kept.
+  /// The least ratio with which another case would be kept in a list: 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
-  /// Reports that are neither right nor wrong: the subject could not tell.
+  /// Queries that the subject reported because it could not tell.
   [[nodiscard]] std::uint64_t unknown() const {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
   }
-  /// What the subject says about time, by the times that it gave. Lower bounds are all promised, or they are estimates.
+  /// The sort of the subject's times: lower bounds if all of them were promised to be, otherwise estimates.
   [[nodiscard]] TimeSort time_sort() const {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
   }
-  /// The bin of the smallest error such that a fraction `part` of the times that are not after t* are not earlier. Its upper
-  /// end is at most the largest error.
+  /// The bin of a quantile of earliness: the smallest error that is not exceeded by a fraction `part` of the
+  /// times that are not after t*. The bin's upper end is at most the largest error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
   }
-  /// The same for the magnitude of the error, of times on both sides of t*.
+  /// The bin of a quantile of |time - t*|, over all times.
   [[nodiscard]] Bin time_error_quantile(double part) const;
   [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
   /// The bin of the smallest ratio such that a fraction `part` of the false positives does not exceed it. The

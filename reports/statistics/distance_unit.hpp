@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// Distances are given as fractions of the bound that the subject claims. If it claims none, they are fractions of
-/// wang's bound for the same pair, which is a unit of length and no claim.
+/// Distances are given as fractions of the bound that the subject claims. If it claims none, they are
+/// fractions of wang's bound for the same pair, which is a unit of length and no claim.
 enum class DistanceUnit : std::uint8_t {
   claimed_bound,
   wangs_bound,

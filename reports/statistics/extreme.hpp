@@ -15,14 +15,14 @@ namespace nearmiss {
 struct Extreme {
   enum class Of : std::uint8_t {
     accepting_tolerance,  ///< the largest factor with which a collision is missed; 0 if no factor misses one
-    keeping_tolerance,  ///< the smallest such factor on a tolerance that keeps degenerate primitives out; infinity if
-                        ///< no factor misses one
+    keeping_tolerance,    ///< for a tolerance that keeps degenerate primitives out, the smallest factor
+                          ///< with which a collision is missed; infinity if no factor misses one
     distance,  ///< the largest distance / bound of a false positive of these tests; 0 without false positives
   };
 
   Of of{};
   std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< a factor applies to this tolerance alone; all others are the paper's
+  double value = 0;           ///< a factor applies only to this tolerance; all others are the paper's
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried

@@ -8,7 +8,8 @@ double ratio(std::uint64_t part, std::uint64_t of) {
   return static_cast<double>(part) / static_cast<double>(of);
 }
 
-/// Whether the lift of a is larger than that of b, or a is preferred.
+/// Whether a comes before b: its lift is larger, or the lifts are equal and a wins the tie (see
+/// common_factors).
 bool is_better(const CommonFactors& a, const CommonFactors& b) {
   const auto merit = [](const CommonFactors& each) {
     const bool is_single = each.key.values.find(' ') == std::string::npos;

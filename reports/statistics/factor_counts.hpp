@@ -1,5 +1,5 @@
-// The values of factors that the missed collisions of a subject have in common. The queries of some families, such as
-// `crossed`, have factors, and each has a value: "scale=1e-3".
+// What the missed collisions of a subject have in common. Families such as `crossed` build each query from
+// factors, such as its scale, and note the value of each factor: "scale=1e-3".
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace nearmiss {
 
-/// Identifies the collisions of a family, answered by a subject, that have these values.
+/// Identifies the collisions with some values of factors, among those of a family that a subject answered.
 struct FactorKey {
   std::string subject;
   Kind kind{};
   std::string family;
-  std::string values;  ///< "" for all collisions, "scale=1e-3", or two values: "when=at-1 scale=1e-3"
+  std::string values;  ///< "" for all collisions, one value "scale=1e-3", or two: "when=at-1 scale=1e-3"
 
   bool operator==(const FactorKey&) const = default;
   bool operator<(const FactorKey& other) const {
@@ -44,23 +44,25 @@ static_assert(declares_all_members<FactorCounts>());
 
 using FactorTable = std::map<FactorKey, FactorCounts>;
 
-/// Counts a collision with these values, one of each factor: among all, by one value, and by two. key.values is empty.
+/// Counts a collision, given its value of each factor: once among all collisions, once for each value, and
+/// once for each pair of values. key.values must be empty.
 void count_collision(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
                      bool missed);
 
-/// A value of a factor, or values of two, that many of the misses of a subject have.
+/// A value of one factor, or values of two factors, that many of a subject's misses have.
 struct CommonFactors {
   FactorKey key;
   FactorCounts with;  ///< the collisions that have the values
   FactorCounts all;
 
-  [[nodiscard]] double share() const;  ///< of the misses
+  [[nodiscard]] double share() const;  ///< share of the misses that have the values
   [[nodiscard]] double share_of_collisions() const;
 };
 
-/// For each subject, kind and family with misses: among the values and pairs of values that at least half of the misses
-/// have, the one with the largest lift, which is share() / share_of_collisions(). Of equal lifts, the one of more misses;
-/// then a single value before a pair; then the first in alphabetical order.
+/// For each subject, kind and family with misses: among the values and pairs of values that at least half of
+/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). If lifts are
+/// equal, it takes the one that more misses have; then a single value before a pair; then the first in
+/// alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
 }  // namespace nearmiss

@@ -9,7 +9,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Queries that a subject did not answer because it was slow: those over the time limit, and those that were not asked then.
+/// Queries that a subject did not answer because it was slow: those over the time limit, and those that were
+/// not asked because of these.
 std::uint64_t slow(const Counts& counts) {
   return counts.without_answer(Fault::time) + counts.without_answer(Fault::not_asked);
 }
@@ -99,7 +100,7 @@ std::optional<FailureKind> failure_of(const Outcome& outcome) {
 
 namespace {
 
-/// Whether a fault is that of the time limit, by its signature.
+/// Whether a signature is that of a query over the time limit.
 bool is_slow(std::string_view signature) {
   constexpr auto time = static_cast<std::size_t>(Fault::time);
   return std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) {

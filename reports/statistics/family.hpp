@@ -1,4 +1,4 @@
-// Families in reports: which are samples, and which are shown as one.
+// Families in reports: which are random samples, and which are shown together as one family.
 #pragma once
 
 #include <string>

@@ -5,20 +5,20 @@
 
 namespace nearmiss {
 
-/// Prefixes of the families of directed searches; the name of the subject that the search is for follows, and ~SEPARATION if
-/// the queries have one.
+/// Prefixes of the families of directed searches. The name of the search's subject follows, and ~SEPARATION
+/// if the queries have a separation.
 inline constexpr std::string_view miss_search_family = "search-miss-";
 inline constexpr std::string_view far_search_family = "search-far-";
 inline constexpr std::string_view late_search_family = "search-late-";
 inline constexpr std::string_view early_search_family = "search-early-";
 
-/// The name of a family, taken apart: NAME, or NAME@VALUE with a fixed parameter, and behind both ~SEPARATION. No other place
-/// knows this form. The name must outlive the parts.
+/// The name of a family, taken apart: NAME, or NAME@VALUE with a fixed parameter, either followed by
+/// ~SEPARATION. Only this struct knows the form of names. The name must outlive its parts.
 struct FamilyName {
-  std::string_view base;        ///< NAME; of a directed search, with the name of its subject
+  std::string_view base;        ///< NAME; for a directed search, it includes the name of its subject
   std::string_view value;       ///< VALUE, or ""
   std::string_view separation;  ///< SEPARATION, or ""
-  std::string_view search;      ///< "search-miss" and so on, of a directed search; else ""
+  std::string_view search;      ///< "search-miss" and so on for a directed search; else ""
 
   explicit FamilyName(std::string_view name);
 };

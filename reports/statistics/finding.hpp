@@ -23,7 +23,7 @@ struct Finding {
     oracle_disagreement,
     truth_mismatch,
     fault,
-    late  ///< a time before which nothing should happen is too late
+    late  ///< a time that is promised to be a lower bound is too late
   };
 
   What what{};
@@ -33,7 +33,8 @@ struct Finding {
   std::string provenance;
   double ratio = 0;  ///< distance divided by bound, if a bound was refuted; time - t*, if the time is late
   std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
-  /// The simplest known query that fails in the same way and is of the class of `query`. It may be `query` itself.
+  /// The simplest known query that fails in the same way and is of the class of `query`. It may be `query`
+  /// itself.
   Query shrunk = {};
   std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
   double time = 0;          ///< the subject's time for the shrunk query, if it is late
@@ -41,7 +42,7 @@ struct Finding {
   QueryClass query_class = QueryClass::unclassified;
   Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
   QueryClass simplest_class = QueryClass::unclassified;
-  /// The version of the subject's CCD that does not fail on `query`; "" if there is none, or it fails, too.
+  /// The earlier version of the subject's CCD if that does not fail on `query`; "" otherwise.
   std::string broken_since = {};
 
   bool operator==(const Finding&) const = default;
@@ -72,15 +73,15 @@ inline Signature signature_of(const Finding& finding) {
 /// Number of findings of each signature and class that are kept and shown; Statistics::seen counts all.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes findings in order and picks the first ones of each signature in each class of queries; and likewise of those that an
-/// earlier version of the CCD answers rightly.
+/// Takes findings in order and picks the first ones of each signature in each class of queries. Findings on
+/// which an earlier version of the CCD does not fail are counted separately.
 class FirstFindings {
  public:
   /// Counts the finding. Returns its number among those of its signature and class, from 1 on.
   std::size_t count(const Finding& finding) {
     return ++counted_[{signature_of(finding), finding.query_class, finding.broken_since}];
   }
-  /// Counts the finding. Whether it is among the first ones of its signature and class.
+  /// Counts the finding. Returns whether it is among the first ones of its signature and class.
   bool take(const Finding& finding) { return count(finding) <= findings_kept; }
 
  private:

@@ -1,4 +1,5 @@
-// Counts of the pairs of a scene: those that were left out, by reason, and those that subjects were asked about.
+// Counts of the pairs of a scene: those that were left out, by reason, and those that subjects were asked
+// about.
 #pragma once
 
 #include <array>

@@ -15,9 +15,9 @@ struct Bin {
   bool operator==(const Bin&) const = default;
 };
 
-/// Counts numbers such as the distances of false positives, as fractions of the bound that the subject claims. The bins are
-/// log-spaced, four to a decade from 10^-16 to 10^1, with one more bin for everything below, 0 among it, and one for
-/// everything above.
+/// Counts numbers, such as the distances of false positives as fractions of the bound that the subject
+/// claims. The bins are log-spaced, four to a decade from 10^-16 to 10^1, with one more bin for all smaller
+/// numbers, including 0, and one for all larger numbers.
 struct Histogram {
   static constexpr int per_decade = 4;
   static constexpr int lowest_decade = -16;

@@ -46,7 +46,7 @@ struct Statistics {
   FactorTable factors;                      ///< collisions of the families whose queries have factors
   VersionTable versions;                    ///< versions of CCDs, query by query
   std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed in each way
-  std::map<std::string, Extreme> extremes;  ///< by tolerance or tests
+  std::map<std::string, Extreme> extremes;  ///< by the name of the tolerance or of the tests
   std::uint64_t oracle_disagreements = 0;   ///< queries about which the exact methods disagree
   std::uint64_t mismatches_with_recorded_truth =
       0;  ///< cases for which the oracle contradicts the recorded truth

@@ -9,7 +9,8 @@
 
 namespace nearmiss {
 
-/// The sums of counters by what `key_of` makes of their keys: a function, or a member of CountsKey.
+/// Adds up the counters whose keys have the same `key_of`, which is a function of CountsKey, or a member of
+/// it.
 template <class KeyOf>
 auto sums_by(const Statistics& statistics, const KeyOf& key_of) {
   std::map<std::decay_t<std::invoke_result_t<const KeyOf&, const CountsKey&>>, CountsSum> sums;

@@ -24,8 +24,8 @@ class BatchTimes {
   void add(const BatchTime& time);
   void merge(const BatchTimes& other);
   [[nodiscard]] std::uint64_t queries() const;
-  /// The median time per query in ns: batches with half of the queries did not exceed it. At least one query
-  /// must be timed.
+  /// The median time per query in ns: half of the queries were in batches that did not exceed it. At least
+  /// one query must be timed.
   [[nodiscard]] double median() const;
 
   /// Number of queries by their time in ps.
@@ -75,8 +75,8 @@ void add_up(BatchesByFamily& own, const BatchesByFamily& other);
 
 /// The run times of a subject.
 struct SubjectTimes {
-  BatchesByFamily batches;        ///< separate for each kind and family, because a median is meaningful for
-                                  ///< similar batches only
+  BatchesByFamily batches;        ///< separate for each kind and family, because a median is meaningful only
+                                  ///< for similar batches
   std::uint64_t nanoseconds = 0;  ///< total over all timed queries
   TimeHistogram each;             ///< times of a sample of the queries, timed one by one
   std::vector<SlowCase> slowest;  ///< the slowest of that sample, at most slow_cases, slowest first

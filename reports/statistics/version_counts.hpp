@@ -24,13 +24,13 @@ struct VersionKey {
   }
 };
 
-/// The queries that both were asked, by who fails: who misses a collision, gives a time that is late, exceeds its bound, or has
-/// no answer.
+/// Counts the queries that both versions were asked, by which of the two fails. To fail is to miss a
+/// collision, to give a late time, to exceed the claimed bound, or to give no answer.
 struct VersionCounts {
-  std::uint64_t fixed = 0;    ///< only the version before
-  std::uint64_t broken = 0;   ///< only the version after
-  std::uint64_t both = 0;     ///< both
-  std::uint64_t neither = 0;  ///< none
+  std::uint64_t fixed = 0;    ///< only the earlier version fails
+  std::uint64_t broken = 0;   ///< only the later version fails
+  std::uint64_t both = 0;     ///< both versions fail
+  std::uint64_t neither = 0;  ///< no version fails
 
   static constexpr auto counters() {
     return std::tuple{Counter{"fixed", &VersionCounts::fixed}, Counter{"broken", &VersionCounts::broken},

@@ -21,14 +21,14 @@ using Pictures = std::map<std::pair<std::uint64_t, std::string>, nlohmann::json>
 /// Consecutive findings of a run, from the one at place `first` on.
 Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint64_t first = 0);
 
-/// Replaces all counters.
+/// Replaces all counters in a store.
 void write_statistics(Save& save, const Statistics& statistics);
 
 /// Writes a campaign to an empty store.
 void write_campaign(Save& save, const Campaign& campaign);
 
-/// Reads a campaign. A run whose row was lost has no facts. Throws Error for an invalid value, and passes on exceptions of
-/// `read`.
+/// Reads a campaign. A run whose row was lost has no facts. Throws Error for an invalid value, and passes on
+/// exceptions of `read`.
 Campaign read_campaign(Reader& read);
 
 }  // namespace nearmiss

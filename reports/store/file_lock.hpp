@@ -5,12 +5,12 @@
 
 namespace nearmiss {
 
-/// A lock held by the process that writes a file. Meanwhile FILE.lock exists next to it; links to the file lead to the
-/// same lock. The system releases the lock however the process ends.
+/// A lock held by the process that writes a file. While it is held, FILE.lock exists next to the file. A
+/// symbolic link to the file leads to the same lock. The system releases the lock however the process ends.
 class FileLock {
  public:
-  /// Throws Error if another process holds the lock, if it cannot be made, or if the file has another name (a hard link),
-  /// which could be locked apart.
+  /// Throws Error if another process holds the lock, if the lock cannot be made, or if the file has a second
+  /// name (a hard link), under which another process could lock it separately.
   explicit FileLock(const std::filesystem::path& file);
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t only_run = 0;
 
-/// How long to wait for another process that reads a store, or opens or closes it. A process that is told to stop does so within
-/// two seconds.
+/// How long to wait for another process that reads a store, or opens or closes it. It is short enough for a
+/// process to stop within two seconds after it is told to.
 constexpr int patience_ms = 1500;
 
 /// Runs `act`. Any exception becomes an Error that names the file.
@@ -36,17 +36,18 @@ auto naming(const fs::path& file, const Act& act) {
   }
 }
 
-/// The log with this ending that SQLite keeps beside a store while it is written, and that a killed writer leaves there.
+/// The log with this ending, which SQLite keeps beside a store while the store is written; a killed writer
+/// leaves it there.
 fs::path log_of(const fs::path& file, std::string_view ending) {
-  fs::path log = weakly_canonical(file);  // as SQLite follows links
+  fs::path log = weakly_canonical(file);  // SQLite, too, follows links
   log += ending;
   return log;
 }
 
-/// Opens a store to read it. It is changed only if its writer was killed while it changed the file itself: then
-/// SQLite takes back the half-done change, by the journal beside the store.
+/// Opens a store to read it. The store is not changed, unless its writer was killed while it changed the file
+/// itself: then SQLite takes back the half-done change, by the journal beside the store.
 SQLite::Database open_to_read(const fs::path& file) {
-  constexpr int most_bytes = 1 << 26;  // of a key or a value
+  constexpr int most_bytes = 1 << 26;  // limit for a key or a value
   const bool change_is_half_done = fs::exists(log_of(file, "-journal"));
   SQLite::Database db(file.string(), change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY,
                       patience_ms);
@@ -54,7 +55,8 @@ SQLite::Database open_to_read(const fs::path& file) {
   return db;
 }
 
-/// A signature was seen at least as often as there are findings of it, also if its own row is lost.
+/// Raises the count of each signature to the number of its stored findings, in case the row of the count was
+/// lost.
 void count_findings(Campaign& campaign) {
   std::map<Signature, std::uint64_t> stored;
   for (const Finding& finding : campaign.findings()) ++stored[signature_of(finding)];
@@ -82,7 +84,7 @@ Salvage read_intact(SQLite::Database& db) {
   return salvage;
 }
 
-/// A clause that says how to salvage a damaged store, and how much of it.
+/// A clause that says how to salvage a damaged store, and how much that would save.
 std::string advice(const fs::path& file) {
   try {
     const Salvage salvage = salvage_campaign(file);
@@ -94,8 +96,8 @@ std::string advice(const fs::path& file) {
   }
 }
 
-/// Throws Damage if the structure of the database is damaged. That may be so although all rows can be read, but then a
-/// save would do more damage.
+/// Throws Damage if the structure of the database is damaged. All rows may be readable nevertheless, but a
+/// save would then do more damage.
 void check_structure(SQLite::Database& db) {
   const std::string found = db.execAndGet("PRAGMA integrity_check(1)").getString();
   if (found != "ok") throw Damage(found.substr(0, found.find('\n')));
@@ -108,7 +110,8 @@ bool is_damage(const std::exception& error) {
   return reason != nullptr && reason->getErrorCode() == SQLITE_CORRUPT;
 }
 
-/// The log beside a store whose writer was killed, if SQLite fails because it cannot write in its folder; otherwise "".
+/// If SQLite fails because it cannot write in the folder of a store whose writer was killed, the log beside
+/// the store; otherwise "".
 std::string locked_log(const fs::path& file, const std::exception& error) {
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
   if (reason == nullptr) return "";
@@ -153,10 +156,10 @@ struct Connection {
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
     try {
-      db.setBusyTimeout(patience_ms / 3);       // results are saved, and the program shall end
+      db.setBusyTimeout(patience_ms / 3);       // results are saved, and the program should end
       db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
     } catch (const SQLite::Exception&) {
-      return;  // then the log remains next to the file, and nothing is lost
+      return;  // nothing is lost: the log stays next to the file
     }
   }
 

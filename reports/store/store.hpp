@@ -19,7 +19,7 @@ class Store {
   /// Whether there is a store to resume. A kill during the creation of a store may leave a database without
   /// tables, which is not a store yet.
   static bool exists(const std::filesystem::path& file);
-  /// Removes a store that is not open, and the log, which SQLite leaves behind if the disk is full.
+  /// Removes a store that is not open, and its log, which SQLite leaves behind if the disk is full.
   static void remove(const std::filesystem::path& file);
   /// Makes a new file. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
@@ -30,8 +30,8 @@ class Store {
   Store& operator=(Store&&) noexcept;
   ~Store();
 
-  /// Replaces the statistics and the shard, and adds the findings since the last save. If it throws Error, the file is
-  /// unchanged.
+  /// Replaces the statistics and the shard, and adds the findings since the last save. If it throws Error,
+  /// the file is unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 
   /// Replaces all findings. If it throws Error, the file is unchanged.
@@ -45,7 +45,8 @@ class Store {
   std::unique_ptr<Database> database_;
 };
 
-/// Reads a whole campaign. Throws Error if the file is missing, is not a store, has another version, or is damaged.
+/// Reads a whole campaign. Throws Error if the file is missing, is not a store, has another version, or is
+/// damaged.
 Campaign load_campaign(const std::filesystem::path& file);
 
 /// Reads several files as one campaign. Throws Error as load_campaign and merge_campaigns do.
@@ -58,12 +59,13 @@ struct Salvage {
   std::string lost;        ///< such as "3 of 20 rows of counts"; "" if nothing was lost
 };
 
-/// Reads all intact rows of a store. A row is intact if it matches its checksum. Throws Error if the file cannot be
-/// read, or has no intact row. The file's version is not looked at, because it may be damaged; a store of another version
-/// has no intact row.
+/// Reads all intact rows of a store, which are those that match their checksums. Throws Error if the file
+/// cannot be read, or has no intact row. The version in the file is not checked, because it may be damaged;
+/// the checksums include the version, so a store of another version has no intact row.
 Salvage salvage_campaign(const std::filesystem::path& file);
 
-/// Writes a campaign to a new file, whole or not at all. Throws Error if the file exists or cannot be written.
+/// Writes a campaign to a new file, whole or not at all. Throws Error if the file exists or cannot be
+/// written.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -45,7 +45,7 @@ std::int64_t checksum(const std::string& table, const std::string& key, const st
                       [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
 }
 
-/// Throws Error if JSON is too deep for those who walk it recursively.
+/// Parses JSON. Throws Error if it is nested too deeply for functions that walk it recursively.
 json parsed(const std::string& text) {
   static constexpr int most_levels = 32;
   return json::parse(text, [](int level, json::parse_event_t, const json&) {
@@ -54,11 +54,12 @@ json parsed(const std::string& text) {
   });
 }
 
-/// Passes the intact rows to `take`. `last` is the largest row id that is tried: single rows are never removed, so the ids
-/// of n rows are 1 to n.
+/// Passes the intact rows to `take`. `last` is the largest row id to try. Rows are never removed singly, so n
+/// rows have the ids 1 to n.
 Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take) {
   Contents found;
-  // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be damaged, too.
+  // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be
+  // damaged, too.
   SQLite::Statement row(
       db, fmt::format("SELECT key, value, checksum FROM {} NOT INDEXED WHERE rowid = ?", table));
   for (std::uint64_t id = 1; id <= last; ++id) {
@@ -86,7 +87,7 @@ ContentsByTable read_contents(SQLite::Database& db) {
   return contents;
 }
 
-/// The largest id of a table's rows. A damaged one can have any size.
+/// The largest id of a table's rows. If the table is damaged, this can be any number.
 std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
   constexpr std::int64_t most = 1'000'000;
   SQLite::Statement last(db, fmt::format("SELECT max(rowid) FROM {}", table));

@@ -1,5 +1,5 @@
-// The tables of a store. Each is a map: a row has a key and a value, which are JSON, and a checksum. SQLite trusts what
-// it reads from a file, so without checksums a flipped bit would change a number unnoticed.
+// The tables of a store. Each is a map: a row has a key and a value, which are JSON, and a checksum. SQLite
+// trusts what it reads from a file, so without checksums a flipped bit would change a number unnoticed.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -17,7 +17,8 @@
 
 namespace nearmiss {
 
-/// The version of the tables and of their contents; every change raises it. Only stores of this version are read.
+/// The version of the tables and of their contents; every change raises it. Only stores of this version are
+/// read.
 inline constexpr int store_version = 19;
 
 /// The store is not as it was written. The message says which part.
@@ -29,13 +30,13 @@ class Damage : public Error {
 /// Whether a database has no tables. A kill before the first save leaves such a file.
 bool is_empty(const SQLite::Database& db);
 
-/// Throws Error if the database is not a store of this version, and Damage unless it has exactly its tables, and nothing
-/// else, such as a view or a trigger.
+/// Throws Error if the database is not a store of this version, and Damage unless it has exactly the tables
+/// of a store and nothing else, such as a view or a trigger.
 void expect_store(SQLite::Database& db);
 
-/// The number of rows of a table, and the sum of their checksums modulo 2^64. The table `contents` has those of the other
-/// tables. A save updates both without reading other rows. They reveal rows that are missing, doubled, or left from an
-/// earlier save.
+/// The number of rows of a table, and the sum of their checksums modulo 2^64. They reveal rows that are
+/// missing, doubled, or left from an earlier save. The table `contents` has both numbers for every other
+/// table; a save updates them without reading rows that it does not change.
 struct Contents {
   std::uint64_t rows = 0, sum = 0;
 
@@ -77,14 +78,14 @@ class Reader {
   std::map<std::string, std::string> lost_;
 };
 
-/// Changes a store in one transaction, which `commit` ends. Without it, nothing changes.
+/// Changes a store in one transaction, which `commit` ends. Without `commit`, nothing changes.
 class Save {
  public:
   /// Makes the tables if the database is empty. Throws Damage if the table of contents is damaged.
   explicit Save(SQLite::Database& db);
 
-  /// Replaces the rows of a table by those of a map with the same keys, and possibly more. Writes only rows that have
-  /// changed.
+  /// Replaces the rows of a table by the entries of a map, which must have all keys of the table and may have
+  /// more. Writes only rows that have changed.
   template <class Map>
   void replace(const std::string& table, const Map& map) {
     contents_.at(table) = insert(table, rows_of(map), {}, true);
@@ -115,7 +116,7 @@ class Save {
     return rows;
   }
 
-  /// Inserts rows, and returns `contents` with them.
+  /// Inserts rows, and returns `contents` updated by them.
   Contents insert(const std::string& table, const Rows& rows, Contents contents, bool replaces);
 
   SQLite::Database& db_;

@@ -1,5 +1,5 @@
-// Values of a campaign as JSON, for the JSON library: from_json reads what to_json wrote, exactly. It throws Error, or an
-// exception of the library, for anything else.
+// Conversions between a campaign's values and JSON, in the form that the JSON library expects. from_json
+// restores exactly what to_json wrote; for anything else it throws Error, or an exception of the library.
 #pragma once
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ void from_json(const nlohmann::json& json, Enum& each) {
   each = static_cast<Enum>(name - names.begin());
 }
 
-/// The kind, and a line of numbers.
+/// A query becomes a text: its kind, then its numbers, as in a line of a query file.
 inline void to_json(nlohmann::json& json, const Query& query) {
   json = fmt::format("{} {}", short_name(query.kind), to_line(query));
 }
@@ -53,7 +53,7 @@ inline void from_json(const nlohmann::json& json, BatchTimes& times) {
   times = BatchTimes(json.get<BatchTimes::Bins>());
 }
 
-/// The value is text, because it may be infinite; all other numbers are finite.
+/// The member `value` becomes text, because it may be infinite, which JSON cannot express.
 inline void to_json(nlohmann::json& json, const Extreme& extreme) {
   json = {{"of", extreme.of},           {"name", extreme.name},
           {"query", extreme.query},     {"value", fmt::format("{}", extreme.value)},
@@ -68,7 +68,7 @@ inline void from_json(const nlohmann::json& json, Extreme& extreme) {
   json.at("queries").get_to(extreme.queries);
 }
 
-/// Counters, by their names.
+/// Counters become an object with their names as keys.
 template <class Owner>
 requires requires { Owner::counters(); }
 void to_json(nlohmann::json& json, const Owner& owner) {

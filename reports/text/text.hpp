@@ -21,7 +21,7 @@ std::string with_separators(std::uint64_t number);
 /// A part of a total as "12.3 %"; "" if the total is 0.
 std::string percent(std::uint64_t part, std::uint64_t total);
 
-/// The number that the whole text is; nothing if it is none.
+/// The number that the whole text represents; nothing if it is not a number.
 std::optional<double> number_in(std::string_view text);
 
 /// A time in ns, rounded to a whole number; "-" if there is none.
@@ -32,11 +32,11 @@ std::string whole_ns(const std::optional<double>& ns);
 /// largest double, which stands for any distance divided by a bound of 0.
 std::string fraction_of_bound(double ratio);
 
-/// "at 0.987 of the bound", "at 1.5 times the bound", or "beyond a bound of 0". The text says so if the bound is not a claim: "at 12.3 times
-/// wang's bound (it claims none)".
+/// "at 0.987 of the bound", "at 1.5 times the bound", or "beyond a bound of 0". If the subject claims no
+/// bound, the text says so: "at 12.3 times wang's bound (it claims none)".
 std::string times_the_bound(double ratio, DistanceUnit unit = DistanceUnit::claimed_bound);
 
-/// fraction_of_bound(ratio), with "**" if the bound is not a claim; `unit_footnote` explains that.
+/// fraction_of_bound(ratio), with "**" if the subject claims no bound; `unit_footnote` explains the mark.
 std::string marked_fraction_of_bound(double ratio, DistanceUnit unit);
 inline constexpr const char* unit_footnote =
     "** in units of wang's bound for the same pair, because the subject claims no bound";

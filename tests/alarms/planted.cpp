@@ -1,6 +1,7 @@
 // The subjects basic and wang as plug-ins with planted defects. If the environment variable NEARMISS_PLANTED
 // is N, one answer in N is wrong, chosen by the bits of the coordinates. If it is 0 or not set, no answer is
-// wrong. If NEARMISS_SLOWED is a number above 1, queries of the family kilometres are decided that often, on average.
+// wrong. If NEARMISS_SLOWED is a number above 1, each query of the family kilometres is decided that many
+// times on average, which makes this family slower.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -76,13 +77,12 @@ template <Kind kind>
 int decide(const double* x) {
   Query query{.kind = kind};
   std::copy(x, x + query.x.size(), query.x.begin());
-  volatile bool hit = false;  // so that every decision is made
+  volatile bool hit = false;  // keeps the compiler from removing repeated decisions
   int made = 0;
   do {
     hit = PLANTED_IN<kind>(query);
     ++made;
-  } while (made <
-           decisions(query));  // asked as often as it decides, so that this takes its part of the time, too
+  } while (made < decisions(query));  // called in each iteration, so that its cost is multiplied, too
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 

@@ -1,7 +1,8 @@
-// Counts how often a report with a baseline raises an alarm. Each campaign is compared with the next one, which is equal, so
-// that every alarm is false, and with one that has a planted defect: one query of 3,000 is answered wrongly, by a subject
-// without failures or by a subject that fails anyway; or one family takes 1.5 times as long. Campaigns have a number of cases,
-// or a time such as 20s. The counts up to then are printed after every ten pairs.
+// Counts how often a report with a baseline raises an alarm. Each campaign is compared with the next one,
+// which differs only in its seed, so that every alarm is false; and with one that has a planted defect. The
+// defect is one wrong answer in 3,000 queries, by a subject without failures or by one that already fails; or
+// a family that takes 1.5 times as long. Campaigns have a number of cases, or a time such as 20s. The counts
+// so far are printed after every ten pairs.
 //
 //     node tests/alarms/run.mjs [--jobs N] NEARMISS PLUGINS [PAIRS [CASES [equal|wang|basic|slower]]]
 import { execFileSync, spawnSync } from "node:child_process";
@@ -28,7 +29,10 @@ function night(name, seed, subjects, defect) {
   if (status !== 0 && status !== 1) throw new Error(`fuzz ended with ${status}: ${stderr}`);
 }
 
-/** New ways to fail, worse rates, and run times that have changed since the baseline. */
+/**
+ * What the report says about changes since the baseline: ways to fail that are new or gone, worse rates, and
+ * changed run times.
+ */
 function alarms() {
   spawnSync(resolve(nearmiss), ["report", "now.db", "--baseline", "before.db", "-o", "report"], { cwd: folder });
   const { baseline } = JSON.parse(readFileSync(join(folder, "report", "report.json")));
@@ -40,7 +44,10 @@ function alarms() {
   return found;
 }
 
-/** Compares the campaign "now" with that of `before`. An alarm may be `right`; prints the others. */
+/**
+ * Counts the right and the false alarms of pairs of campaigns. `right` says whether an alarm is right; the
+ * others are printed.
+ */
 class Count {
   constructor(what, right) {
     Object.assign(this, { what, right, pairs: 0, noticed: 0, wrong: 0 });
@@ -60,7 +67,10 @@ class Count {
   }
 }
 
-/** Compares each campaign with the next one, which is equal, and with one that has a defect, if there is one. */
+/**
+ * Compares each campaign with the next one, which differs only in its seed, and, if there is a defect, with
+ * one that has it.
+ */
 function count(what, subjects, seed, defect, right) {
   const equal = new Count(`equal campaigns of ${subjects.replaceAll(/[^,]*\/(planted[^,]*)\.so/g, "$1")}`, () => false);
   const changed = new Count(what, right);

@@ -1,4 +1,5 @@
-// The harness's own call as a C function, with which tests/python/speed.py compares the interfaces.
+// The call by which the harness itself asks a subject, as a C function: tests/python/speed.py compares the
+// interfaces with it.
 #include <algorithm>
 #include <cstddef>
 #include <memory>
@@ -19,7 +20,7 @@ struct Harness {
 
 extern "C" {
 
-/// A built-in subject, with `count` queries of 24 coordinates each; `kind` is that of queries.h.
+/// A built-in subject, with `count` queries of 24 coordinates each; `kind` has the values of queries.h.
 [[gnu::visibility("default")]] void* harness_new(const char* subject, int kind, const double* x,
                                                  std::size_t count) {
   auto* const harness = new Harness{nearmiss::make_built_in(subject), std::vector<nearmiss::Query>(count),

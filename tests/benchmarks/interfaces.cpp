@@ -1,6 +1,8 @@
-// Measures what the C and C++ interfaces add to the harness's own call, in ns of processor time per query of the uniform family whose
-// swept boxes meet: `exact-decision` and `wang` as subjects, and the same through each interface and layout. All take turns. The
-// argument after the name is the number of queries: 3,000 stay in the caches, 100,000 do not. Read the medians:
+// Measures how much time the C and C++ interfaces add to the harness's own call. The subjects
+// `exact-decision` and `wang` decide queries of the uniform family whose swept boxes meet, directly and
+// through each interface and layout; times are ns of processor time per query. All benchmarks take turns. The
+// number after a benchmark's name is the number of queries: 3,000 stay in the caches, 100,000 do not. Read
+// the medians:
 //   interfaces --benchmark_enable_random_interleaving=true
 #include <benchmark/benchmark.h>
 

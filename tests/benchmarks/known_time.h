@@ -1,4 +1,5 @@
-/* Arithmetic of known length: STEPS dependent multiply-adds, of two rounded operations each. */
+/* Arithmetic of known length: STEPS multiply-adds, each of which depends on the last and has two rounded
+ * operations. */
 #ifndef NEARMISS_KNOWN_TIME_H
 #define NEARMISS_KNOWN_TIME_H
 

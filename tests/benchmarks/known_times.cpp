@@ -1,7 +1,8 @@
-// Measures subjects whose run time is known: ns per query of the same arithmetic in a plain loop, in a built-in subject,
-// and in a plug-in, which runs in its own process; and ns per query of published CCDs, in a plain loop over their shared
-// objects and in their own processes. Also measures what isolation costs: ns of the wall clock per query of a plug-in that
-// does nothing, for batches of some sizes. A campaign has batches of 50 queries at first, and soon of 800.
+// Checks the harness's times with subjects whose run time is known: ns per query of the same arithmetic in a
+// plain loop, in a built-in subject, and in a plug-in, which runs in its own process. Does the same with
+// published CCDs: in a plain loop that calls their shared objects, and in their own processes. Also measures
+// what isolation costs: ns of the wall clock per query of a plug-in that does nothing, for several sizes of
+// batches. A campaign begins with batches of 50 queries, and soon has batches of 800.
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
 
@@ -63,7 +64,7 @@ void time_plain_loop(benchmark::State& state, int steps) {
   }
 }
 
-/// A plug-in's subject of that name, loaded into this process for good.
+/// The subject of that name in a plug-in, which stays loaded in this process.
 const nearmiss_subject& load(const std::string& object, const std::string& name) {
   void* const handle = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw std::runtime_error(dlerror());
@@ -76,7 +77,7 @@ const nearmiss_subject& load(const std::string& object, const std::string& name)
   }
 }
 
-/// As a user would call it: the queries are in an array, and one call decides all of them.
+/// Times a subject as a user would call it: the queries are in an array, and one call decides all of them.
 void time_plain_loop(benchmark::State& state, const nearmiss_subject& subject) {
   using Clock = std::chrono::steady_clock;
   const std::size_t n = queries().size();
@@ -95,7 +96,7 @@ void time_plain_loop(benchmark::State& state, const nearmiss_subject& subject) {
   if (subject.close != nullptr) subject.close(opened);
 }
 
-/// The wall clock runs while nearmiss and the plug-in's process wait for each other.
+/// Times a plug-in by the wall clock, because nearmiss and the plug-in's process also wait for each other.
 void time_isolation(benchmark::State& state, const Subject& plugin, std::size_t batch) {
   using Clock = std::chrono::steady_clock;
   std::vector<Verdict> verdicts(batch);
@@ -135,7 +136,7 @@ int main(int argc, char** argv) {
     add_measured("loop/" + name, [=](benchmark::State& state) {
       try {
         time_plain_loop(state, load(object, name));
-      } catch (const std::exception& exception) {  // of the published CCD
+      } catch (const std::exception& exception) {  // by the published CCD, or because it cannot be loaded
         state.SkipWithError(exception.what());
       }
     });

@@ -1,11 +1,14 @@
-// Measures what the oracle takes to judge a subject, in ns of processor time per query whose swept boxes meet:
-// `decision`, the decisions of all queries; and the decisions with what a trial asks about the time that a subject gives for a
-// collision: an enclosure of the earliest time t*, and whether the given time is late, exactly. The given times are
+// Measures how long the oracle takes to judge a subject, in ns of processor time per query whose swept boxes
+// meet. The benchmark `decision` only decides the queries. The others also ask what a trial asks about the
+// time that a subject gives for a collision: an enclosure of the earliest time t*, and whether the given time
+// is late. The given times are
 //   early   t* - 1e-6, at least 0, as those of a conservative CCD;
-//   exact   the largest double that is not after t*, as that of `exact`, which is the hardest to judge;
+//   exact   the largest double that is not after t*, as the subject `exact` gives it, which is the hardest to
+//           judge;
 //   late    t* + 1e-6, at most 1.
-// The inputs are the uniform family and the files and folders of cases that are named as arguments, with the separations 0,
-// 0.01 and 0.1. All benchmarks take turns, so noise of the machine affects all of them alike. The column Time has ns per query:
+// The inputs are the uniform family and the files and folders of cases that are named as arguments, with the
+// separations 0, 0.01 and 0.1. All benchmarks take turns, so noise of the machine affects all of them alike.
+// The column Time has ns per query:
 //   oracle_speed shared/queries
 #include <benchmark/benchmark.h>
 

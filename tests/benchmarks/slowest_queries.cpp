@@ -1,7 +1,8 @@
-// Searches for the queries that take the oracle longest, for each part of its work: the decision; the earliest time of a
-// collision; the distance of a false positive; the comparison of all exact methods. The search begins with queries of all
-// families and with the cases in the files and folders that are named. Then it mutates and crosses the slowest queries of each
-// part. Prints ms of processor time, and writes the slowest query of each part into FOLDER:
+// Searches for the queries that take the oracle longest, for each part of its work: the decision; the
+// earliest time of a collision; the distance of a false positive; the comparison of all exact methods. The
+// search begins with queries of all families and with the cases in the files and folders PATH. Then it
+// mutates and crosses the slowest queries of each part. Prints ms of processor time, and writes the slowest
+// query of each part into FOLDER:
 //   slowest_queries SECONDS SEED FOLDER [PATH...]
 #include <fmt/format.h>
 
@@ -31,7 +32,7 @@
 namespace nearmiss {
 namespace {
 
-/// A part of the oracle's work. The decision is known before it begins.
+/// A part of the oracle's work, which begins when the decision is known.
 struct Part {
   std::string_view name;
   std::string_view about;
@@ -39,7 +40,7 @@ struct Part {
   void (*work)(const Query& query, const Decision& decision);
 };
 
-/// Judges a report as that of a subject that claims no bound.
+/// Judges the report of a subject that claims no bound.
 void judge_report(const Query& query, const Decision& decision) {
   static const auto basic = make_subject("basic");
   static const Judge judge(*basic);

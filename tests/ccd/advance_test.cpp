@@ -19,7 +19,7 @@ using testing::scaled;
 
 Verdict decide(const Query& query) { return make_subject("advance")->decide(query); }
 
-/// Reported within the separation, at a time from `time` - 1e-12 up to `time`.
+/// Expects that a query is reported with this separation, at a time from `time` - 1e-12 up to `time`.
 void expect_just_before(const Query& query, double separation, double time) {
   const Verdict verdict = decide(with_separation(query, separation));
   EXPECT_EQ(verdict.stage, Stage::proximity);
@@ -40,9 +40,9 @@ TEST(Advance, IsJustBeforeContact) {
 }
 
 TEST(Advance, IsJustBeforeTheDistanceIsTheSeparation) {
-  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5, 0.25);  // of the face
-  expect_just_before(falling_vertex(0.5, -3, 9, -1), 5, 0.5);        // of an edge: 3, 4, 5
-  expect_just_before(falling_vertex(-2, -3, 11, -1), 7, 5.0 / 12);   // of a corner: 2, 3, 6, 7
+  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5, 0.25);  // the face is nearest
+  expect_just_before(falling_vertex(0.5, -3, 9, -1), 5, 0.5);        // an edge: 3² + 4² = 5²
+  expect_just_before(falling_vertex(-2, -3, 11, -1), 7, 5.0 / 12);   // a corner: 2² + 3² + 6² = 7²
   expect_just_before(falling_edge(1, -3), 0.5, 0.125);
 }
 
@@ -80,8 +80,8 @@ TEST(Advance, ReportsNothingBeyondItsBound) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, bound, bound)).hit);
 }
 
-// The triangle turns about the line x = 0 below a vertex at rest. Corners reach the vertex's height at once, but the plane never
-// comes nearer than that.
+// The triangle turns about the line x = 0, just below a vertex at rest. Its corners rise above the vertex's
+// height at once, but its plane never comes nearer to the vertex.
 TEST(Advance, CannotTellWhereOnlyAPartApproaches) {
   const Query query = make_query(Kind::vertex_triangle, {{0, 0, 1e-9}, {-1, 0, 0}, {1, -1, 0}, {1, 1, 0}},
                                  {{0, 0, 1e-9}, {-1, 0, -1}, {1, -1, 1}, {1, 1, 1}});

@@ -1,4 +1,4 @@
-// The culling of vertex-edge tests at its exact bounds, with exact numbers.
+// The culling of vertex-edge tests, with numbers that are exact and lie at the limits of its conditions.
 #include "ccd/wang/ve_culling.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Configuration<Kind::vertex_triangle, double> with_weight(double weight) {
   return configuration;
 }
 
-/// A linear F with this slope and the root 1/2.
+/// A linear F with this slope and with the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
 /// Tolerances with μ = 2^-40 and zeros otherwise.

@@ -1,5 +1,6 @@
-// The table of what kinds are made of. Oracle and wang both read it, so nothing that compares them would notice an error in it. Here, each
-// list is compared with what it must contain, made from the numbers of vertices alone.
+// The table of the vertices and edges of each kind. The oracle and wang both read it, so comparing them would
+// not reveal an error in it. Here, each list is compared with what it must contain, computed only from the
+// numbers of vertices.
 #include "ccd/query/kind.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Good and bad plug-in subjects.
+// Subjects from plug-ins that keep the rules of the interface, and from plug-ins that break them.
 #include "ccd/subjects/plugin.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Text from elsewhere is valid UTF-8 without control characters.
+// `printable` turns any text from outside into valid UTF-8 without control characters.
 #include "ccd/query/printable.hpp"
 
 #include <gtest/gtest.h>
@@ -14,16 +14,16 @@ TEST(Printable, LeavesTextAsItIs) {
 TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable("a\nb\tc"), "a b c");
   EXPECT_EQ(printable("\x1b[31mred\x7f\r"), "?[31mred??");
-  EXPECT_EQ(printable("a\u0085b"), "a??b");   // a line end of its own
-  EXPECT_EQ(printable("a\u202eb"), "a???b");  // turns the text that follows around
-  EXPECT_EQ(printable("a\u2028b"), "a???b");  // a line end in scripts
+  EXPECT_EQ(printable("a\u0085b"), "a??b");   // NEL, another line end
+  EXPECT_EQ(printable("a\u202eb"), "a???b");  // reverses the text after it
+  EXPECT_EQ(printable("a\u2028b"), "a???b");  // a line end in JavaScript
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
 }
 
 TEST(Printable, ReplacesBytesThatAreNotUtf8) {
   EXPECT_EQ(printable("\xff"), "?");
-  EXPECT_EQ(printable("a\xc3"), "a?");               // cut
-  EXPECT_EQ(printable("\xc0\xaf"), "??");            // a slash with too many bytes
+  EXPECT_EQ(printable("a\xc3"), "a?");               // a character that is cut off
+  EXPECT_EQ(printable("\xc0\xaf"), "??");            // an overlong slash
   EXPECT_EQ(printable("\xed\xa0\x80"), "???");       // a surrogate
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");  // beyond Unicode
   EXPECT_EQ(printable("\xe0\x80\xafx"), "???x");

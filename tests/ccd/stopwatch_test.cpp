@@ -1,4 +1,4 @@
-// How long work takes: its computing time, or, if it waits, the time that passes.
+// The stopwatch measures computing time, or, if the work waits, the time that passes.
 #include "ccd/subjects/stopwatch.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ std::uint64_t now(clockid_t clock) {
 constexpr std::uint64_t millisecond = 1'000'000;
 constexpr std::uint64_t clock_error = millisecond / 100;
 
-/// Computes until the clock has gone on by a millisecond.
+/// Computes until a clock has advanced by a millisecond.
 void compute(clockid_t clock) {
   const std::uint64_t start = now(clock);
   while (now(clock) < start + millisecond) {

@@ -62,8 +62,8 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_EQ(vertex_vertex(moving({0.5, 0, 0}, {-0.5, 0, 0}), tol), 1);
 }
 
-// One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. No earlier case in the algorithm's
-// order reports it.
+// One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. Only this case reports the pair:
+// cases that the algorithm tries earlier do not.
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -147,7 +147,7 @@ VertexEdge<double> pair_at_distance(Random& random, double distance, double& tim
   return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
 }
 
-/// The number of a random case, which repeats it, and its vectors.
+/// Describes a random case: its index, by which it can be repeated, and its vectors.
 std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << "x0i " << pair.x0i.xv.transpose() << ", xji "

@@ -93,7 +93,7 @@ TEST_P(EveryWang, DoesNotReportWhatStaysFarAway) {
   EXPECT_FALSE(decide(falling_edge(2, 1)).hit);
 }
 
-// Taken literally, Algorithm 3 would test t = 0 whatever F is.
+// Taken literally, the paper's Algorithm 3 would test t = 0 for any F.
 TEST_P(EveryWang, DoesNotReportAVertexFarAboveATriangleAtRest) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 5, 5)).hit);
 }
@@ -102,7 +102,7 @@ TEST_P(EveryWang, ReportsThePairThatIsAllZero) {
   for (const Kind kind : kinds) EXPECT_TRUE(decide(Query{.kind = kind}).hit);
 }
 
-// B = 0 makes every threshold 0, so each test must accept equality.
+// If B = 0, every threshold is 0, so each test must accept equality.
 TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   const Tolerances<double> tol = paper_tolerances(0.0);
   Moving<double> rest;
@@ -238,7 +238,8 @@ TEST(Wang, EdgeEdgeKeepsTheGivenOrderOfEndPointsThatAreEquallyClose) {
 }
 
 TEST(Wang, EdgeEdgeFindsTheEndPointsThatAreClosest) {
-  // x0 and x2 are 1000 apart, and the edges are long on one side only. Every order gives the same answer.
+  // x0 and x2 are far from the ends that are close to each other. The answer is the same in every order of
+  // the vertices.
   const Vector3<double> a(-1000, 0, 1), b(1, 0, 1), c(0, -1000, 0), d(0, 1, 0);
   const Vector3<double> down(0, 0, -2);
   for (const bool swap_first : {false, true}) {

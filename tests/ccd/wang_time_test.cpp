@@ -16,7 +16,7 @@ using testing::scaled;
 
 Verdict decide(const Query& query) { return make_subject("wang-time")->decide(query); }
 
-/// A time from `time` - 1e-10 up to `time`.
+/// Expects a time from `time` - 1e-10 up to `time`.
 void expect_just_before(const Query& query, double time) {
   const Verdict verdict = decide(query);
   EXPECT_TRUE(verdict.hit);
@@ -55,7 +55,8 @@ TEST(WangTime, IsZeroIfNoPlaneSeparatesMotionInOnePlane) {
   EXPECT_EQ(decide(query).time, 0);
 }
 
-// The plane of the triangle is z = t y. The vertex is in it at t = 1/4, beside the triangle, and at t = 3/4, inside.
+// The plane of the triangle is z = t y. The vertex is in it at t = 1/4, beside the triangle, and at t = 3/4,
+// inside.
 TEST(WangTime, LeavesOutARootThatIsNoContact) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0);
   const Query query = make_query(Kind::vertex_triangle, {{0.875, 1.5, 0.1875}, o, a, {0, 3, 0}},
@@ -78,7 +79,7 @@ TEST(WangTime, DoesNotDependOnAGivenBound) {
   EXPECT_EQ(make_subject("wang-time@1e3")->decide(query).time, decide(query).time);
 }
 
-// If only a given bound makes a pair collide, it has no contact before the end.
+// The pair is reported only because of its large given bound. It has no contact, so 1 is a lower bound.
 TEST(WangTime, IsOneWithoutContact) {
   const Query query = falling_vertex(0.25, 0.25, 2, 1);
   const Verdict verdict =

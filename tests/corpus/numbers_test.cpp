@@ -1,4 +1,5 @@
-// Numbers are written as decimals only if these are exact, and every text is read back bit for bit.
+// Numbers are written as decimals only if the decimals are exact, and every text is read back as the same
+// bits.
 #include <gtest/gtest.h>
 
 #include <bit>

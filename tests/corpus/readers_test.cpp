@@ -1,4 +1,4 @@
-// File formats make exact round trips, and each error gives one clear line.
+// What is written in each file format is read back exactly, and each error gives one clear line.
 #include "corpus/readers.hpp"
 
 #include <gmock/gmock.h>
@@ -90,7 +90,7 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.name, "x.case");
 }
 
-/// The case that is read from a case's text with other words around each line.
+/// The case that is read from the text of `each` if other text is put before and behind each line.
 Case read_with(const Case& each, const std::string& before, const std::string& behind) {
   std::istringstream lines(to_text(each));
   std::string text;

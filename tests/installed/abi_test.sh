@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Checks that programs that were compiled with an earlier version of the major version keep working: the functions and types of the
-# library are those of oracle/interface/nearmiss.abi, and the constants those of constants.txt. More of them are allowed.
+# Checks that programs that were compiled with an earlier minor version keep working: the library must have
+# all functions and types in oracle/interface/nearmiss.abi, and all constants in constants.txt, unchanged. It
+# may have more.
 # Usage: abi_test.sh [--write] LIBRARY, which has debug information
-#   --write  replaces both files. Only additions need that within a major version; anything else needs a new one.
+#   --write  replaces both files, after something was added. Any other change needs a new major version.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 write=false
@@ -27,7 +28,8 @@ if $write; then
   exit
 fi
 
-# is_kept REFERENCE: whether the library has all that is in the reference. abidiff's exit codes: 4 and 8 are changes.
+# is_kept REFERENCE: whether the library has all that is in the reference. abidiff's exit codes: 4 and 8 are
+# changes.
 is_kept() {
   local code=0
   abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added-syms "$1" "$library" >"$folder/changes" 2>&1 || code=$?
@@ -38,13 +40,14 @@ is_kept nearmiss.abi || fail "$(cat "$folder/changes")"
 missing=$(comm -23 constants.txt <(constants))
 [[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
 
-# Debian's packages know since which version each function exists.
+# The list of symbols for Debian's packages, which says since which version each function exists, must be
+# complete.
 known=$(sed -nE 's/^ (nearmiss_\w+)@NEARMISS_1 .*/\1/p' ../../tools/debian/symbols | sort)
 exported=$(nm -D --defined-only "$library" | sed -nE 's/.* T (\w+)@@NEARMISS_1$/\1/p' | sort)
 [[ $known == "$exported" ]] || fail "tools/debian/symbols has: $known; the library: $exported"
 
-# The comparison notices what it must. References that differ stand for libraries that do.
-# differs EDIT: a copy of the reference with another library's interface.
+# Checks that the comparison notices changes of the library, by changing the reference instead.
+# differs EDIT: writes an edited copy of the reference, as if of another library.
 differs() {
   sed -E "$1" nearmiss.abi >"$folder/other.abi"
   ! cmp -s nearmiss.abi "$folder/other.abi" || fail "$1 changes nothing"

@@ -1,5 +1,5 @@
-/* Asks an installed nearmiss through its C interface, and compares its answers with those on standard input, which
- * tests/installed/answers.cpp describes. */
+/* Asks an installed nearmiss through its C interface, and compares its answers with those on standard input,
+ * which tests/installed/answers.cpp describes. */
 #include <math.h>
 #include <nearmiss/nearmiss.h>
 #include <stdio.h>
@@ -76,7 +76,7 @@ int main(void) {
     free(x), free(h), free(collides), free(wang), free(bound), free(answers), free(lo), free(hi);
   }
 
-  /* Errors are values. */
+  /* Errors are returned as values. */
   double point[24] = {0};
   int8_t answer = 7;
   double time = 7;

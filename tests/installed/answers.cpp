@@ -1,5 +1,5 @@
-// Asks an installed nearmiss through its C++ interface, in several layouts and from several threads, and compares its answers with
-// those on standard input. These come in blocks of one kind:
+// Asks an installed nearmiss through its C++ interface, in several layouts and from several threads, and
+// compares its answers with those on standard input. These come in blocks of one kind:
 //
 //     int32 kind, n, timed
 //     double x[n][2][4][3], h[n]
@@ -71,7 +71,7 @@ void ask(const nearmiss::Queries& queries, const Block& block, const char* layou
   compare("wang", answers, block.wang);
 }
 
-/// Random queries, none of which needs exact arithmetic, are answered without memory from the heap.
+/// Checks that random queries that need no exact arithmetic are answered without memory from the heap.
 void allocates_nothing() {
   using nearmiss::Queries;
   constexpr std::size_t n = 10000;
@@ -98,7 +98,8 @@ void ask_in_all_layouts(const Block& block) {
   const std::size_t n = block.n;
   ask(Queries::packed(block.kind, block.x), block, "packed");
 
-  // A mesh of separate primitives, whose vertices have four numbers and are in another order.
+  // A mesh whose primitives share no vertex. Each vertex has four numbers instead of three, and they are in
+  // another order.
   std::vector<double> start(16 * n), end(16 * n);
   std::vector<std::int32_t> vertices(4 * n);
   for (std::size_t v = 0; v < 4 * n; ++v) {
@@ -125,7 +126,7 @@ void ask_in_all_layouts(const Block& block) {
   layout.vertex_stride = 3 * row;
   ask(Queries(layout), block, "turned");
 
-  // Floats are the doubles of the same value.
+  // Queries of floats have the answers of the doubles with the same values.
   const std::vector<float> small(block.x.begin(), block.x.end());
   const std::vector<double> rounded(small.begin(), small.end());
   std::vector<std::int8_t> of_float(n), of_double(n);
@@ -180,7 +181,7 @@ int main() {
       block.distances = numbers<double>(2 * n);
     }
     asked += n;
-    // Two threads ask the same at once.
+    // Two threads ask the same queries at once.
     std::thread other(
         [&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
     ask_in_all_layouts(block);

@@ -1,4 +1,7 @@
-"""Asks an installed nearmiss from Python, and compares its answers with those on standard input, in the format of answers.cpp."""
+"""Asks an installed nearmiss from Python, and compares its answers with those on standard input.
+
+The input has the format that answers.cpp describes.
+"""
 
 import sys
 

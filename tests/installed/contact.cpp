@@ -1,4 +1,4 @@
-// Uses the oracle in the place of a contact code's own CCD, with the points of that code.
+// Uses the oracle in place of the CCD of a contact code, with the types of points that such a code has.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -39,7 +39,7 @@ int main() {
          "does not meet before 0.5");
   expect(!ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi), "does not move");
 
-  // A time that is no double: 1/3.
+  // The time is 1/3, which is not a double.
   const Point high{0.25, 0.25, 1}, low{0.25, 0.25, -2};
   expect(ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi) && toi == 1. / 3, "at 1/3");
   const double before = toi, after = std::nextafter(toi, 1.0);
@@ -58,7 +58,8 @@ int main() {
   const Flat u{0, 1}, v{-1, 0}, w{1, 0}, u1{0, -1};
   expect(ccd.point_edge_ccd(u, v, w, u1, v, w, toi) && toi == 0.5, "in the plane");
 
-  // A program compiled with -ffast-math takes subnormal numbers for 0; the points here are apart.
+  // With -ffast-math, the processor takes subnormal numbers for 0. The answer must still be that these points
+  // are apart.
   using Small = std::array<float, 3>;
   const Small tiny{0.25F, 0.25F, 1e-40F}, tinier{0.25F, 0.25F, 2e-40F}, fa{0, 0, 0}, fb{1, 0, 0}, fc{0, 1, 0};
   expect(!ccd.point_triangle_ccd(tiny, fa, fb, fc, tinier, fa, fb, fc, toi), "subnormal floats");
@@ -70,7 +71,7 @@ int main() {
   expect(ccd.point_triangle_ccd(raw, fa, b, fc, below, a, fb, c, toi) && toi == 0.5,
          "points of several types");
 
-  // Without an answer, a simulation must not step on.
+  // If there is no answer, the functions report a collision, so that a simulation does not advance.
   const Point nowhere{std::numeric_limits<double>::quiet_NaN(), 0, 0};
   expect(ccd.point_triangle_ccd(nowhere, a, b, c, below, a, b, c, toi) && toi == 0, "not a number");
   expect(ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi, -1) && toi == 0, "a negative distance");

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# In a fresh Debian of the release that runs: installs the packages, builds and runs other people's programs with them, puts CCDs on trial, and removes the
-# packages again, after which no file may be left. Then it builds and installs the library from its sources, where only what the
-# library needs is installed. Takes ten minutes, and needs root, mmdebstrap, and Debian's mirror.
-# Usage: debian_test.sh PACKAGES BUILD, the folders of the packages (tools/package) and of a build with tests (tools/setup)
+# Tests the packages in a fresh Debian of this machine's release: installs them, builds and runs users'
+# programs with them, puts CCDs on trial, and removes the packages again, after which no file may be left.
+# Then it builds and installs the library from its sources, with only the packages that the library needs.
+# Takes ten minutes, and needs root, mmdebstrap, and Debian's mirror.
+# Usage: debian_test.sh PACKAGES BUILD, the folders of the packages (tools/package) and of a build with tests
+#        (tools/setup)
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
@@ -68,7 +70,7 @@ files >"$folder/after"
 diff "$folder/before" "$folder/after" >&2 || fail "files are left, or lost"
 echo "the packages leave no file"
 
-# The library needs no more than this.
+# To build the library, these packages must be enough.
 install libeigen3-dev libcgal-dev libboost-dev libgmp-dev libmpfr-dev
 debian sh -c 'cd /nearmiss && cmake -B build && cmake --build build -j "$(nproc)" && cmake --install build && ldconfig' >"$folder/log" 2>&1 ||
   fail "$(tail -20 "$folder/log")"

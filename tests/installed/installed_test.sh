@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs nearmiss into an empty prefix, moves it, and builds and runs other people's programs with it: C and C++, with g++ and
-# clang++, with flags that the headers' users may have. Then it runs the installed program.
+# Installs nearmiss into an empty prefix, moves the prefix, and builds and runs users' programs with it: in C
+# and C++, with g++ and clang++, and with flags that users may set. Then it runs the installed program.
 # Usage: installed_test.sh BUILD
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -11,7 +11,7 @@ here=$(dirname "$script")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "FAILED: $*" >&2; exit 1; }
-# Runs a command, whose output is shown if it fails.
+# Runs a command, and shows its output only if it fails.
 quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
 quietly cmake --install "$build" --prefix "$folder/first"
@@ -23,14 +23,14 @@ done < <(find "$folder/first/bin" "$folder/first/lib" -type f \( -name '*.so*' -
 mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 30000 1 >"$folder/queries"
 
-# Other packages' headers of the same names must not matter.
+# Headers of other packages with the same names must not be picked up.
 ! grep -rE '#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
 ! grep -rlE '#include <(CGAL|boost|gmp)' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
 
 peers=
 for each in "$here"/../../../shared/peers "$here"/../../../../shared/peers; do [[ ! -d $each/additive ]] || peers=$each; done
 
-# check NAME COMPILER C-COMPILER FLAGS OPTION...
+# check NAME COMPILER C-COMPILER FLAGS OPTION...: builds this folder's project, and runs its programs.
 check() {
   local name=$1 cxx=$2 cc=$3 flags=$4
   shift 4
@@ -49,7 +49,7 @@ check clang++ clang++ clang ""
 check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 
-# The templates refuse such flags. clang++ tells headers about the first two of them.
+# The templates refuse unsafe flags. With clang++, headers can recognise only the first two of them.
 refuse_flags() {
   local compiler=$1 flags
   shift
@@ -62,7 +62,7 @@ refuse_flags() {
 refuse_flags g++ -ffast-math -ffinite-math-only "-ffast-math -fno-finite-math-only" -funsafe-math-optimizations -freciprocal-math
 refuse_flags clang++ -ffast-math -ffinite-math-only
 
-# The library ignores the variable of the environment that the program reads.
+# The library ignores the environment variable NEARMISS_LANES, which only the program reads.
 NEARMISS_LANES=16 "$folder/g++/answers_c" <"$folder/queries"
 
 # pkg-config
@@ -79,12 +79,12 @@ for wanted in "2 COMPONENTS oracle" "1 COMPONENTS oracle fortran"; do
 done
 grep -q 'The component fortran is not installed in' "$folder/log" || fail "$(cat "$folder/log")"
 
-# Absolute folders need no prefix.
+# Absolute folders of an installation are used as they are, without the prefix.
 quietly cmake -S "$here/../.." -B "$folder/absolute" -DNEARMISS_COMPONENTS=oracle -DCMAKE_INSTALL_LIBDIR=/a/lib -DCMAKE_INSTALL_INCLUDEDIR=/b/include
 PKG_CONFIG_PATH=$folder/absolute/install pkg-config --cflags --libs nearmiss >"$folder/log"
 grep -q -- '-I/b/include -L/a/lib -lnearmiss' "$folder/log" || fail "$(cat "$folder/log")"
 
-# The library shows the functions of its interface, and nothing else.
+# The library exports the functions of its interface, and nothing else.
 shown=$(nm -D --defined-only "$folder/prefix/lib/libnearmiss.so" | awk '$2 == "T" {print $3}' | sed 's/@@NEARMISS_1$//' | sort)
 declared=$(grep -ohE '\bnearmiss_[a-z_]+\(' "$folder"/prefix/include/nearmiss/{queries,wang,oracle}.h | tr -d '(' | sort -u |
   grep -vE '^nearmiss_(packed|of_mesh|of_points)' )
@@ -93,11 +93,11 @@ declared=$(grep -ohE '\bnearmiss_[a-z_]+\(' "$folder"/prefix/include/nearmiss/{q
 # A project may have the source tree as a subdirectory.
 quietly cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.."
 
-# A plain build needs neither npm nor what the tools need.
+# A build without options needs neither npm nor the libraries of the tools.
 quietly cmake -S "$here/../.." -B "$folder/plain"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
 
-# The templates alone need only Eigen, and nothing is compiled for them.
+# A build of only the templates needs only Eigen, and compiles nothing.
 quietly cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --install "$folder/headers" --prefix "$folder/only"
@@ -122,8 +122,8 @@ quietly "$folder/alone/b/alone"
 ! cmake -S "$here/../.." -B "$folder/unknown" -DNEARMISS_COMPONENTS=ccd,oracle >"$folder/log" 2>&1 || fail "cmake accepts unknown components"
 grep -q "found 'ccd,oracle', expected some of ccd, oracle" "$folder/log" || fail "$(cat "$folder/log")"
 
-# The program finds its own files in the prefix, also while the build folder has them. The worker is replaced by a script that notes
-# its call, and a published CCD by an empty file.
+# The program uses its own files in the prefix, even while the build folder has them, too. To show this, the
+# worker in the prefix is replaced by a script that notes its call, and a published CCD by an empty file.
 "$here/tools_test.sh" "$folder/prefix"
 private=$folder/prefix/lib/nearmiss
 mv "$private/nearmiss-worker" "$private/worker"

@@ -1,4 +1,4 @@
-// Uses the header-only CCD beside the library. The names of both fit together.
+// Uses the header-only CCD together with the library, and so checks that their names do not clash.
 #include <nearmiss/ccd/pair_bound.hpp>
 #include <nearmiss/ccd/wang.hpp>
 #include <nearmiss/ccd/wang_time.hpp>

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Uses an installed nearmiss as a user does: puts a CCD on trial, looks up a man page, and completes a command line.
+# Uses an installed nearmiss as a user does: puts a CCD on trial, looks up a man page, and completes a command
+# line.
 # Usage: tools_test.sh PREFIX
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"

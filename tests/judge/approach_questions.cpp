@@ -31,7 +31,7 @@ Point position(const Query& query, int vertex, const Rational& t) {
   return x;
 }
 
-/// The simplest features that are at most h apart at a rational time, if some are.
+/// The simplest features that are at most h apart at a rational time, if there are any.
 Closest closest_features(const Query& query, const Rational& t) {
   const Rational squared_h = Rational(query.separation) * Rational(query.separation);
   const int second = split(query.kind);
@@ -102,7 +102,7 @@ std::optional<Contradiction> many_disagree(std::span<const Query> queries) {
   return std::nullopt;
 }
 
-/// Whether times and features are computed too, or only for a smallest distance of h.
+/// Whether times and features are computed for all queries, or only for those whose smallest distance is h.
 enum class Depth : std::uint8_t { decisions, all };
 
 std::string approach_disagreement(const Query& query, Depth depth) {

@@ -56,7 +56,8 @@ extern "C" void say_where_it_ended(int signal) {
   _exit(written == size ? 1 : 3);
 }
 
-/// Makes a crash, an endless search and exhausted memory end the program with a line about the query.
+/// Makes sure that a crash, an endless search or exhausted memory ends the program with a line about the
+/// query.
 void catch_all_ends() {
   static std::array<char, 1 << 16> stack;  // a separate stack for the handler, because the program's stack
                                            // may have overflowed
@@ -92,8 +93,8 @@ std::string hunt(const Family& family, std::uint64_t first, std::uint64_t count)
   return disagreement ? found(disagreement->what) : "";
 }
 
-/// All families that ask for contact, each followed by the same queries with a separation. Small integers also have
-/// separations that are distances of points on a grid.
+/// All families that ask for contact, each followed by a family of the same queries with a separation. For
+/// small integers, some separations are distances of points on a grid, so that ties occur.
 std::vector<Family> hunted_families() {
   std::vector<Family> hunted;
   for (const Family& family : families()) {

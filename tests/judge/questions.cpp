@@ -20,14 +20,14 @@ using Stages = std::vector<FilterStage>;
 
 /// The filters' answers to some queries.
 struct Filtered {
-  Stages batch;     ///< in lanes alone
-  Stages cautious;  ///< the same with all bounds multiplied by eight
-  Stages scalar;    ///< one at a time
+  Stages batch;     ///< many queries at once, by vector instructions only
+  Stages cautious;  ///< as `batch`, with all bounds multiplied by eight
+  Stages scalar;    ///< one query at a time
 };
 
 bool is_decided(FilterStage stage) { return stage != FilterStage::undecided; }
 
-/// Whether both decide, with different answers.
+/// Whether both stages decide, with different answers.
 bool contradict(FilterStage a, FilterStage b) {
   return is_decided(a) && is_decided(b) && is_collision(a) != is_collision(b);
 }
@@ -62,7 +62,8 @@ std::optional<Contradiction> filters_disagree(std::span<const Query> queries, co
   return std::nullopt;
 }
 
-/// Each exact question is asked about one query in this many. Each number divides the next one.
+/// Of this many queries, one is asked each exact question. Each number divides the next one, so that a query
+/// that is asked a slower question is also asked the faster ones.
 struct SamplingRates {
   std::uint64_t exact, others, distance;
 };
@@ -122,7 +123,7 @@ std::string slow_answers_disagree(const Query& query, bool exact) {
 std::string query_disagreement(const Query& query, std::uint64_t index, std::size_t i,
                                const Filtered& filtered) {
   const SamplingRates share = sampling_rates(filtered.batch[i], filtered.cautious[i], filtered.scalar[i]);
-  const std::uint64_t number = index / 2;  // number of the query among those of its kind
+  const std::uint64_t number = index / 2;  // position of the query among those of its kind
   if (number % share.exact != 0) return "";
   const bool exact = collides_exactly(query);
   std::string what = filters_against(exact, query, i, filtered);

@@ -20,7 +20,8 @@ using exact::Number;
 using exact::Root;
 using Rational = boost::multiprecision::mpq_rational;
 
-/// The exact times, by the first method. For contact, both are the same.
+/// The exact times at which the distance is first at most h, and first below h, by the first exact method.
+/// For contact (h = 0), both are the time of contact.
 std::optional<exact::FirstApproach> exact_times(const Query& query) {
   if (query.separation > 0) return exact::first_approach(query);
   exact::Predicates predicates(query);
@@ -29,7 +30,8 @@ std::optional<exact::FirstApproach> exact_times(const Query& query) {
   return exact::FirstApproach{contact->time, contact->time};
 }
 
-/// What certified bounds show of the time; no enclosure if they show that there is none.
+/// What certified bounds show about the earliest time; an invalid enclosure, [1, 0], if they show that there
+/// is no such time.
 KnownTime known_time(const Query& query, double width) {
   if (query.separation > 0) return {known_approach(query, width).time};
   return time_of_contact(query, width).value_or(KnownTime{{1, 0}});
@@ -56,7 +58,7 @@ std::string known_times_disagree(const Query& query, exact::FirstApproach& exact
   return "";
 }
 
-/// Compares what a time says about other times with the second method.
+/// Compares t* with other times, and checks the results with the second exact method.
 std::string comparisons_disagree(const Query& query, EarliestTime& time, SturmTimes& by_sturm) {
   std::set<double> others;
   for (const auto& [lo, hi] : {time.known(), known_time(query, 0).time})

@@ -86,7 +86,7 @@ TEST_P(Hostile, ArithmeticChangesNoAnswerAndStaysAsItWas) {
     const std::string before = odd_arithmetic();
     const auto found = all_answers();
     EXPECT_EQ(odd_arithmetic(), before);
-    make_arithmetic_plain();  // also for the comparison
+    make_arithmetic_plain();  // the comparison needs it, too
     EXPECT_EQ(found, expected) << before;
   }
 }

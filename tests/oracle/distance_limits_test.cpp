@@ -1,5 +1,5 @@
 // The hardest cases for certified distances: subnormal units, ratios and distances that overflow, the
-// narrowest enclosures, and minima that no guess leads to.
+// narrowest enclosures, and minima that no initial guess is near to.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -89,7 +89,7 @@ TEST(Distance, IsKnownFarBelowWhatDoublesResolve) {
   const Enclosure least = minimum_distance(falling_vertex(0.25, 0.25, 1, 0x1p-1074));
   EXPECT_LE(least.lo, 0x1p-1074);
   EXPECT_GE(least.hi, 0x1p-1074);
-  EXPECT_LE(least.hi - least.lo, 0x1p-1074);  // the smallest distance between doubles
+  EXPECT_LE(least.hi - least.lo, 0x1p-1074);  // the smallest positive double
 }
 
 TEST(Distance, FromTheOriginDoesNotMatterWhereDifferencesAreExact) {

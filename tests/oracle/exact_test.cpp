@@ -173,7 +173,7 @@ Query small_integers(std::uint64_t seed, std::size_t i) {
   return testing::integer_query(random, testing::kind_of_case(i), 3);
 }
 
-/// The motion up to time t, which is exact for small integers and a t of few bits.
+/// The query's motion up to time t. It is exact for small integers and a t of few bits.
 Query until(const Query& query, double t) {
   Query result = query;
   for (std::size_t k = 0; k < 12; ++k) result.x[12 + k] = query.x[k] + t * (query.x[12 + k] - query.x[k]);
@@ -204,7 +204,7 @@ TEST(EarliestTime, IsThatBeforeWhichNothingCollides) {
   EXPECT_GT(later, 100);
 }
 
-/// The same query with its vertices in another order, and with reversed time if `reverse` is true.
+/// The query with its vertices in another order, and with reversed time if `reverse` is true.
 Query permuted(const Query& query, const std::array<int, 4>& order, bool reverse = false) {
   Query result{.kind = query.kind};
   for (int i = 0; i < 4; ++i) {
@@ -239,8 +239,8 @@ TEST(Exact, DoesNotDependOnOrderDirectionScaleOrPlace) {
   EXPECT_LT(collisions, 2700);
 }
 
-// An argument independent of algebra: a query with a certified positive distance is not a collision, and vice
-// versa.
+// A check that does not depend on algebra: a query with a certified positive distance is not a collision, and
+// vice versa.
 TEST(Exact, AgreesWithTheCertifiedDistance) {
   int apart = 0;
   for (std::size_t i = 0; i < 2000; ++i) {

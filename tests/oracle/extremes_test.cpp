@@ -26,7 +26,7 @@ using testing::make_query;
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-/// Keeps the time of the slowest decision, for information.
+/// Keeps the time of the slowest decision, which the test prints but does not check.
 class Slowest {
  public:
   [[nodiscard]] double milliseconds() const { return milliseconds_; }
@@ -170,7 +170,8 @@ TEST(Extremes, AllCoordinatesEqual) {
     }
 }
 
-// Multiplied by a power of two, such coordinates lie between the largest subnormal number and the smallest normal one.
+// Multiplied by a power of two, such coordinates lie between the largest subnormal number and the smallest
+// normal one.
 TEST(Extremes, CoordinatesThatAreRoundedToTheSmallestNormalNumber) {
   for (int exponent = -1026; exponent <= -1014; ++exponent) {
     const double z = std::ldexp(1.0, exponent);

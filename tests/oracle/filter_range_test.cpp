@@ -1,5 +1,5 @@
-// The filter if products of coordinates, or their sums, overflow or underflow. Tests the filter of one query,
-// and the filter of many with every instruction set of this machine.
+// The filter when products of coordinates, or sums of products, overflow or underflow. Tests the filter for
+// one query, and the filter for many queries with every instruction set of this machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,13 +65,13 @@ void expect_decided(const Named& named) {
     EXPECT_NE(said.stage, FilterStage::undecided) << named.name << " by " << said.by;
 }
 
-/// Multiplies the coordinates along x and y, and those along z, by powers of two.
+/// Multiplies the coordinates along x and y by 2^xy, and those along z by 2^z.
 Query stretched(Query query, int xy, int z) {
   for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], i % 3 == 2 ? z : xy);
   return query;
 }
 
-/// Collisions inside the step that F's change of sign shows, with small numbers.
+/// Collisions with small numbers, between t = 0 and t = 1, which F's change of sign shows.
 std::vector<Named> plain_collisions() {
   return {{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)}, {"falling edge", falling_edge(1, -1)}};
 }
@@ -108,7 +108,7 @@ Query flat_edges(double size) {
                     {{-0.75 * size, 0, 0x1p-4}, {0x1p-4, 0, 0}, {0, -2 * size, 0}, {0, 0, 0x1p-4}},
                     {{1.5 * size, 0, 0x1p-4}, {0x1p-4, 0, 0}, {0, 1.5 * size, 0}, {0, 0.25 * size, 0x1p-4}});
 }
-/// The same query without contact.
+/// The query of flat_vertex, changed so that there is no contact.
 Query flat_vertex_apart(double size) {
   return make_query(
       Kind::vertex_triangle,
@@ -176,7 +176,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearUnderflow) {
       expect_decided({name + " times 2^" + std::to_string(exponent), stretched(query, exponent, exponent)});
 }
 
-/// The same query with a few coordinates moved.
+/// The query with a few coordinates moved slightly.
 Query neighbour(Random& random, Query query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));

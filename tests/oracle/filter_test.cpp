@@ -1,4 +1,5 @@
-// The filter never gives a wrong answer, decides what it should, and is the same for one query and for many.
+// The filter never gives a wrong answer, decides what it should, and gives the same answers for one query and
+// for many.
 #include "oracle/filter/filter.hpp"
 
 #include <gmock/gmock.h>
@@ -107,7 +108,8 @@ TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
   EXPECT_LT(apart, queries.size() / 2);
 }
 
-// A worse guess of where to look is still right, but it leaves more queries to exact arithmetic, which is slow.
+// If the filter guessed worse where to look for contact, its answers would still be right, but it would leave
+// more queries to exact arithmetic, which is slow. The limit is about what it leaves now.
 TEST(Filter, LeavesAsFewQueriesAsItDid) {
   std::vector<FilterStage> stages;
   for (const Query& query : hard_queries(5, 50000)) stages.push_back(filter(query));

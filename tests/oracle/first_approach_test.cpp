@@ -1,4 +1,4 @@
-// When the distance first falls to a separation h > 0: exact answers, by two methods.
+// The time at which the distance first falls to a separation h > 0, by two exact methods.
 #include "oracle/exact/first_approach.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 using testing::falling_edge;
 using testing::falling_vertex;
 
-/// What is true of a query with separation h.
+/// Whether the smallest distance of a query is above h, exactly h (a tie), or below h.
 enum class Truth { above, tie, below };
 
 Truth truth(const Query& query, double h) {
@@ -47,7 +47,8 @@ TEST(Separation, IsReachedWhenThePrimitivesAreHApart) {
   EXPECT_EQ(first_time(falling_edge(1, -1), 2), "0.000000");
 }
 
-// Certified bounds show that the distance is above h up to the double before t = 1. They cannot show that it is h at t = 1.
+// Certified bounds show that the distance is above h up to the double before t = 1. They cannot show that it
+// is h at t = 1.
 TEST(Separation, ThatIsReachedAtTheEndOfTheStepIsReachedAtOne) {
   for (const double start : {1e2, 1e6, 1e12}) {
     EXPECT_EQ(first_time(falling_vertex(0.25, 0.25, start, 1), 1), "1.000000") << start;
@@ -82,7 +83,8 @@ TEST(Separation, ATieIsNeverLate) {
 }
 
 TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
-  // For t <= 1/2, the vertex is exactly 1 above the triangle, which is the edge x = 0 then; later, the triangle rises.
+  // For t <= 1/2, the vertex is exactly 1 above the triangle, which is the edge x = 0 then; later, the
+  // triangle rises.
   const Query query =
       testing::make_query(Kind::vertex_triangle, {{0, 0.5, 1}, {0, 0, 0}, {1, 0, -4}, {0, 1, 0}},
                           {{0, 0.5, 1}, {0, 0, 0}, {1, 0, 4}, {0, 1, 0}});
@@ -97,8 +99,8 @@ TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
   EXPECT_TRUE(time.makes_late(std::nextafter(0.5, 1)));
 }
 
-// At t = 1/2, the second edge is a point at a distance of exactly h, and its direction turns round. Before, the distance
-// is exactly h, too, because the point is the end of the edge that is nearest.
+// At t = 1/2, the second edge shrinks to a point at a distance of exactly h, and its direction is reversed.
+// Before that, the distance is exactly h, too, because this point is the nearest end of the edge.
 TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   const Query query =
       with_separation(testing::make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {0, 0, 0}, {0, 1, -1}},
@@ -113,7 +115,8 @@ TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   EXPECT_FALSE(approach_by_sturm.is_below_before(0.5));
 }
 
-/// Separations of about the size of a query with coordinates up to 1, some of them exact distances of points on a grid.
+/// Separations of about the size of a query with coordinates up to 1, some of them exact distances of points
+/// on a grid.
 constexpr std::array separations{0.25, 0.5, 1.0};
 
 void expect_agreement(const Query& query, const std::string& repeat) {
@@ -139,7 +142,8 @@ void expect_agreement(const Query& query, const std::string& repeat) {
   }
 }
 
-/// Half of these have primitives that move without turning, so that their distance is often an integer.
+/// A query of small integers. In half of them, the primitives move without turning, so that their distance is
+/// often an integer.
 Query small_integer_query(Random& random, Kind kind) {
   Query query = testing::integer_query(random, kind, 1);
   if (random.one_in(2)) return query;
@@ -150,7 +154,7 @@ Query small_integer_query(Random& random, Kind kind) {
   return query;
 }
 
-// Among these are many ties, and degenerate primitives.
+// These queries include many ties and degenerate primitives.
 TEST(Separation, SmallIntegersAreDecidedAlikeByAllMethods) {
   int ties = 0;
   for (std::size_t i = 0; i < 600; ++i) {

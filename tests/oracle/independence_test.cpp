@@ -1,4 +1,5 @@
-// The judge uses nothing of the accused. The test reads the includes of each folder from the sources.
+// The oracle, which judges the CCDs, shares no code with them. The test reads the includes of each folder
+// from the sources.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +38,7 @@ std::vector<fs::path> code(const std::string& folder) {
   return files;
 }
 
-/// What the files of a folder include from the project, but from the same folder.
+/// The project's headers that the files of a folder include from other folders, by file.
 std::map<std::string, std::set<std::string>> borrowed(const std::string& folder) {
   std::map<std::string, std::set<std::string>> by_file;
   for (const fs::path& file : code(folder))
@@ -46,7 +47,8 @@ std::map<std::string, std::set<std::string>> borrowed(const std::string& folder)
   return by_file;
 }
 
-/// Gives other programs the oracle and wang, and is used by no other part of the oracle.
+/// The folder of the library that offers the oracle and wang to other programs. No other part of the oracle
+/// uses it.
 constexpr const char* library = "oracle/interface/";
 
 TEST(Independence, TheOracleUsesQueriesAloneOfCcd) {

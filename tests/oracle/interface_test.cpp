@@ -1,5 +1,5 @@
-// The functions of ccd/interface and oracle/interface: what they refuse, and what they leave as it was. tests/installed compares their
-// answers with the harness's.
+// The functions of oracle/interface: what they refuse, and what they leave unchanged. tests/installed
+// compares their answers with the harness's.
 #include "oracle/interface/nearmiss.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1,
                                          0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 TEST(Interface, SaysWhichQueriesAreNotFinite) {
-  for (const std::size_t count : {1U, 3U, 7U, 300U})  // alone, in a few, and in blocks
+  for (const std::size_t count : {1U, 3U, 7U, 300U})  // one query, a few queries, and several blocks
     for (const auto& [odd, place, is_far] :
          std::vector<std::tuple<double, std::size_t, bool>>{{infinity, 23, false},
                                                             {-infinity, 0, false},
@@ -110,7 +110,7 @@ TEST(Interface, EverySpanHasOneElementForEachQuery) {
   EXPECT_THAT(answers, ElementsAre(7, 7));
 }
 
-/// Two edges are farther apart than the largest double, and one of them moves by 1.
+/// Two edges are farther apart than the largest double, and one end of an edge moves by 1.
 TEST(Interface, TheBoundOfWangIsThatOfThePairHoweverFarItsPrimitivesAreApart) {
   constexpr double a = 0x1.8p+1023;
   constexpr double b = 0x1p+1023;
@@ -133,8 +133,8 @@ TEST(Interface, DistancesIgnoreSeparations) {
   }
 }
 
-#ifndef _GLIBCXX_ASSERTIONS  // the preset whose sanitizers need more
-/// The query is the one that was seen to take the deepest stack.
+#ifndef _GLIBCXX_ASSERTIONS  // the sanitizers, whose preset defines this, need a larger stack
+/// Of all queries that were tried, this one takes the deepest stack.
 TEST(Interface, WorksOnASmallStack) {
   static constexpr std::array deepest{-0x1p+0,
                                       0x1.87e92154ef7acp-665,

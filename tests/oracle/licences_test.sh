@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks the licence of every header of CGAL, Eigen and Boost that the compiler has read for the library (oracle/interface/licences.md).
+# Checks the licence of every header of CGAL, Eigen and Boost that the compiler has read for the library
+# (oracle/interface/licences.md).
 # Usage: licences_test.sh BUILD
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -8,7 +9,8 @@ options '' "$@"
 cd "${arguments[0]}"
 headers=$(ninja -t deps | awk '/^[^ ]/ { ours = /^(ccd|oracle)\// } ours && /^ / { print $1 }' | sort -u)
 fail() { echo "FAILED: another licence: $*" >&2; exit 1; }
-# of LIBRARY LEAST: its headers go to `read`; there must be at least LEAST.
+# of LIBRARY LEAST: writes the headers that were read from a library to `read`; there must be at least LEAST
+# of them.
 of() {
   mapfile -t read < <(grep "^/usr/include/$1/" <<<"$headers")
   ((${#read[@]} >= $2)) || refuse "found only ${#read[@]} headers of $1, expected $2 (tools/setup builds)"

@@ -37,8 +37,8 @@ TEST(RootParity, EvenIsMissed) {
   EXPECT_FALSE(root_parity(query).collision());
 }
 
-/// Checks that the first method and the second agree, and that parity is the parity of the roots unless the
-/// origin is on the boundary.
+/// Checks that the first and the second method agree, and that the third one gives the parity of the number
+/// of roots, unless the origin is on the boundary.
 void expect_agreement(std::size_t index, const Query& query) {
   SCOPED_TRACE(testing::repeat(index, query));
   const RootCount count = count_roots(query);

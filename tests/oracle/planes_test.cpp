@@ -55,7 +55,8 @@ double random_number(Random& random, int least) {
   return std::ldexp(random.uniform(-1, 1), random.integer(least, 3));
 }
 
-// The comparison is exact if h is next to the difference: what it claims is proven in rational arithmetic.
+// The comparison is right even if h is next to the difference of heights. Rational arithmetic checks every
+// claim.
 TEST(PlanesWithSeparation, NeverClaimMoreThanTheExactHeights) {
   int claims = 0;
   for (std::size_t i = 0; i < 20000; ++i) {

@@ -44,7 +44,7 @@ TEST(Polynomial, DividesWithARemainder) {
   const Polynomial q = polynomial({1, -4});
   const Division d = divide(p, q);
   EXPECT_LT(d.remainder.degree(), q.degree());
-  const Polynomial scaled = d.quotient * q + d.remainder;  // c p, c > 0
+  const Polynomial scaled = d.quotient * q + d.remainder;  // a positive multiple of p
   EXPECT_EQ(sign(scaled.leading()), sign(p.leading()));
   EXPECT_TRUE((Polynomial({p.leading()}) * scaled - Polynomial({scaled.leading()}) * p).is_zero());
 }
@@ -150,7 +150,7 @@ TEST(Root, BecomesAsNarrowAsOneLikes) {
   EXPECT_GT(roots[0].hi() * roots[0].hi(), Number(0.5));
 }
 
-// A chord misleads where the polynomial bends much; then the interval is cut in the middle.
+// If the polynomial bends much, its chord is a bad guess of the root; then the interval is cut in the middle.
 TEST(Root, RefiningAtLeastHalvesTheInterval) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     Random random(3, 0, i);

@@ -8,7 +8,8 @@
 namespace nearmiss::certified {
 namespace {
 
-/// A vertex slides in the plane of the triangle (0, 0, 0) (1, 0, 0) (0, 1, 0), across the edge x = 0 at t = 0.55.
+/// A vertex slides in the plane of the triangle (0, 0, 0) (1, 0, 0) (0, 1, 0), across the edge x = 0 at t =
+/// 0.55.
 Query sliding() {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
   return testing::make_query(Kind::vertex_triangle, {{-0.22, 0.25, 0}, o, a, b}, {{0.18, 0.25, 0}, o, a, b});
@@ -35,7 +36,7 @@ TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }
 
-// The same F with a small error.
+// As above, but the error of F is small.
 TEST(ContactSearch, FindsAChangeOfSignWhereTheWeightsAgree) {
   Bernstein<double, 4> F = three_roots();
   F.error = 0x1p-30;

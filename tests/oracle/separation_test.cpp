@@ -16,8 +16,9 @@
 
 namespace nearmiss::certified {
 
-/// A number as a sum of products, with the largest number of roundings of these. A vertex difference is a sum
-/// of two doubles here, which counts as the one rounding that it has in double.
+/// A scalar that counts roundings. A number is a sum of products, and `count` is the largest number of
+/// roundings of a product. A vertex difference is a sum of two doubles here; it counts as one rounding, which
+/// it has in double.
 struct RoundingCount {
   int count = 0;
 
@@ -106,8 +107,8 @@ std::vector<Query> all_sorts(std::size_t each) {
   return queries;
 }
 
-/// Expects every coefficient to be within its error of the exact one. Returns the largest quotient of a
-/// difference and its error bound.
+/// Expects every coefficient to differ from the exact one by at most its error bound. Returns the largest
+/// quotient of a difference and its error bound.
 double expect_within(const Product& product, const std::array<Rational, 4>& exact) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) {

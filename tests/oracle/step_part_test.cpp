@@ -109,8 +109,8 @@ Mpzf exact_blossom(std::array<Mpzf, n> row, double lo, double hi, std::size_t ti
   return row[0];
 }
 
-/// The largest error / bound of the coefficients, of the coefficients on [lo, hi], and of the value at lo,
-/// for `factor` times the exact coefficients.
+/// The largest error / bound of the coefficients, of the coefficients on [lo, hi], and of the value at lo.
+/// `exact` has the exact coefficients, multiplied by `factor`.
 template <class Real, std::size_t n>
 double error_over_bound(const Bernstein<Real, n>& computed, const std::array<Mpzf, n>& exact, int factor,
                         double lo, double hi) {

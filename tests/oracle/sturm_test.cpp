@@ -102,7 +102,8 @@ TEST(SturmRoot, KeepsTheFactorThatItIsARootOf) {
   const IntegerPolynomial third({-1, 0, 3});
   auto roots = sturm::roots_in_unit_interval(half * third * IntegerPolynomial({-2, 3}));
   ASSERT_EQ(roots.size(), 3);
-  // Almost 2t² - 1, times a factor that is 0 at another root: positive at √1/2, zero at √1/3, negative at 2/3.
+  // Almost 2t² - 1, times a factor that is 0 at another root: positive at √1/2, zero at √1/3, negative at
+  // 2/3.
   const Integer large = Integer(1) << 400;
   const IntegerPolynomial nearly = third * IntegerPolynomial({1 - large, 0, 2 * large});
   for (auto& root : roots) {

@@ -14,8 +14,8 @@
 namespace nearmiss {
 namespace {
 
-/// A query of small integers, so that primitives often touch, are degenerate, or lie in one plane. Each
-/// primitive has one velocity.
+/// A query of small integers, so that primitives often touch, are degenerate, or lie in one plane. All
+/// vertices of a primitive have the same velocity.
 Query translating_query(Random& random, Kind kind, bool rest) {
   Query query{.kind = kind};
   std::array<Vector3<double>, 2> velocities;

@@ -1,3 +1,3 @@
-/* A library that a plug-in finds beside it, by $ORIGIN. */
+/* A library that a plug-in finds in its own folder, by $ORIGIN. */
 int beside(void);
 int beside(void) { return 1; }

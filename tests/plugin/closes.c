@@ -1,4 +1,5 @@
-/* A subject that makes the file that NEARMISS_MARK names when it is closed. With HANG it never returns from that. */
+/* A subject that makes the file NEARMISS_MARK when it is closed. With HANG, its close function never
+ * returns. */
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
-/* A subject that reports a query if it may not do what it tries: to act on its supervisor, or on the process that the
-   environment names as NEARMISS_PROCESS. It tries at the first query with x > 0.9, or while it is loaded. */
+/* A subject that reports a query if it may not do what it tries: to act on its supervisor, or on the process
+   that the environment names as NEARMISS_PROCESS. It tries at the first query with x > 0.9, or while it is
+   loaded. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -17,7 +18,7 @@
 
 static pid_t nearmiss(void) { return atoi(getenv("NEARMISS_PROCESS")); }
 
-/* A process that is no descendant of its supervisor's children any more. */
+/* Leaves a process behind that no longer descends from its supervisor's children. */
 static void leave_one_behind(void) {
   if (fork() != 0) return;
   setsid();
@@ -26,7 +27,7 @@ static void leave_one_behind(void) {
 }
 
 #if defined(SIGNAL)
-/* Sends SIGUSR1 in every way that there is. */
+/* Tries every way of sending SIGUSR1. */
 static int attempt(void) {
   const pid_t victim = nearmiss();
   siginfo_t how = {0};
@@ -61,7 +62,7 @@ static int may_trace(pid_t victim) {
 }
 static int attempt(void) { return !may_trace(nearmiss()) && !may_trace(getppid()); }
 #elif defined(PRIVILEGES)
-/* Only the first five, which are those of files, may be left. */
+/* Of the capabilities, at most the first five may be left, which concern files. */
 static int attempt(void) {
   FILE* const status = fopen("/proc/self/status", "r");
   char line[256];

@@ -1,5 +1,6 @@
-/* A complete example of a plug-in: a conservative test on axis-aligned boxes. It reports every pair whose swept boxes meet,
- * so it never misses a collision. It claims no bound on the distance of its false positives.
+/* A complete example of a plug-in: a conservative test on axis-aligned boxes. It reports every pair whose
+ * swept boxes meet, so it never misses a collision. It claims no bound on the distance of its false
+ * positives.
  *
  *   cc -shared -fPIC -I. tests/plugin/example.c -o example.so
  *   build/release/nearmiss fuzz --subject ./example.so --cases 100000
@@ -35,7 +36,7 @@ static void decide(void* state, int kind, size_t n, const double* x, const doubl
                    double* toi) {
   const int split = kind == NEARMISS_VERTEX_TRIANGLE ? 1 : 2;
   (void)state; /* there are no options */
-  (void)h;     /* contact alone is decided */
+  (void)h;     /* it decides only contact */
   (void)toi;   /* the time is not known */
   for (size_t i = 0; i < n; ++i)
     answer[i] = boxes_meet(x + 24 * i, split) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;

@@ -1,5 +1,6 @@
-// A complete example of a plug-in in C++ with Eigen: it samples the motion, and reports a query if the primitives come
-// within a tolerance of each other at a sample, with the time of the first such sample. It misses what happens in between.
+// A complete example of a plug-in in C++ with Eigen: it samples the motion, and reports a query if the
+// primitives come within a tolerance of each other at a sample, with the time of the first such sample. It
+// misses collisions between samples.
 //
 //   c++ -std=c++17 -O2 -shared -fPIC -I. -isystem /usr/include/eigen3 tests/plugin/example.cpp -o sampling.so
 //   build/release/nearmiss fuzz --subject ./sampling.so:tolerance=0.01 --cases 100000
@@ -16,9 +17,9 @@
 namespace {
 
 using Vector = Eigen::Vector3d;
-using Vertices = Eigen::Matrix<double, 3, 4>;  // a column each
+using Vertices = Eigen::Matrix<double, 3, 4>;  // a column for each vertex
 
-/// What one thread needs.
+/// The detector's state. Each thread has its own.
 struct Sampling {
   double tolerance = 1e-3;
 };

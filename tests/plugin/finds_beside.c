@@ -1,4 +1,4 @@
-/* A plug-in whose answers come from the library beside it. */
+/* A plug-in whose answers come from a library in its folder (beside.c). */
 #include <stddef.h>
 
 #include "tests/plugin/one_by_one.h"

@@ -1,5 +1,6 @@
-/* A plug-in (with LD_PRELOAD also a library) that makes the arithmetic round upward and flush subnormals to zero. It does so
- * when it is loaded, and in every call. It reports a collision if it is called with such arithmetic. */
+/* A plug-in (with LD_PRELOAD also a library) that makes the arithmetic round upward and flush subnormals to
+ * zero. It does so when it is loaded, and in every call. It reports a collision if it is called with such
+ * arithmetic. */
 #include <fenv.h>
 #include <pmmintrin.h>
 

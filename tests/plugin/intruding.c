@@ -1,4 +1,5 @@
-/* A subject that reports every query. At the first one with x > 0.9 it does to nearmiss what no plug-in should. */
+/* A subject that reports every query. At the first one with x > 0.9 it interferes with nearmiss in a way that
+ * no plug-in should. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>
@@ -15,7 +16,8 @@
 #define MOST_FILES 64
 
 #if defined(MOVE_ON)
-/* The memory to which the worker writes its answers; it begins with the number of the query and of the calls. */
+/* The memory to which the worker writes its answers; it begins with the number of the query and of the
+ * calls. */
 static volatile uint32_t* answers(void) {
   FILE* const maps = fopen("/proc/self/maps", "r");
   char line[512];

@@ -1,5 +1,5 @@
-/* A subject that reports every query, but misbehaves on one query in NEARMISS_ONE_IN (environment; 100 if not set), chosen
- * by the bits of the coordinates. */
+/* A subject that reports every query, but misbehaves on one query in NEARMISS_ONE_IN (environment; 100 if not
+ * set), chosen by the bits of the coordinates. */
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Makes a plug-in with one detector of a function that answers one query. */
+/* Makes a plug-in with one detector from a function that answers one query. */
 #ifndef NEARMISS_TESTS_ONE_BY_ONE_H
 #define NEARMISS_TESTS_ONE_BY_ONE_H
 

@@ -1,5 +1,5 @@
-/* A subject that reports every query, if nothing else is said below. What its process does with a query is chosen when it is
- * compiled. */
+/* A subject that reports every query, unless a comment below says otherwise. What its process does with a
+ * query is chosen when it is compiled. */
 #define _GNU_SOURCE
 #include <pthread.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include "tests/plugin/one_by_one.h"
 
 #if defined(ABORTS_LATER)
-/* A thread that the first answer starts ends the process after 0 to 4 ms. */
+/* The first answer starts a thread, which ends the process after 0 to 4 ms. */
 #define NAME "aborts-later"
 static void* abort_later(void* unused) {
   struct timespec now;
@@ -28,7 +28,7 @@ static int answer(void) {
   return 1;
 }
 #elif defined(COMPUTES)
-/* Uses so many seconds of CPU time for each query. */
+/* Uses COMPUTES seconds of CPU time for each query. */
 #define NAME "computes"
 static double computed(void) {
   struct timespec time;
@@ -51,7 +51,8 @@ static int answer(void) {
   return 0;
 }
 #elif defined(PROCESS_LIMIT)
-/* Reports a query if it may have a limited number of processes, of at least 256, and may write no core dump. */
+/* Reports a query if the number of its processes is limited to at least 256, and it may not write a core
+ * dump. */
 #define NAME "process_limit"
 static int answer(void) {
   struct rlimit processes, core;
@@ -61,7 +62,8 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(RECOVERS)
-/* Asks for more memory than allowed, and goes on without it. Its process crashes at the next query. */
+/* Asks for more memory than is allowed, and continues when that is refused. Its process crashes at the next
+ * query. */
 #define NAME "recovers"
 static int answer(void) {
   static int calls = 0;

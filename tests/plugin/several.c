@@ -1,4 +1,5 @@
-/* Several detectors in one shared object; each does one thing that the interface allows, or does not. */
+/* Several detectors in one shared object. Each does one thing that the interface allows, or one that it
+ * forbids. */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -47,8 +48,8 @@ static void find_floats(void* state, int kind, size_t n, const double* x, const 
   }
 }
 
-/* Reports every query with the number of its call's queries as an error, but crashes if x[0] > 0.9. Writes no answer if
- * x[0] < 0. */
+/* Answers every query with an error code: minus the number of queries in the call. Crashes if x[0] > 0.9, and
+ * writes no answer if x[0] < 0. */
 static void decide_batch(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
                          double* toi) {
   (void)state, (void)kind, (void)h, (void)toi;

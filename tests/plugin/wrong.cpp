@@ -1,4 +1,5 @@
-// CCDs as people write them: the roots of the cubic, and a test of the weights at each. WAY chooses a mistake that people make.
+// CCDs as people often write them: they find the roots of the cubic, and test the weights at each root. WAY
+// chooses a common mistake.
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -11,11 +12,11 @@
 namespace {
 
 using Vector = Eigen::Vector3d;
-using Vertices = Eigen::Matrix<double, 3, 4>;  // a column each
+using Vertices = Eigen::Matrix<double, 3, 4>;  // a column for each vertex
 
 enum Way { NONE, FIRST_ROOT, NO_TOLERANCE, OPEN_END, TWO_EDGES, LINEAR };
 
-using Cubic = std::array<double, 4>;  // by power
+using Cubic = std::array<double, 4>;  // coefficient i is that of t^i
 
 double at(const Cubic& f, double t) { return ((f[3] * t + f[2]) * t + f[1]) * t + f[0]; }
 

@@ -64,7 +64,8 @@ CcdClaim ours(std::string_view name, std::string_view how, const std::function<P
   return audited(name, row_of(name).section, how, problem);
 }
 
-/// The claim of a bound in place of the quoted constant, which is missing or too small.
+/// The claim that `bound` is large enough, for a row of the audit whose quoted constant is missing or too
+/// small.
 CcdClaim replaced(std::string_view name, std::string_view constant, double bound, std::string_view how,
                   const std::function<Problem()>& problem) {
   const RoundingConstant& row = row_of(name);
@@ -126,7 +127,7 @@ std::vector<CcdClaim> full_claims() {
   };
 }
 
-/// Bounds that the audit shows and the code does not use.
+/// Claims of bounds that the audit shows and the code does not use.
 std::vector<CcdClaim> shown_claims() {
   return {
       replaced("EE: weight, far p", "weight_far, ccd/wang/bounds/proven.hpp", proven::weight_far, edges,
@@ -138,7 +139,7 @@ std::vector<CcdClaim> shown_claims() {
   };
 }
 
-/// The parts of δ.
+/// Claims about the parts of δ, the paper's bound of the error of a squared distance.
 std::vector<CcdClaim> delta_claims() {
   constexpr auto here = "delta, ccd/wang/bounds/proven.hpp";
   std::vector<CcdClaim> all;

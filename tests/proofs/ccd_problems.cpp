@@ -42,7 +42,7 @@ TracedPoints points(Trace& trace, Kind kind) {
   return all;
 }
 
-/// A problem that has only a time.
+/// A problem that has no inputs yet except a time.
 Problem begun() {
   Problem problem;
   problem.trace = std::make_shared<Trace>();
@@ -94,7 +94,7 @@ Problem configuration(Reach reach, ConfigurationPart part) {
   if (part == ConfigurationPart::height) {
     tol.eta = threshold(problem, "eta");
     std::ignore = configuration.well_shaped(tol);
-    // The third edge of a triangle is within B too.
+    // The third edge of a triangle is within B, too.
     if (kind == vt)
       for (int i = 0; i < 3; ++i)
         problem.facts.push_back({configuration.r[i] - configuration.q[i], -1, 1, 1});

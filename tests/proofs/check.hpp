@@ -10,17 +10,17 @@
 
 namespace nearmiss::proofs {
 
-/// Describes the faults of a claim. There are none if Gappa proves the bound `proven` in every precision, and
-/// in double with underflow; no result overflows; seen <= proven <= claimed; and the witness has exactly the
-/// recorded error.
+/// Describes the faults of a claim. A claim has none if Gappa proves the bound `proven` in every precision,
+/// and in double also with underflow; no result overflows; seen <= proven <= claimed; and the witness has
+/// exactly the recorded error.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
 /// The faults of all claims with the witnesses of a file. Uses two threads.
 std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
                                 const std::map<std::string, Witness>& witnesses);
 
-/// The faults of a claim about oracle/. The function checks seen <= proven <= claimed, and the error of the
-/// witness.
+/// Describes the faults of a claim about oracle/: whether seen <= proven <= claimed fails, or the witness
+/// does not have the recorded error.
 std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness);
 
 /// A row of the table: the claimed, the proven and the seen value of a constant, in its unit.

@@ -16,11 +16,11 @@ struct CcdClaim {
   double claimed;
   double proven;  ///< bound that Gappa proves for every precision, at most `claimed`
   std::string_view unit;
-  std::string_view how;  ///< the part of the claim that Gappa proves
+  std::string_view how;  ///< how the claim is proven, and which part of it by Gappa
   std::function<Problem()> problem;
   /// Exponent of the largest error of a product by underflow, a power of two, for B = 1.
   int underflow = underflow_of_vectors;
-  bool vectors_alone = false;  ///< as in `Arithmetic`
+  bool vectors_alone = false;  ///< as in `Arithmetic`: only the vectors are rounded
 
   /// In the frame, B is in [2^-100, 2^100] or 0, and products have degree at most 4 in B. Their error by
   /// underflow is at most 2^-1075 (half the smallest double), and 2^(400 - 1075) if B is scaled to 1.

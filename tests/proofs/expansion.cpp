@@ -100,7 +100,7 @@ class Expander {
       if (!is_constant(side) || !is_power_of_two(at(side).constant)) continue;
       return std::abs(at(side).constant) >= 1 ? terms : with_underflow(std::move(terms));
     }
-    if (terms.empty()) return terms;  // times 0
+    if (terms.empty()) return terms;  // a product with 0
     return with_underflow(rounded(std::move(terms), 1));
   }
 
@@ -145,7 +145,7 @@ int degree_in(const InTimes& polynomial, std::size_t time) {
   return degree;
 }
 
-/// Multiplies terms by (t + (1 - t)) until every term has the degree.
+/// Multiplies terms by (t + (1 - t)) until every term has the given degree.
 InTimes elevated(const InTimes& polynomial, std::size_t time, int degree) {
   InTimes all;
   for (const auto& [powers, c] : polynomial) {

@@ -1,4 +1,4 @@
-// Multiplies out an expression to products of inputs, and counts the roundings of each product.
+// Expands an expression into a sum of products of inputs, and counts the roundings of each product.
 #pragma once
 
 #include <functional>
@@ -53,8 +53,8 @@ Expansion expand(const Traced& expression, const Roundings& arithmetic = in_doub
 /// The expansion of one result of a program.
 Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);
 
-/// A bound of the magnitudes of terms with the same monomial: coefficient · monomial, with the largest number
-/// of roundings among these terms.
+/// A bound, coefficient · monomial, of the magnitudes of all terms with the same monomial, and the largest
+/// number of roundings among these terms.
 struct BoundTerm {
   Rational coefficient;
   int roundings = 0;
@@ -65,8 +65,8 @@ using BoundTerms = std::map<Monomial, BoundTerm>;
 using MagnitudeOf = std::function<std::string(const std::string&)>;
 
 /// Bounds Σ |coefficient| Π |input| over all times in [0, 1], for each monomial of magnitudes. As a function
-/// of each time t in `times`, the terms of a monomial are a polynomial in t and 1 - t without negative
-/// coefficients. The largest of its Bernstein coefficients bounds it.
+/// of each time t in `times`, the sum of the terms of a monomial is a polynomial in t and 1 - t without
+/// negative coefficients, so its largest Bernstein coefficient is a bound.
 BoundTerms bound(const Expansion& terms, const MagnitudeOf& magnitude_of,
                  const std::vector<std::string>& times);
 

@@ -26,11 +26,11 @@ struct Arithmetic {
 /// Runs Gappa, and keeps its answers, because problems share lemmas. Several threads may use a Prover at
 /// once.
 ///
-/// A problem is proven in steps. Lemmas, which Gappa proves too, bound the errors of frequent expressions: a
-/// velocity, a position at the time, or an expression of maxima, minima and magnitudes. The error of the
-/// latter is at most the largest error of its operands, because each of these functions changes by at most as
-/// much as one of its arguments. The next script has a new variable for each such expression. The last script
-/// has all other operations.
+/// A problem is proven in steps. First Gappa proves lemmas, which bound the errors of frequent expressions: a
+/// velocity, a position at the time, or an expression of maxima, minima and magnitudes. The error of the last
+/// of these is at most the largest error of its operands, because none of these functions changes by more
+/// than its arguments do. Later scripts have a new variable for each such expression. The last script has all
+/// other operations.
 class Prover {
  public:
   /// An upper bound of the problem's error for B = 1. Throws std::runtime_error if Gappa proves no bound,

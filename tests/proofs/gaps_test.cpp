@@ -9,8 +9,9 @@
 namespace nearmiss::proofs {
 namespace {
 
-/// The script of the claim that t + a, rounded and less `rounding`, rounded again, is not above t + a, for a time t and a bound
-/// that reaches as far as a.
+/// The script of the claim that the computed end of a gap after t is not above the exact one, t + a. The code
+/// rounds t + a, subtracts `rounding`, and rounds again. t is a time, and a is how far a bound of the
+/// distance reaches.
 std::string ahead(double rounding) {
   return fmt::format(
       "@double = float<ieee_64, ne>;\n"
@@ -23,7 +24,8 @@ std::string ahead(double rounding) {
       dyadic(rounding));
 }
 
-/// The same for t - a, which is not above its rounded end. (If t - a is rounded to 1, the end is at least 1.)
+/// The script of the claim that the computed end of a gap before t is not below the exact one, t - a. (If t -
+/// a is rounded to 1, the computed end is at least 1.)
 std::string behind(double rounding) {
   return fmt::format(
       "@double = float<ieee_64, ne>;\n"

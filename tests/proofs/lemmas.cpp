@@ -34,10 +34,10 @@ bool is_extreme(Operation operation) {
          operation == Operation::smallest;
 }
 
-/// Lemmas about a position X = D + t V between D and E. It is a convex combination of its ends, and therefore
-/// within `reach` like these. The same holds for k, the error of X that comes from the errors of its ends.
-/// Interval arithmetic derives this from reach - X and reach + X, which are sums of products of numbers that
-/// are not negative.
+/// Lemmas about a position X = D + t V between D and E. X is a convex combination of its ends, and therefore
+/// within `reach`, as they are. Likewise, k, the error of X that comes from the errors of its ends, is within
+/// their bound. Interval arithmetic derives this from reach - X and reach + X, which are sums of products of
+/// nonnegative numbers.
 std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
   return fmt::format(
       "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"
@@ -165,7 +165,8 @@ std::set<int> Lemmas::needed() {
   return all;
 }
 
-// An extreme is a leaf if an operation other than an extreme uses it. Operands come first in a program.
+// An extreme (a maximum, a minimum or a magnitude) is a leaf if an operation that is not an extreme uses it.
+// Operands come first in a program.
 void Lemmas::know_extremes() {
   const std::set<int> all = needed();
   std::set<int> used{left_, right_};

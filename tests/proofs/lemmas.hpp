@@ -24,7 +24,8 @@ class Lemmas {
  public:
   Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);
 
-  /// The script with all operations that are not in a lemma. Its goal is about the error, named d.
+  /// The script with all operations that are not in a lemma. `goal` is a statement about the error, which has
+  /// the name d.
   std::string last_script(const std::string& goal);
   /// The script whose goals are the ranges of all results.
   std::string range_script();

@@ -1,4 +1,4 @@
-// Numbers in which programs are evaluated, in addition to double: rational numbers, and the oracle's double
+// Scalars with which programs are evaluated, in addition to double: rational numbers, and the oracle's double
 // words.
 #pragma once
 

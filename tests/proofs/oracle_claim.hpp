@@ -29,7 +29,7 @@ struct OracleClaim {
   [[nodiscard]] std::string constant() const { return name.substr(0, name.find(',')); }
 };
 
-/// The constants of oracle/. Half of any of them is not enough.
+/// The claims about the constants of oracle/. No constant could be halved.
 std::vector<OracleClaim> oracle_claims();
 
 }  // namespace nearmiss::proofs

@@ -14,7 +14,7 @@ namespace {
 
 using namespace certified;
 
-/// A claim about the roundings of results, in units of U and w or M.
+/// A claim about the roundings of results, in units of U w or U M.
 template <class Real, class Number>
 OracleClaim rounding(std::string name, double claimed, Results results, const std::string& vectors,
                      Rational (*size)(const Inputs&)) {

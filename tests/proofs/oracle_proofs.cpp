@@ -25,8 +25,8 @@ double largest_end(const std::set<std::string>& scripts) {
 
 std::string quotient(const std::string& a, const std::string& b) { return fmt::format("({}) / ({})", a, b); }
 
-/// The largest number of roundings of a share of the bounds. A bound is too small by at most a factor with
-/// this many roundings.
+/// The largest number of roundings of any term in the bounds. So roundings make a bound too small by at most
+/// a factor with this many roundings.
 int most_roundings(const std::vector<Bounded>& results) {
   int most = 0;
   for (const Bounded& each : results)
@@ -50,8 +50,8 @@ double proven_growth(int roundings) {
   return proven_upper_end(factors.script(quotient("1", factors.product(roundings, u)) + " in ?"));
 }
 
-/// The number of times that H must be added for underflow in the value and in the bound. The bound has `more`
-/// further products.
+/// How many times H must be added to a bound to cover underflow in the value and in the bound itself. The
+/// code computes `more` products for the bound in addition to those of the template.
 template <class Real>
 double proven_underflow(Results results, Leaves leaves, int more) {
   const ValuePrecision precision = precision_of<Real>();
@@ -129,7 +129,7 @@ double proven_leaf_growth() { return proven_growth(most_roundings(cubic_results<
 double proven_underflow_products() {
   double largest = 0;
   for (const Leaves leaves : {Leaves::rounded_once, Leaves::given_errors}) {
-    // `error_near` has two more products. Its other underflow is at most that of its error.
+    // `error_near` has two more products than the template. Its other underflow is at most that of its error.
     largest = std::max(largest, proven_underflow<Traced>(weight_results<Traced>, leaves, 2));
     largest = std::max(largest, proven_underflow<Traced>(cubic_results<Traced>, leaves, 0));
     largest = std::max(largest, proven_underflow<Traced>(part_results<Traced>, leaves, 0));

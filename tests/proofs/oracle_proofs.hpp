@@ -7,7 +7,7 @@ namespace nearmiss::proofs {
 
 using Results = std::vector<Bounded> (*)(Trace&, Leaves);
 
-/// The required factor of U w or U M: the rounding errors of all results, divided by those of their bound,
+/// The required factor of U w or U M in the bound, such that it covers the rounding errors of all results,
 /// for exact leaves.
 template <class Real>
 double proven_rounding(Results results);
@@ -15,7 +15,7 @@ double proven_rounding(Results results);
 double proven_leaves(int leaves, Results results);
 /// The required factor of l and L, which compensates for the roundings of their bound.
 double proven_leaf_growth();
-/// The number of times that H must be added.
+/// How many times H must be added to a bound to cover underflow.
 double proven_underflow_products();
 /// The largest result of an operation, of this degree in components, relative to the bound's w or M, which
 /// may be rounded down.

@@ -9,7 +9,7 @@
 
 namespace nearmiss::proofs {
 
-/// A double word as a traced expression. It has the same operations, with other errors.
+/// A double word as a traced expression. It has the operations of Traced, with other errors.
 struct TracedWord {
   Traced x;
 
@@ -51,7 +51,7 @@ struct BoundOf<proofs::TracedWord> {
 
 namespace nearmiss::proofs {
 
-/// The difference between the components of a vector and the exact ones.
+/// How the components of a vector differ from the exact ones.
 enum class Leaves {
   exact,         ///< no difference
   rounded_once,  ///< a factor of 1 ± U

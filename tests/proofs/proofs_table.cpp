@@ -36,7 +36,7 @@ void search_all(const std::vector<CcdClaim>& claims, std::map<std::string, Witne
   }
 }
 
-/// The same search for oracle/, with a number of steps instead of a time.
+/// Searches for a larger error of each claim of oracle/, with a number of steps instead of a time.
 void search_all(const std::vector<OracleClaim>& claims, std::map<std::string, Witness>& witnesses, int steps,
                 std::uint64_t seed) {
   std::uint64_t stream = 0;

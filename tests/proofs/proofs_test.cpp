@@ -46,7 +46,7 @@ TEST(ProofsClaims, HaveNamesOfTheirOwnAndAWitnessEach) {
   EXPECT_EQ(names, seen);
 }
 
-// If a script left out a part of its formula, Gappa could prove a smaller bound.
+// If a script left out a part of its formula, Gappa could prove a bound below an error that was seen.
 TEST(ProofsClaims, HaveNoProofOfLessThanAnErrorThatIsThere) {
   Prover prover;
   for (const CcdClaim& claim : ccd_claims()) {

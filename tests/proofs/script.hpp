@@ -22,8 +22,8 @@ struct Leaf {
   double error = 0;  ///< bound of the error
 };
 
-/// The instructions of a program in a Gappa script. The exact value of instruction 7 is e7, and the computed
-/// one c7 (or e7 if the instruction is exact).
+/// The instructions of a program in a Gappa script. For instruction 7, the exact value has the name e7, and
+/// the computed value c7 (or e7 if the instruction is exact).
 class Script {
  public:
   Script(const Program& program, const Arithmetic& arithmetic, std::map<int, Leaf> leaves,

@@ -1,5 +1,5 @@
 // Searches for problems that come near the bounds in the proof of solve_cubic. The coefficients are taken as
-// exact, so only the errors of the solver remain: m of the nodes, and h of Horner's rule.
+// exact, so only the errors of the solver remain: the error m of the nodes, and the error h of Horner's rule.
 #include "ccd/wang/cubic.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ std::vector<double> places_between(const Coefficients& k, double left, double ri
   return places;
 }
 
-/// The largest distance of F, at a place between two places, from the range of its values at these two.
+/// How far F, at a place between two others, leaves the range of its values at these two; the maximum over
+/// all places.
 double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   double most = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -171,8 +172,8 @@ TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
   }
 }
 
-/// The largest |F̂| at a returned time, divided by the μ that neighbouring numbers and ineffective steps
-/// require.
+/// The largest |F̂| at a returned time, divided by the μ that step (3) of the proof requires, where F̂
+/// changes its sign between neighbouring numbers.
 double residual_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));

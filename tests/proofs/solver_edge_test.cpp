@@ -124,8 +124,9 @@ double highest_rise(int bits, double rho, const ClimbEffort& climb) {
   return found;
 }
 
-// With few bits, u^½ has the size of the bound, 470 u; with many bits, it is far larger. If an error had its
-// root taken, the ratio would grow with the bits like u^-½, by 2^12 from 8 to 32 bits.
+// The rise is a multiple of u, not of u^½. If it contained the square root of a rounding error, the ratio
+// would grow with the bits like u^-½, by 2^12 from 8 to 32 bits. (With few bits, u^½ is about as large as the
+// bound, 470 u.)
 TEST(ProofsSolverEdge, FRisesByRoundingsAlone) {
   for (const int bits : {8, 11, 16, 24, 32}) {
     const double found = highest_rise(bits, 2 * roundoff(bits), {.rounds = 5, .steps = 2500});
@@ -134,7 +135,7 @@ TEST(ProofsSolverEdge, FRisesByRoundingsAlone) {
   }
 }
 
-// The paper's ρ, 3 ε^½. The dropped coefficients are far larger than all roundings.
+// With the paper's ρ, 3 ε^½, the coefficients that are dropped are far larger than all roundings.
 TEST(ProofsSolverEdge, FRisesByWhatIsDropped) {
   for (const int bits : {16, 24, 32}) {
     const double found = highest_rise(bits, 3 * std::sqrt(2 * roundoff(bits)), {.rounds = 5, .steps = 2500});

@@ -1,5 +1,6 @@
 // The full formulas of the solvers' proofs, for B = 1 and operations with relative errors of at most u.
-// Comments in ccd/ have the same formulas to first order, and the code has closed forms above them.
+// Comments in ccd/ have these formulas to first order, and the code has closed forms that are at least as
+// large.
 #pragma once
 
 namespace nearmiss::proofs {
@@ -17,8 +18,8 @@ Number growth(const Number& u, int k) {
   return power(u + Number(1), k) - Number(1);
 }
 
-/// Errors of `solve_quadratic` with a leading coefficient that is exact, or rounded once (a cubic's 3a): the
-/// relative difference of c' from c, θ, and |t' - t| if t' or t is in [0, 1].
+/// Errors of `solve_quadratic`, if the leading coefficient is exact or rounded once (a cubic's 3a): the
+/// relative difference of c' from c; θ; and |t' - t| if t' or t is in [0, 1].
 template <class Number>
 struct QuadraticErrors {
   Number constant, factor, time;
@@ -67,7 +68,7 @@ Number edge_difference(const Number& u, const EdgeBounds<Number>& bounds) {
   return (bounds.error + bounds.c * errors.constant) * Number(6);
 }
 
-/// The rise for a threshold S: half of r, plus the rate times the error of a time.
+/// The bound of F's rise for a threshold S: half of r, plus the rate of F times the error of a time.
 template <class Number>
 Number edge_rise(const Number& u, const EdgeBounds<Number>& bounds, const Number& S) {
   const QuadraticErrors<Number> errors(u, false);

@@ -12,7 +12,7 @@ namespace {
 
 const RationalFunction u = RationalFunction::variable();
 const Fraction largest(1, 1024);
-/// The share of underflow, for which the closed forms have 1 u.
+/// The share of underflow, for which the closed forms allow 1 u.
 const RationalFunction underflow = u * Fraction(9, 10);
 
 bool holds(const RationalFunction& less, const RationalFunction& more) {
@@ -51,7 +51,8 @@ TEST(ProofsSolverOrders, CubicResidualHasAllOrders) {
   EXPECT_TRUE(holds(cubic_evaluation(u) + nodes_of_F() + underflow, cubic_residual(u)));
 }
 
-// u stands for ε, so that the bounds hold in every rounding mode.
+// Here u stands for ε, twice the roundoff of rounding to nearest, so that the bounds hold in every rounding
+// mode.
 TEST(ProofsSolverOrders, CullingHasAllOrders) {
   EXPECT_TRUE(holds(cubic_evaluation(u) + underflow, u * evaluation_error));
   EXPECT_TRUE(holds(nodes_of_F() + underflow, u * node_error));
@@ -76,9 +77,9 @@ TEST(ProofsSolverOrders, LeastPsiHasAllOrders) {
   EXPECT_TRUE(holds(needed(1) - needed(0), psi(1) - psi(0)));
 }
 
-// Steps (2) and (3) of the proof of solve_cubic, with h of Horner's rule and coefficients of at most 6, 18,
-// 18, 6. Bernstein coefficients, neighbouring numbers and ineffective steps require a smaller μ than the
-// nodes.
+// Steps (2) and (3) of the proof of solve_cubic, with the error h of Horner's rule and coefficients of at
+// most 6, 18, 18, 6. The nodes determine μ: Bernstein coefficients, neighbouring numbers and ineffective
+// steps require less.
 TEST(ProofsSolverOrders, NothingElseAsksForMoreOfMu) {
   const RationalFunction scale = power(u + 1, 15);  // growth of computed coefficients
   const RationalFunction h =

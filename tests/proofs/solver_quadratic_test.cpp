@@ -44,7 +44,7 @@ Distances distances(const QuadraticCoefficients& p, int bits) {
   const QuadraticErrors<double> errors(roundoff(bits), false);
   const auto [a, b, c] = p;
   Distances all;
-  if (a == 0) return all;  // a linear equation has only one rounding
+  if (a == 0) return all;  // the root of a linear equation has only one rounding
   const WideReal changed = constant_of_roots(p);
   if (c != 0) all.constant = std::abs(static_cast<double>(changed / c - 1)) / errors.constant;
   const WideReal disc = WideReal(b) * b - 4 * WideReal(a) * changed;

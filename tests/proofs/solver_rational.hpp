@@ -51,7 +51,8 @@ inline bool is_positive(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b > 0; });
 }
 
-/// A quotient of polynomials, with the operations for the formulas of ccd/wang/bounds/solver_errors.hpp and of the tests.
+/// A quotient of polynomials, with the operations for the formulas of ccd/wang/bounds/solver_errors.hpp and
+/// of the tests.
 class RationalFunction {
  public:
   RationalFunction(int constant) : numerator_{constant}, denominator_{1} {}

@@ -13,14 +13,14 @@
 
 namespace nearmiss::proofs {
 
-/// The theorem's bounds for a computed value f̂ of f, for B = 1: |f| <= size, and |f̂ - f| <= ((1 + ε)^k - 1) size,
-/// where ε bounds the relative error of an operation. A sum has the sum of both sizes and the larger k, plus 1. A
-/// product has the product of both sizes and the sum of both k, plus 1 unless a factor is a constant power of two.
-/// There is no rule for quotients, so that their size is infinite.
+/// The theorem's bounds for a computed value f̂ of f, for B = 1: |f| <= size, and |f̂ - f| <= ((1 + ε)^k - 1)
+/// size, where ε bounds the relative error of an operation. A sum has the sum of both sizes and the larger k,
+/// plus 1. A product has the product of both sizes and the sum of both k, plus 1 unless a factor is a
+/// constant power of two. The theorem has no rule for quotients, so their size is infinite.
 struct TheoremBound {
   double size = 0;
   int k = 0;
-  bool is_power_of_two = false;  ///< whether the value is such a constant
+  bool is_power_of_two = false;  ///< whether the value is a constant power of two
 
   TheoremBound(double largest, int roundings) : size(largest), k(roundings) {}
   explicit TheoremBound(double constant) : size(std::abs(constant)) {
@@ -63,8 +63,8 @@ struct TheoremBounds {
   [[nodiscard]] double error() const { return left.error() + right.error(); }
 };
 
-/// Applies the theorem. The exception is a position x + t v, which is within the bound of its ends, so that its size is
-/// not the sum of theirs. With a = 1 + ε and m = k_t + k_v + 1, its error is at most
+/// Applies the theorem, with one exception: a position x + t v is within the bound of its ends, so its size
+/// is not the sum of the sizes of x and t v. With a = 1 + ε and m = k_t + k_v + 1, its error is at most
 ///   ((a^k_x - 1) + (a^m - 1)) a + ε = a^(k_x + 1) + a^(m + 1) - a - 1 <= a^(k_x + m + 1) - 1,
 /// since (a^k_x - 1)(a^m - 1) >= 0. This is the paper's k = 2 for exact vectors (§4.2).
 inline TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {
@@ -74,7 +74,8 @@ inline TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {
   std::map<int, TheoremBound> given;
   for (const BoundedExpression& input : problem.inputs) given.insert({program.add(input.expression), {1, 0}});
   for (const auto& [vector, start, end, velocity] : problem.motions) {
-    // A rounded position has one rounding; a velocity has those of both positions and that of their difference.
+    // A rounded position has one rounding. A velocity has the roundings of both positions, and that of their
+    // difference.
     const int k_x = vectors == Vectors::exact ? 0 : 1;
     const int k_v = vectors == Vectors::exact ? 0 : static_cast<int>(start + end + velocity);
     const auto at = vector.at(problem.time);

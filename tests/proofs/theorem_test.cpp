@@ -31,7 +31,8 @@ TEST(ProofsTheorem, HasTheRulesOfThePaper) {
   EXPECT_TRUE(std::isinf((x / x).error()));
 }
 
-// ccd/ has the operations that the paper counts, with the paper's sizes and numbers of roundings.
+// The operations of ccd/ are those that the paper counts: the theorem gives the paper's sizes and numbers of
+// roundings.
 TEST(ProofsTheorem, FindsThePapersBoundsInOurOperations) {
   using enum ConfigurationPart;
   EXPECT_EQ(exact(exact_vertices(Reach::near, VertexPart::xv)).left, TheoremBound(3, 3));
@@ -59,7 +60,7 @@ TEST(ProofsTheorem, DerivesTheConstantsOfTheAudit) {
   EXPECT_GT(derived, 20);
 }
 
-// The proofs of solver_orders_test.cpp, and comments in ccd/, begin with these numbers.
+// The proofs in solver_orders_test.cpp and in comments of ccd/ begin with these numbers.
 TEST(ProofsTheorem, CountsTheRoundingsOfTheSolversCoefficients) {
   EXPECT_EQ(rounded(cubic(ee, CubicPart::a)), TheoremBound(6, 15));
   EXPECT_EQ(rounded(cubic(ee, CubicPart::b)), TheoremBound(18, 15));

@@ -1,4 +1,4 @@
-// A scalar that records the operations on it, so that a template writes down its own formula.
+// A scalar that records the operations on it. A template that is run with it yields its own formula.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,15 +13,15 @@
 namespace nearmiss::proofs {
 
 /// The operation of a node. Each operation rounds its result once, to nearest, except the first three and
-/// `negate`, `absolute`, `largest`, `smallest`.
+/// `negate`, `absolute`, `largest` and `smallest`, which are exact.
 enum class Operation : std::uint8_t {
   input,     ///< an exact number with a name
   constant,  ///< an exact number with a value
   epsilon,   ///< 2u, twice the largest relative error of one rounding
   negate,
   absolute,
-  largest,   ///< of two
-  smallest,  ///< of two
+  largest,   ///< the larger of two numbers
+  smallest,  ///< the smaller of two numbers
   add,
   subtract,
   multiply,
@@ -32,7 +32,7 @@ enum class Operation : std::uint8_t {
 class Traced;
 class Trace;
 
-/// One operation on its operands; immutable, and shared by all expressions that have it.
+/// One operation with its operands; immutable, and shared by all expressions that contain it.
 struct Node {
   Operation operation = Operation::constant;
   std::shared_ptr<const Node> left{}, right{};  ///< null without such an operand
@@ -41,9 +41,9 @@ struct Node {
   Trace* trace = nullptr;  ///< trace of the inputs; null without inputs
 };
 
-/// A comparison that a template made: left < right, left <= right or left == right. The code after it runs
-/// only with its outcome. Therefore a proof about that code must have the outcome as a hypothesis, or must
-/// not depend on it.
+/// A comparison that a template made: left < right, left <= right or left == right. The recorded operations
+/// after it are those for one outcome only. Therefore a proof about them must have this outcome as a
+/// hypothesis, or must not depend on it.
 struct Branch {
   enum class Relation : std::uint8_t { less, at_most, equal } relation;
   std::shared_ptr<const Node> left, right;

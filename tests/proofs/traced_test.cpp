@@ -1,4 +1,4 @@
-// Tests the record of a template, and its script.
+// Tests the recorded operations of a template, and the Gappa script that is made of them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,8 +50,8 @@ TEST(ProofsTraced, MaximaAreNodesAndComparisonsAreRecorded) {
   EXPECT_EQ(trace.branches().size(), 1);  // constants make no branch
 }
 
-// The templates of ccd/ compute the same with recording scalars as with doubles. But sums of three doubles
-// have another order if the processor adds two at a time.
+// The templates of ccd/ compute the same with recording scalars as with doubles, except that sums of three
+// doubles are added in another order if the processor adds two at a time.
 TEST(ProofsTraced, EvaluatesAsTheTemplatesDo) {
   Trace trace;
   std::map<std::string, double> inputs;

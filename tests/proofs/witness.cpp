@@ -84,7 +84,7 @@ std::vector<Number> Measure::results(const Inputs& inputs) const {
   return evaluate<Number>(program_, values, Number(0x1p-52), given);
 }
 
-// Uses only limits of degree 1. The other limits are checked against the result.
+// Computes B from the limits of degree 1 only. The other limits are then checked for this B.
 template <class Number>
 Number Measure::smallest_bound(const std::vector<Number>& exact) const {
   Number B = 0;

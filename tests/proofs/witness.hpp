@@ -14,7 +14,7 @@
 
 namespace nearmiss::proofs {
 
-/// Values of a problem's inputs, and of numbers that it takes as given, by name.
+/// Values of a problem's inputs, and of numbers that the problem takes as given, by name.
 using Inputs = std::map<std::string, double>;
 
 /// The inputs with the largest known error of a claim, and this error in the claim's unit.

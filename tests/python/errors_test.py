@@ -1,4 +1,4 @@
-"""What the Python package refuses, what it says about it, and what else runs during a call."""
+"""Tests what the Python package refuses, its messages, and that other threads run during a call."""
 
 import itertools
 import signal
@@ -34,7 +34,7 @@ class Refusals(unittest.TestCase):
         values, types = (np.nan, np.inf, -np.inf), (np.float64, np.float32)
         for value, dtype, far in itertools.product(values, types, (0, 1e9)):
             x = X.astype(dtype)
-            x[1234, 0, 0, 0] += far  # if it is not 0, the boxes are apart
+            x[1234, 0, 0, 0] += far  # unless `far` is 0, the boxes are apart
             x[1234, 1, 2, 1] = value
             x[2345, 0, 0, 0] = value
             for kind, function in itertools.product(nearmiss.Kind, FUNCTIONS):
@@ -125,13 +125,14 @@ class Refusals(unittest.TestCase):
 
 
 def many_queries():
-    """One query ten million times, without its memory."""
+    """An array of one query, ten million times, that takes only the memory of one."""
     return np.broadcast_to(X[0], (10**7, 2, 4, 3))
 
 
 class DuringACall(unittest.TestCase):
     def test_other_threads_run(self):
-        """Another thread counts. Python never takes its lock away from a thread here, so the other one counts during a call only if
+        """Another thread counts. Here Python never takes its lock away from a thread, so this thread can
+        count during a call only if
         the call releases the lock."""
         count, calls = 0, 0
         is_over = threading.Event()

@@ -1,4 +1,4 @@
-"""Reads the queries and answers that answered_queries writes, in the format of tests/installed/answers.cpp."""
+"""Reads what answered_queries writes: queries and answers, in the format of tests/installed/answers.cpp."""
 
 import contextlib
 import ctypes
@@ -25,7 +25,8 @@ class Block:
 
 
 def answered_queries(program, count, seed):
-    # A program with sanitizers has their runtime already (CMakeLists.txt).
+    # A program that is built with sanitizers already contains their runtime, which CMakeLists.txt preloads
+    # for Python.
     environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
     command = [program, str(count), str(seed)]
     data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout
@@ -51,9 +52,9 @@ def answered_queries(program, count, seed):
 
 @contextlib.contextmanager
 def processor_mode(bits):
-    """Sets bits of the processor's control register MXCSR during a `with` block, through the C library's own environment."""
+    """Sets bits of the processor's register MXCSR during a `with` block, by fegetenv and fesetenv of libm."""
     libm = ctypes.CDLL('libm.so.6')
-    saved, changed = ((ctypes.c_uint32 * 8)() for _ in range(2))  # the last one is MXCSR
+    saved, changed = ((ctypes.c_uint32 * 8)() for _ in range(2))  # the last element is MXCSR
     libm.fegetenv(saved)
     libm.fegetenv(changed)
     changed[7] |= bits

@@ -1,7 +1,8 @@
-"""Measures what each interface adds to the harness's own call, in ns of processor time per query: the Python package and the C function,
-on the same memory, for a million queries of the uniform family. All take turns. Prints medians of 15 runs, and their ratios to the
-harness; times of impact, which the harness asks one by one, and float32, which it does not take, are compared with the C function on
-the same memory.
+"""Measures how much time each interface adds to the harness's own call, in ns of processor time per query.
+
+The Python package and the C function are called on the same memory, for a million queries of the uniform
+family. All take turns. Prints medians of 15 runs, and their ratios to the harness. Times of impact, which the
+harness asks one by one, and float32, which it does not take, are compared with the C function instead.
 Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 
@@ -113,4 +114,4 @@ for kind, number in (('vt', 1), ('ee', 2)):
     single = x.astype(np.float32)
     measure_answers(kind, number, x)
     measure_answers(kind, number, single)
-    measure_times(kind, number, x[: COUNT // 20])  # a time takes longer than an answer
+    measure_times(kind, number, x[: COUNT // 20])  # times take longer than answers

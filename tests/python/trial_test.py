@@ -165,7 +165,7 @@ class Trial(unittest.TestCase):
                     raise exception
                 return never(kind, x, separation)
 
-            for when in (0, 5, 300):  # the last one while findings are shrunk
+            for when in (0, 5, 300):  # at 300, findings are being shrunk
                 calls = 0
                 with self.assertRaises(type(exception)) as caught:
                     nearmiss.trial(fails, 500, shrunk=3)
@@ -275,7 +275,7 @@ class WithoutModules(unittest.TestCase):
         self.package = self.build / 'python/nearmiss'
 
     def use(self, without):
-        """Uses a copy of the package without some files. Returns what is printed, and the last line of the error."""
+        """Uses a copy of the package without some files. Returns the output and the error's last line."""
         package = pathlib.Path(nearmiss.__file__).parent
         ignored = shutil.ignore_patterns(without)
         shutil.copytree(package, self.package, ignore=ignored, dirs_exist_ok=True)

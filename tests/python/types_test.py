@@ -1,4 +1,5 @@
-"""Checks the types of the Python package, of a program that uses it, and that its stubs describe what is built.
+"""Checks the types of the Python package and of a program that uses it, and that its stubs describe the built
+modules.
 Usage: types_test.py PYTHON_FOLDER, which contains the package
 """
 

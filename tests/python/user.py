@@ -1,4 +1,4 @@
-"""A program with types that uses the Python package. types_test.py checks it; nothing runs it."""
+"""A program with type annotations that uses the Python package. types_test.py checks it; nothing runs it."""
 
 import numpy as np
 from numpy.typing import NDArray

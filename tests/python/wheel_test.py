@@ -1,4 +1,5 @@
-"""Packs the modules of a build folder as a wheel, without a network, installs it in a new virtual environment, and uses it there.
+"""Packs the modules of a build folder as a wheel, without a network, installs it in a new virtual
+environment, and uses it there.
 Usage: wheel_test.py BUILD
 """
 

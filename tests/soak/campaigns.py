@@ -1,4 +1,4 @@
-"""Campaigns, and what must be the same however they were run."""
+"""Campaigns, and the checks that their results do not depend on how they were run."""
 
 import json
 import pathlib
@@ -10,7 +10,7 @@ import sqlite3
 FAMILIES = ['uniform', 'sliver', 'parallel', 'needle', 'stiff', 'near-underflow-planted']
 SWEEPS = ['stiff', 'needle', 'aspect', 'offset']
 
-# Plug-ins that misbehave at queries chosen by their coordinates, by the name of their subject.
+# Plug-ins, each with the name of its subject, that misbehave at queries chosen by the queries' coordinates.
 CHOSEN_BY_QUERY = {
     'crash': 'misbehaving',
     'leave': 'misbehaving',
@@ -34,7 +34,7 @@ TIMES = {'started', 'seconds', 'ns_per_query', 'times', 'front_by_distance', 'fr
 
 
 class Failure(Exception):
-    """Something that must not happen."""
+    """A check of the soak has failed."""
 
 
 def without(value, subject):
@@ -71,12 +71,13 @@ class Campaign:
         draw = random.Random(f'{seed} campaign {number}')
         self.number, self.machine = number, machine
         plugin = draw.choice([*CHOSEN_BY_QUERY, *CHOSEN_BY_CHANCE])
-        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # time limits are waited for
+        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # nearmiss waits for time limits
         self.size = int(draw.uniform(0.2, 1) * rate * seconds)
         self.left_out = CHOSEN_BY_CHANCE.get(plugin)
         self.options = ['--cases', str(self.size), '--seed', str(draw.randrange(1 << 32))]
         self.options += ['--subject', f'wang,basic,{machine.plugins / plugin}.so']
-        # A busy machine must not make a query late whose answer is compared.
+        # If answers are compared, the limit is so long that a query does not exceed it even on a busy
+        # machine.
         limit = '100ms' if plugin in CHOSEN_BY_CHANCE else '30s'
         self.options += ['--query-time', limit, '--query-memory', '32M', '--compare', '64']
         if draw.random() < 0.25:
@@ -117,7 +118,7 @@ class Campaign:
         self.cases = cases
 
     def read(self, store):
-        """The number of cases in a store; 0 if it was ended before its first save."""
+        """The number of cases in a store; 0 if the run ended before its first save."""
         if not store.exists():
             return 0
         with sqlite3.connect(store) as database:
@@ -133,14 +134,14 @@ class Campaign:
         return shard['cases']
 
     def complete_it(self):
-        """Runs the rest without disturbance."""
+        """Runs the rest of the campaign without disturbance."""
         self.machine.call(self.command(self.store, 2), self)
         self.check_progress()
         if not self.complete:
             raise Failure(f'{self}: it ends by itself, but is not complete')
 
     def compare(self):
-        """Compares the report with that of a campaign without disturbance. Returns the number of values."""
+        """Compares the report with that of an undisturbed campaign. Returns the number of compared values."""
         undisturbed = self.machine.folder / 'undisturbed.db'
         self.machine.call(self.command(undisturbed, 2), self)
         expected, found = (self.report(store) for store in (undisturbed, self.store))

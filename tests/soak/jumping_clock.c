@@ -1,5 +1,6 @@
-/* A clock that jumps, for nearmiss to be run with LD_PRELOAD: every call that asks for the time of day gets a time that is up
- * to NEARMISS_JUMP seconds before or after the true one. The clock that measures durations is left alone. */
+/* A clock that jumps, which LD_PRELOAD puts before that of libc: every call that asks for the time of day
+ * gets a time that is up to NEARMISS_JUMP seconds before or after the true one. The clock that measures
+ * durations is not changed. */
 #define _GNU_SOURCE
 #include <stdlib.h>
 #include <sys/syscall.h>

@@ -1,4 +1,4 @@
-"""Nights that end badly, and the machine that they run on."""
+"""Nights, which are runs of a campaign that end badly, and the machine that they run on."""
 
 import os
 import pathlib
@@ -17,12 +17,12 @@ SIGNALS = {
     'SIGINT': signal.SIGINT,
     'SIGHUP': signal.SIGHUP,
 }
-PATIENCE = 300  # seconds until a process counts as hanging; far more than any needs
+PATIENCE = 300  # seconds until a process counts as hanging; far more than any process needs
 FOUND, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes of nearmiss
 
 
 class Machine:
-    """Runs nearmiss, and knows what it leaves behind."""
+    """Runs nearmiss, and finds the processes that it leaves behind."""
 
     def __init__(self, nearmiss, plugins, folder):
         self.nearmiss, self.plugins, self.folder = nearmiss, plugins, folder
@@ -44,7 +44,7 @@ class Machine:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
-            # Python ignores the signal of a file that is too large.
+            # Python ignores SIGXFSZ, the signal for a file that is too large; nearmiss must get it.
             return subprocess.Popen(
                 [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
                 stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,
@@ -64,7 +64,7 @@ class Machine:
         return (self.folder / 'said').read_text(encoding='utf-8').strip()
 
     def left(self):
-        """Processes that still run here."""
+        """The processes that still run in this machine's folder."""
         found = []
         for each in pathlib.Path('/proc').glob('[0-9]*'):
             try:
@@ -75,7 +75,7 @@ class Machine:
         return found
 
     def wait_until_alone(self):
-        """A killed process cannot end its children itself, so they take a moment."""
+        """Waits until no process is left: the children of a killed process take a moment to end."""
         end = time.monotonic() + PATIENCE
         while left := self.left():
             if time.monotonic() >= end:
@@ -100,7 +100,7 @@ class Machine:
 
 
 def catches(process, number):
-    """Whether a process is ready for a signal: it catches it, or cannot."""
+    """Whether a process is ready for a signal: it catches the signal, or the signal is SIGKILL."""
     if number == signal.SIGKILL:
         return True
     try:
@@ -120,7 +120,7 @@ def last_save(store):
 
 
 class Night:
-    """One run of a campaign, and how it ends. Everything is drawn from the seed and the night's number."""
+    """One run of a campaign, and how it ends. All choices are drawn from the seed and the night's number."""
 
     def __init__(self, number, seed, seconds):
         self.draw = random.Random(f'{seed} night {number}')

@@ -1,5 +1,5 @@
 #!/usr/bin/python3 -B
-"""Tests that the soak notices lost cases, changed counts, broken stores and processes that are left running."""
+"""Tests that the soak notices lost cases, changed counts, broken stores and processes left running."""
 
 import argparse
 import pathlib

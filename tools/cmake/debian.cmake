@@ -1,7 +1,7 @@
 # The Debian packages that CPack makes (tools/package): one for each group of components.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nearmiss)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # lower than the 1 of a package in Debian's archive
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # lower than release 1 of a package by Debian
 set(version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 set(maintainer "nearmiss maintainers <maintainers@nearmiss.invalid>")
 if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
@@ -29,7 +29,8 @@ file(CONFIGURE OUTPUT ${debian}/changelog.Debian CONTENT "nearmiss (${version}) 
 " @ONLY)
 execute_process(COMMAND gzip -9nkf ${debian}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
 
-# nearmiss_package(NAME SECTION COMPONENT...): a package, described in tools/debian/NAME.txt.
+# nearmiss_package(NAME SECTION COMPONENT...): makes a package of components, with the description in
+# tools/debian/NAME.txt.
 macro(nearmiss_package name section)
   string(MAKE_C_IDENTIFIER ${name} group)
   string(TOUPPER ${group} GROUP)

@@ -1,5 +1,5 @@
-# The documentation of the interface: target `documentation`, in documentation/html/index.html of the build folder. It is made of the
-# installed headers and of the pages beside them. Every warning is an error.
+# The target `documentation` writes documentation/html/index.html in the build folder, from the installed
+# headers and the pages beside them. Every warning is an error.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()

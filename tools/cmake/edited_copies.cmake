@@ -1,25 +1,28 @@
-# Copies of headers in which named edits are switched on and off while the program runs.
+# Copies headers so that a program can switch named edits, such as planted defects, on and off while it runs.
 #
 # A list of edits has this form, which tests/mutants/named.py reads, too:
 #
 #   == GROUP ==
 #
 #   NAME in FILE: what the edit makes wrong
-#   - the text of an expression or a statement, once in the file; any blanks and line ends match
+#   - the text of an expression or a statement, which must be in the file once; blanks and line ends match any
+#     others
 #   + the text that replaces it
 #   and in FILE (2 of 3)
 #   - one more place of the same edit, the second of the three places with this text
 #   + the text that replaces it
 #
-# In a copy, an expression becomes (makes(17) ? (EDITED) : (TEXT)), and a statement, which ends with ; or }, becomes
-# if (makes(17)) { EDITED } else { TEXT }. Edits are numbered from 1. Their texts may contain one another, but not overlap otherwise.
+# In a copy, an expression becomes (makes(17) ? (EDITED) : (TEXT)), and a statement, which ends with ; or },
+# becomes if (makes(17)) { EDITED } else { TEXT }. Edits are numbered from 1. Their texts may contain one
+# another, but not overlap otherwise.
 
 if(NOT nearmiss_unedited)
   set(nearmiss_unedited ${PROJECT_SOURCE_DIR})  # the tree whose headers are copied
 endif()
 
-# Reads a list: the table `rows` with {NAME, ABOUT, GROUP} of each edit, and the number of `places`; then, of each place, place_N_edit (its
-# number), _name, _file, _nth, _of, _before and _after.
+# Reads a list of edits. Sets `rows` to a table with {NAME, ABOUT, GROUP} of each edit, and `places` to the
+# number of places; and for each place N, place_N_edit (the number of its edit), place_N_name, _file, _nth,
+# _of, _before and _after.
 macro(nearmiss_read_edits list)
   file(READ ${list} unread)
   set(rows "")
@@ -122,9 +125,10 @@ function(nearmiss_switch file text result)
   set(${result} "${copied}${part}" PARENT_SCOPE)
 endfunction()
 
-# nearmiss_edited_copies(LIST SPACE SWITCH HEADER...): copies the headers "folder/file.hpp" to "SPACE/folder/file.hpp" in the build folder, in the
-# namespace nearmiss::SPACE, with the edits of a list, whose files are without the folder. The copies include the header SWITCH, which
-# declares `makes`, and each other, and cause no warnings. The table of the edits is "SPACE/edits.inc".
+# nearmiss_edited_copies(LIST SPACE SWITCH HEADER...): copies the headers "folder/file.hpp" to
+# "SPACE/folder/file.hpp" in the build folder, in the namespace nearmiss::SPACE, with switches for the edits
+# of a list, which names files without their folder. The copies include each other, and the header SWITCH,
+# which declares `makes`. They cause no warnings. "SPACE/edits.inc" is the table of the edits.
 function(nearmiss_edited_copies list space switch)
   nearmiss_read_edits(${list})
   list(TRANSFORM ARGN REPLACE ".*/" "" OUTPUT_VARIABLE files)

@@ -15,7 +15,7 @@ unset(CMAKE_REQUIRED_FLAGS)
 unset(CMAKE_REQUIRED_INCLUDES)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
 if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}" MATCHES "-(Ofast|f(fast|unsafe|associative|reciprocal|finite)-math)")
-  set(NEARMISS_IEEE_DOUBLE OFF)  # clang tells headers nothing about parts of -ffast-math
+  set(NEARMISS_IEEE_DOUBLE OFF)  # headers cannot see all of clang's -ffast-math
 endif()
 if(NOT NEARMISS_IEEE_DOUBLE)
   message(FATAL_ERROR "nearmiss needs IEEE double evaluation: FLT_EVAL_METHOD 0 and no -ffast-math or part of it. "

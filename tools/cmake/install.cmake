@@ -1,10 +1,12 @@
-# Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (the library, its headers, the
-# target nearmiss::oracle, and a file for pkg-config) and tools (tools/CMakeLists.txt).
+# Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (the
+# library, its headers, the target nearmiss::oracle, and a file for pkg-config) and tools
+# (tools/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. There, "ccd/query/query.hpp" is
-# "nearmiss/ccd/query.hpp", so that no folder of the user's can be meant.
+# Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. The installed headers
+# include "nearmiss/ccd/query.hpp" instead of "ccd/query/query.hpp", so that they cannot pick up a folder of
+# the user's.
 set(query arithmetic error kind query scalar)
 set(wang advance basic cubic motion pair_bound plane_culling proximity quadratic tolerances ve_culling verdict
   vertex_edge vertex_vertex wang wang_time)
@@ -24,7 +26,7 @@ function(nearmiss_install_headers component)
     string(REGEX REPLACE "#include \"(ccd/query|ccd/wang|oracle/interface)/([a-z_]+\\.h)\"" "#include \"nearmiss/\\2\"" text "${text}")
     string(REGEX REPLACE "#include \"oracle/interface/" "#include \"nearmiss/" text "${text}")
     string(REGEX REPLACE "#include \"ccd/(query|wang/bounds|wang)/" "#include \"nearmiss/ccd/" text "${text}")
-    if(header MATCHES "^ccd/.+hpp$")  # templates of ours and Eigen's, about which a user's compiler shall not warn
+    if(header MATCHES "^ccd/.+hpp$")  # a user's compiler must not warn about our templates and Eigen's
       string(REPLACE "#pragma once" "#pragma once\n#pragma GCC system_header" text "${text}")
     endif()
     string(REGEX REPLACE "^oracle/interface/" "" place ${header})
@@ -37,7 +39,7 @@ function(nearmiss_install_headers component)
   endforeach()
 endfunction()
 
-set(nearmiss_private ${CMAKE_INSTALL_LIBDIR}/nearmiss)  # for what users do not call themselves
+set(nearmiss_private ${CMAKE_INSTALL_LIBDIR}/nearmiss)  # for files that users do not use directly
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/nearmiss)
 set(written ${PROJECT_BINARY_DIR}/install)
 
@@ -83,6 +85,6 @@ endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in ${written}/nearmissConfig.cmake INSTALL_DESTINATION ${config})
 write_basic_package_version_file(${written}/nearmissConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
-foreach(component ccd-dev oracle-dev)  # either may be installed alone
+foreach(component ccd-dev oracle-dev)  # users may install either without the other
   install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT ${component})
 endforeach()

@@ -2,7 +2,7 @@
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  # Files with precompiled headers come from the cache only if their macros and times do not count.
+  # ccache caches files with precompiled headers only if it may ignore their macros and times.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
@@ -19,40 +19,44 @@ endif()
 
 if(NEARMISS_LIBFUZZER)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage of all our code
-  add_link_options(-fsanitize=undefined)  # a coverage runtime for executables without libFuzzer
+  add_link_options(-fsanitize=undefined)  # provides the runtime of coverage to executables without libFuzzer
 endif()
 
 # Bools are joined by | to save a branch, which clang advises against.
 set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 
-# Our code compiles without warnings. Who only builds it may have a compiler that warns of more.
+# Warnings are errors for developers. Someone who only builds nearmiss may have a compiler that warns of more.
 if("tests" IN_LIST NEARMISS_COMPONENTS)
   set(nearmiss_werror -Werror)
 endif()
 
-# nearmiss_options(TARGET): warnings; includes are relative to the top folder, "folder/file.hpp".
+# nearmiss_options(TARGET): turns on warnings, and makes includes relative to the top folder,
+# "folder/file.hpp".
 function(nearmiss_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion ${nearmiss_werror} ${nearmiss_joined_bools})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
-# nearmiss_precompile(TARGET HEADER...): the headers of other libraries that most files of a target include are compiled once. The preset
-# debug does without, so that each file must include what it uses.
+# nearmiss_precompile(TARGET HEADER...): compiles once the headers of other libraries that most files of a
+# target include. The preset debug does not do so, and thus checks that each file includes what it uses.
 function(nearmiss_precompile target)
   target_precompile_headers(${target} PRIVATE <algorithm> <functional> <map> <optional> <string> <vector> <Eigen/Core> <Eigen/Geometry>
     ${ARGN})
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    # g++ 12 gives false warnings about the code of std::string, and shows them if its header is precompiled (bug 105651).
+    # g++ 12 gives false warnings about the code of std::string, and shows them if its header is precompiled
+    # (bug 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
   endif()
 endfunction()
 
-# nearmiss_seldom_runs(TARGET): optimization would take half of the time that this code takes to compile, and saves none when it runs.
+# nearmiss_seldom_runs(TARGET): optimization would take half of the time that this code takes to compile, and
+# saves none when it runs.
 function(nearmiss_seldom_runs target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# nearmiss_library(FOLDER LIB...): the library of one folder, from the .cpp files in it; the folder's CMakeLists.txt adds those of its parts.
+# nearmiss_library(FOLDER LIB...): the library of one folder, from the .cpp files in it. The folder's
+# CMakeLists.txt adds those of its subfolders.
 function(nearmiss_library folder)
   get_filename_component(name ${folder} NAME)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)

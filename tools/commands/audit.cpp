@@ -1,5 +1,5 @@
-// nearmiss audit: compares the paper's rounding constants with what its rules give for our code, and with what is
-// proven.
+// nearmiss audit: compares the paper's rounding constants with those that the paper's rules give for our
+// code, and with those that are proven.
 #include "fuzz/studies/audit.hpp"
 
 #include <fmt/format.h>

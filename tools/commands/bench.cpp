@@ -85,8 +85,8 @@ Input file_input(const std::filesystem::path& path, const SeparationOption& sepa
   return input;
 }
 
-/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be timed. NaN
-/// if no query was answered.
+/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be
+/// timed. NaN if no query was answered.
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
   using std::chrono::steady_clock;
   constexpr auto least = std::chrono::microseconds(500);
@@ -101,15 +101,15 @@ double time_once(const Subject& subject, const std::vector<Query>& queries, std:
   return std::max(1.0, static_cast<double>(sum.nanoseconds)) / static_cast<double>(sum.queries);
 }
 
-/// Counts which answers are none. Nothing else is judged here.
+/// Counts the queries without an answer. The answers themselves are not judged.
 void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
   counts.queries += verdicts.size();
   for (const Verdict& each : verdicts)
     if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
 }
 
-/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike. `answered` has the counters
-/// of each subject.
+/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
+/// `answered` has the counters of each subject.
 std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                const Stop& stop, Statistics& answered) {
   std::vector<RunTimes> times(subjects.size());
@@ -125,7 +125,7 @@ std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query
   return times;
 }
 
-/// The median over the runs of a subject's time divided by the first subject's in the same run.
+/// The median, over the runs, of a subject's time divided by the first subject's time in the same run.
 double median_ratio(const RunTimes& times, const RunTimes& first) {
   RunTimes ratios;
   for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / first[i]);
@@ -174,7 +174,7 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
                in_table(median_ratio(times[s], times.front()), 3));
 }
 
-/// What is known of the inputs that were timed.
+/// The results for all inputs that were timed.
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};
@@ -238,7 +238,7 @@ int run(const Options& options) {
   Results results;
   try {
     for (const Input& input : inputs) time_input(subjects, input, options.runs, stop, out, results);
-  } catch (const Stopped&) {  // what was timed counts
+  } catch (const Stopped&) {  // the inputs that were timed before the stop are still reported
   }
   fmt::print(
       out,

@@ -16,7 +16,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The long options of a subcommand, also those that are in groups.
+/// The long options of a subcommand, including those in groups.
 std::vector<std::string> options_of(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* group : command.get_subcommands({}))
@@ -48,8 +48,8 @@ std::vector<std::string> sweep_names() {
   return names;
 }
 
-/// A script for bash. It completes subcommands; options; the last name of a list of subjects, families or sweeps,
-/// where a subject may be a file, too; and otherwise files. Bash gives "--option=value" as three words.
+/// A script for bash. It completes subcommands; options; the last name of a list of subjects (which may be
+/// files), families or sweeps; and otherwise files. Bash passes "--option=value" as three words.
 std::string bash_script(const CLI::App& app) {
   std::vector<std::string> names;
   std::string options;
@@ -97,7 +97,8 @@ void run(const CLI::App& app, std::string_view shell) {
   else if (shell != "bash")
     throw Error(fmt::format("SHELL: found '{}', expected bash or zsh", shell));
   fmt::print("{}", bash_script(app));
-  // A script that is installed is read at the first completion, which is then still to be done.
+  // zsh reads an installed script when it is to complete something for the first time, so the script must do
+  // this completion.
   if (shell == "zsh")
     fmt::print(
         "[[ ${{zsh_eval_context[-1]}} != loadautofunc ]] || _bash_complete -o bashdefault -o default -F "

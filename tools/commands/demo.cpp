@@ -38,7 +38,7 @@ bool is_plain(const Query& query) {
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
 }
 
-/// Asks a subject random queries until it misses a collision whose simplest query is easy to draw.
+/// Asks a subject random queries until it misses a collision that shrinks to a query that is easy to draw.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query

@@ -30,8 +30,8 @@ struct Options {
   PluginLimitOptions limits;
 };
 
-/// Prints a line for each of `count` queries of one kind, from the index `first` on: the query or, with --factors, its
-/// factors.
+/// Prints a line for each of `count` queries of one kind, from the index `first` on: the query or, with
+/// --factors, its factors.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
   std::uint64_t printed = 0;
@@ -57,8 +57,8 @@ void print_coverage(const Options& options) {
   print_combinations("triples", found.triples, options.count);
 }
 
-/// Asks a subject about the queries, and prints for each kind what the missed ones have in common. Queries without an
-/// answer do not count.
+/// Asks a subject about the queries, and prints for each kind what the missed collisions have in common.
+/// Leaves out queries without an answer.
 void print_common_factors(const Options& options, const Family& family) {
   const auto asked =
       keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), false);

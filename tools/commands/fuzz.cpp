@@ -1,4 +1,4 @@
-// nearmiss fuzz: a campaign. nearmiss ladder: a campaign over many precisions.
+// nearmiss fuzz runs a campaign; nearmiss ladder runs a campaign over many precisions.
 #include <fmt/format.h>
 
 #include <memory>
@@ -57,7 +57,7 @@ void add_common(CLI::App& command, CampaignOptions& options) {
       ->needs("--db");
 }
 
-/// The scalars with names, and the scalars of 24, 32, ... 128 bits.
+/// The scalars with names of their own, and those of 24, 32, ... 128 bits.
 std::vector<std::string> default_scalars() {
   std::vector<std::string> names;
   for (const ladder::Scalar& scalar : named_scalars()) names.push_back(scalar.name);

@@ -19,7 +19,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-// Choices of --method in addition to the methods' names.
+// Values of --method in addition to the methods' names.
 constexpr const char* filtered = "filtered";
 constexpr const char* all = "all";
 
@@ -48,11 +48,11 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// Yes also for a smallest distance of exactly h > 0, as the library says.
+/// Whether the answer is yes. As in the library, a smallest distance of exactly h > 0 is a yes, too.
 bool is_yes(const Answer& answer) { return answer.at_most.value_or(answer.collision.value_or(false)); }
 
-/// The answer that trials use, the answer of one method, or the answer of all. Throws Disagreement if all
-/// methods are asked and differ.
+/// The answer of `method`: of the oracle as trials use it ("filtered"), of one exact method, or of all.
+/// Throws Disagreement if all methods are asked and their answers differ.
 bool collides_by(const std::string& method, const Query& query) {
   if (method == filtered) return is_yes(to_answer(query, decide(query)));
   if (method == all) {

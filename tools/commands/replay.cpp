@@ -54,7 +54,7 @@ int run(const Options& options) {
     TrialStream stream(trials);
     const auto add = [&](const Case& each) {
       stop.check();
-      // A recorded truth is that of the recorded question.
+      // A recorded truth does not hold for another separation.
       const Query query = options.separation.apply(each.query);
       stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
                  [name = each.name] { return name; });
@@ -66,7 +66,7 @@ int run(const Options& options) {
     };
     try {
       for (const fs::path& path : options.paths) read_cases(path, add);
-    } catch (const Stopped&) {  // what was asked counts
+    } catch (const Stopped&) {  // the results so far are still reported
     }
     stream.finish();
     trials.finish([&] {

@@ -78,7 +78,8 @@ class Export {
     };
     follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.is_due(); });
   }
-  /// Gives the files their names, except empty ones. Throws Error if something could not be written.
+  /// Renames the temporary files to their final names, except empty files. Throws Error if something could
+  /// not be written.
   void finish() {
     for (auto& [kind, file] : files_) {
       const bool empty = file.out.tellp() == 0;
@@ -118,8 +119,8 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   return info;
 }
 
-/// Shows the progress of a scene. In each step, subjects are asked; with --verify-plan, the plan is then
-/// verified, which takes most of the time.
+/// Shows the progress of a scene. In each step, subjects are asked; with --verify-plan, the plan (which pairs
+/// need no CCD) is then verified, which takes most of the time.
 class SceneProgress {
  public:
   SceneProgress(const Options& options, std::size_t steps, const Record& record)
@@ -281,7 +282,7 @@ void add_plan_options(CLI::App& command, Options& options) {
       ->type_name("FILE");
 }
 
-/// With --thickness, makes all subjects available unless some are named.
+/// With --thickness, the candidates are all built-in subjects, unless the user names some.
 void name_subjects(const CLI::App& command, Options& options) {
   if (options.thickness.empty() || command.count("--subject") > 0) return;
   options.trial.subjects.clear();

@@ -29,7 +29,7 @@ struct Options {
   SeparationOption separation;
 };
 
-/// The only case of a file, with the separation if one is given.
+/// The only case of the file, with the separation of --separation if that is given.
 Case read_one(const Options& options) {
   std::vector<Case> cases;
   read_cases(options.in, [&](Case&& each) { cases.push_back(std::move(each)); });
@@ -57,7 +57,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-/// The subject, which is asked only queries that keep its contract, or only others, as this query does.
+/// The subject, restricted to one side of its contract: if this query keeps the contract, it is asked only
+/// queries that do; otherwise only queries that do not.
 std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();

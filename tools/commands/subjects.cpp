@@ -49,8 +49,9 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*subject);
 }
 
-/// Prints the targets with the name of the subject as they take it. They run a published CCD by its path, and no program, since
-/// libFuzzer sees no other process's coverage.
+/// Prints each libFuzzer target that fits a subject, with the subject's name as the target takes it; the name
+/// of a published CCD is its path. Prints nothing for a program, because libFuzzer sees no coverage of
+/// another process.
 void print_targets(const std::string& text) {
   const auto subject = make_any_subject(text);
   if (is_program(SubjectText::parse(text).subject)) return;

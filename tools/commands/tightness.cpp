@@ -1,5 +1,5 @@
-// nearmiss tightness: measures how much slack the paper's constants have, and how an option of a CCD trades one error for
-// another.
+// nearmiss tightness: measures how much slack the paper's constants have, and how an option of a CCD trades
+// one error for another.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@ namespace {
 struct Options {
   std::vector<std::string> names{"all"}, values;
   std::string time;
-  CampaignOptions campaign;  ///< of an option's values; its seed, jobs and record are those of tolerances too
+  CampaignOptions campaign;  ///< for the values of an option; seed, jobs and record also apply to tolerances
 };
 
 constexpr const char* usual_time = "60s";
@@ -58,7 +58,8 @@ int measure_tolerances(const Options& options) {
   return record.finish(stop, !stop);
 }
 
-/// The subjects with each of the values in place of the star in KEY=*. Throws Error if no subject has one.
+/// The subjects, with each of the values in place of the star in KEY=*. Throws Error if no subject has a
+/// star.
 std::vector<std::string> with_values(const std::vector<std::string>& subjects,
                                      const std::vector<std::string>& values) {
   constexpr std::string_view any = "=*";

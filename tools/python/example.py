@@ -13,8 +13,8 @@ import numpy as np
 
 import nearmiss
 
-# %% A CCD in a few lines. It looks at 17 times of the step, and reports a pair if, from one time to the next, the four vertices change
-# their orientation and the boxes of the primitives meet at one of the two times.
+# %% A CCD in a few lines. It looks at 17 times of the step, and reports a pair if, from one time to the next,
+# the four vertices change their orientation and the boxes of the primitives meet at one of the two times.
 
 
 def sampled(kind, x, separation):
@@ -36,14 +36,15 @@ of_family = {family: result.counts('sampled', family=family) for family in resul
 missed = {family: each.missed / max(each.collisions, 1) for family, each in of_family.items()}
 worst = sorted(missed, key=missed.__getitem__)[-20:]
 
-# %% The simplest query of an ordinary kind that it misses.
+# %% The simplest of the missed queries in the ordinary family `stiff`.
 findings = nearmiss.trial(sampled, 2000, ['stiff']).findings
 shrunk = findings[findings.is_shrunk]
 simplest = np.argmax((shrunk.shrunk == 0).sum((1, 2, 3)))
 print(f'\nA miss ({shrunk.signature[simplest]}), at t = 0 and at t = 1:')
 print(shrunk.shrunk[simplest])
 
-# %% How near are queries without a collision, and those of them that are reported? Wang's CCD promises a bound.
+# %% How far from contact are queries without a collision, and those among them that are reported? Wang's CCD
+# promises a bound.
 x, _ = nearmiss.queries('sliver', 'ee', 50000)
 apart = x[~nearmiss.collides('ee', x)]
 distance = nearmiss.smallest_distance('ee', apart).lo / nearmiss.wang_bound('ee', apart)

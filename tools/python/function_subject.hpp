@@ -14,9 +14,10 @@
 
 namespace nearmiss::python {
 
-/// Calls function(kind, x, separation) for queries of one kind, with x (n, 2, 4, 3) and separation (n,). It returns bools (n,), and
-/// times (n,) with them if it has a sort of time (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The caller must
-/// not hold the lock that Python code needs.
+/// Calls function(kind, x, separation) for queries of one kind, with x of shape (n, 2, 4, 3) and separation
+/// (n,). The function returns bools (n,), together with times (n,) if the subject gives times
+/// (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The caller must not hold
+/// Python's global interpreter lock.
 class FunctionSubject final : public BatchSubject {
  public:
   FunctionSubject(DetectorInfo info, pybind11::function function)

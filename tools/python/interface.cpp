@@ -1,5 +1,5 @@
-// nearmiss._interface: the functions of the C interface over NumPy arrays, whose shapes and types the package's Python code has checked
-// (src/nearmiss/_queries.py).
+// nearmiss._interface: the functions of the C interface over NumPy arrays, whose shapes and types the
+// package's Python code has checked (src/nearmiss/_queries.py).
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -22,8 +22,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// Queries in arrays, which it keeps alive. `start` and `end` have the same strides, and the shape (n, 4, 3), or (v, 3) if the pairs of
-/// a mesh are given.
+/// Queries in arrays, which this object keeps alive. `start` and `end` have the same strides, and the shape
+/// (n, 4, 3), or (v, 3) if the pairs of a mesh are given.
 class Queries {
  public:
   Queries(int kind, py::array start, py::array end, std::optional<py::array> pairs, py::array separation)
@@ -81,7 +81,8 @@ class Queries {
   nearmiss_queries layout_;
 };
 
-/// Makes arithmetic plain for a `with` block, in which NumPy converts numbers.
+/// Sets plain arithmetic (round to nearest, no flush to zero) for a `with` block, in which NumPy converts
+/// numbers.
 class PlainBlock {
  public:
   void enter() { guard_.emplace(); }
@@ -97,9 +98,9 @@ py::array_t<T> one_for_each(const Queries& queries) {
   return py::array_t<T>(static_cast<py::ssize_t>(queries.size()));
 }
 
-/// Calls ask(part, first) for one part of the queries after the other, while other Python threads run. Handles signals between parts,
-/// at most every tenth of a second; parts are small where queries take long. Returns a status other than NEARMISS_OK as soon as there is
-/// one.
+/// Calls ask(part, first) for one part of the queries after the other, while other Python threads run.
+/// Between parts it handles signals, at most every tenth of a second; slow queries get smaller parts, so that
+/// signals are handled soon. Returns the first status other than NEARMISS_OK at once.
 template <class Ask>
 int ask_in_parts(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
@@ -123,7 +124,8 @@ int ask_in_parts(const Queries& queries, const Ask& ask) {
   return NEARMISS_OK;
 }
 
-/// Raises the exception of a status. Some part without an answer ends the queries that were asked, so the first one is in it.
+/// Raises the exception of a status. The last part that was asked has no answers, so the first query without
+/// an answer belongs to it, and its fault is the message.
 template <class IsAnswered>
 void check(int status, const Queries& queries, const IsAnswered& is_answered) {
   if (status == NEARMISS_OK) return;
@@ -184,7 +186,8 @@ py::tuple time_of_impact(const Queries& queries, double tmax) {
   return py::make_tuple(answers, times);
 }
 
-/// Two numbers that enclose a time or a distance of each query, by a function of the C interface.
+/// Calls a function of the C interface that computes two numbers, which enclose a time or a distance, for
+/// each query.
 template <int (*enclose)(const nearmiss_queries*, double, double*, double*)>
 py::tuple enclosures(const Queries& queries, double width) {
   auto lower = one_for_each<double>(queries);

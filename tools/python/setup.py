@@ -1,7 +1,7 @@
 """Builds the extension modules with CMake, in build/wheel of the source tree.
 
-The environment variable NEARMISS_COMPONENTS='oracle;python' leaves out trials, and the libraries that only they need. NEARMISS_BUILD
-names a build folder that has the modules already.
+The environment variable NEARMISS_COMPONENTS='oracle;python' leaves out trials, and the libraries that only
+they need. NEARMISS_BUILD names a build folder that already has the modules.
 """
 
 import os
@@ -29,7 +29,7 @@ class CMakeBuild(build_ext):
             (package,) = pathlib.Path(prefix).rglob('nearmiss/__init__.py')
             destination = pathlib.Path(self.build_lib) / 'nearmiss'
             shutil.copytree(package.parent, destination, dirs_exist_ok=True)
-            # The second one is about the libraries whose headers are compiled in.
+            # The copyright file is about the libraries whose headers are compiled in.
             for terms in ('LICENSE', 'tools/debian/copyright'):
                 shutil.copy(root / terms, destination)
 
@@ -55,7 +55,7 @@ def version():
 
 setup(
     version=version(),
-    # An extension without sources, so that the wheel is one of this platform.
+    # The extension has no sources; it makes the wheel specific to this platform.
     ext_modules=[Extension('nearmiss._interface', [])],
     cmdclass={'build_ext': CMakeBuild},
 )

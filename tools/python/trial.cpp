@@ -31,7 +31,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// The subject of a Subject of the Python package, or the built-in one of a name.
+/// The subject for an object of the Python class Subject, or the built-in subject for a name.
 std::unique_ptr<Subject> subject_of(const py::object& each) {
   if (py::isinstance<py::str>(each)) return make_built_in(each.cast<std::string>());
   DetectorInfo info;
@@ -56,7 +56,7 @@ std::vector<Family> families_of(const std::vector<std::string>& names) {
   return chosen;
 }
 
-/// Handles the signals that have come.
+/// Lets Python handle the signals that have come.
 void let_python_handle_signals() {
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -102,7 +102,7 @@ py::list counts_of(const Statistics& statistics) {
   return rows;
 }
 
-/// One text of each finding.
+/// A list with one text for each finding, such as its family.
 template <class Of>
 py::list column(const std::vector<Finding>& findings, const Of& of) {
   py::list values;
@@ -154,7 +154,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
 
-/// The name, the description and whether queries have a separation, of each family.
+/// For each family: its name, its description, and whether its queries have a separation.
 std::vector<std::tuple<std::string, std::string, bool>> known_families() {
   std::vector<std::tuple<std::string, std::string, bool>> known;
   for (const Family& family : all_families())

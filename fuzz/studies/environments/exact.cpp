@@ -1,4 +1,4 @@
-// The oracle as the subject `exact`, with the batch filter, as in a campaign.
+// The oracle as the subject `exact`, with the filter for many queries, as in a campaign.
 #include <span>
 
 #include "fuzz/studies/environments/on_trial.hpp"

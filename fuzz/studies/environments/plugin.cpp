@@ -1,6 +1,6 @@
 // One of our own CCDs behind the plug-in interface, in one mode of the processor. ROUNDING is the rounding
-// mode; with FLUSH, subnormal results and operands become zero. Each test sets the mode and restores the
-// caller's.
+// mode; with FLUSH, subnormal results and operands become zero. Each call sets the mode and then restores
+// that of the caller.
 #include <algorithm>
 #include <cfenv>
 #include <exception>

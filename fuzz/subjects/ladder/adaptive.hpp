@@ -1,4 +1,4 @@
-// The failure-proof CCD without its false positives.
+// A CCD that begins with wang, the failure-proof CCD, and removes its false positives.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ inline constexpr SubjectInfo adaptive_info{
 /// wang decides first, and misses nothing. The oracle's certified filter decides wang's reports again, in
 /// double. wang:dd, which also misses nothing, decides the queries that the filter leaves undecided, and
 /// exact arithmetic decides the reports of wang:dd. So `adaptive` has no misses and no false positives, and
-/// its distance bound is 0. Nothing for any other name.
+/// its distance bound is 0. Returns null for any other name.
 std::unique_ptr<Subject> try_make_adaptive(std::string_view name);
 
 }  // namespace nearmiss

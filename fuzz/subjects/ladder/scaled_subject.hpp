@@ -22,7 +22,7 @@
 
 namespace nearmiss::ladder {
 
-/// The paper's tolerances, or the smallest ones.
+/// The paper's tolerances, or the smallest valid ones.
 struct EitherTolerances {
   std::optional<ToleranceConstants> smallest;
 
@@ -32,7 +32,7 @@ struct EitherTolerances {
   }
 };
 
-/// Sets the arithmetic for scalars of the machine within a scope.
+/// Sets plain arithmetic within a scope, for scalars that the processor computes itself.
 struct MachineArithmetic {
   explicit MachineArithmetic(int /*epsilon_exponent*/) {}
   PlainArithmetic guard;
@@ -115,8 +115,8 @@ class Scaled final : public Subject {
     int exponent = 0;
   };
 
-  /// The query with coordinates rounded to T. For float, which has a smaller range than double, they are first scaled
-  /// by 2^exponent. A coordinate that would round to 2^1024 becomes the number of T just below.
+  /// The query with coordinates rounded to T. For float, which has a smaller range than double, they are
+  /// first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes the number of T just below.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;

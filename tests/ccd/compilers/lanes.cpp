@@ -1,5 +1,5 @@
-// Compares operations of Lanes with those of double, lane by lane; a compiler's own test, which is built with several of them
-// (lanes_test.sh). Exit code 1 if an operation differs.
+// Compares operations of Lanes with those of double, lane by lane. lanes_test.sh builds this program with
+// several compilers. Exit code 1 means that an operation differs.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,7 +16,7 @@ template <int n>
 class Operations {
   using Real = Lanes<n>;
   using Numbers = std::array<double, n>;
-  /// A truth value for all lanes.
+  /// Truth values, one for each lane.
   struct Truths {
     bool same;
     bool operator[](std::size_t /*lane*/) const { return same; }
@@ -71,7 +71,7 @@ class Operations {
   Numbers numbers() {
     Numbers made;
     for (double& each : made)
-      each = (static_cast<int>(random_() % 9) - 4) / 3.0;  // some are equal, some are 0
+      each = (static_cast<int>(random_() % 9) - 4) / 3.0;  // so that some numbers are equal, and some are 0
     return made;
   }
   static void report(const char* what) {

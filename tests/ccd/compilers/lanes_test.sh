@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Operations of Lanes are those of double with each compiler and each instruction set that this machine has.
+# Checks that operations of Lanes equal those of double, with each compiler and each instruction set of this
+# machine.
 # Usage: lanes_test.sh
 set -euo pipefail
 source "$(dirname "$0")/../../../tools/options.sh"

@@ -7,17 +7,18 @@ True
 >>> nearmiss.earliest_time('vt', x)
 Interval(lo=0.5, hi=0.5)
 
-A query is four vertices that move linearly from t = 0 to t = 1. The question is whether the distance of two closed primitives is at
-most the separation at some t in [0, 1]. All coordinates have one unit, which is arbitrary; times are fractions of the step. Every
-function takes
+A query is four vertices that move linearly from t = 0 to t = 1, and form two closed primitives. The question
+is whether the distance of the primitives is at most the separation at some t in [0, 1]. All coordinates have
+the same, arbitrary unit; times are fractions of the step. Every function takes
 
 kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, or 'ee' for the edges x0x1 and x2x3
-x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or MeshPairs.
-       (2, 4, 3) or (8, 3) is one query, for which results are NumPy scalars instead of arrays (n,). float64 and float32 are read
-       where they are, for any strides; integers are converted to float64.
+x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or
+       MeshPairs. (2, 4, 3) or (8, 3) is one query, for which results are NumPy scalars instead of arrays
+       (n,). float64 and float32 are read in place, with any strides; integers are converted to float64.
 
-and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation that is negative or
-not finite. Other Python threads run during a call. trial() puts a CCD that is a Python function, a Subject, on trial.
+and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation
+that is negative or not finite. Other Python threads run during a call. trial() puts a CCD that is a Python
+function, a Subject, on trial.
 """
 
 from nearmiss import _built  # noqa: F401, before all that needs the compiled modules

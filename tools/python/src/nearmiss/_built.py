@@ -1,16 +1,16 @@
-"""Raises an ImportError if the modules that a compiler makes are not built for this Python; says how to build them."""
+"""Raises an ImportError that says how to build the compiled modules if this Python does not have them."""
 
 import pathlib
 import sys
 from importlib.machinery import EXTENSION_SUFFIXES
 
 _folder = pathlib.Path(__file__).parent
-_module = '_interface'  # the one that every build has
+_module = '_interface'  # the module that every build has
 _this = f'Python {sys.version_info.major}.{sys.version_info.minor} ({sys.executable})'
 
 
 def _missing() -> str:
-    """What is wrong; '' if this Python finds the module."""
+    """Why this Python does not find the module; '' if it does."""
     built = sorted(file.name for file in _folder.glob(f'{_module}.*') if file.suffix != '.pyi')
     if any(_module + suffix in built for suffix in EXTENSION_SUFFIXES):
         return ''

@@ -65,14 +65,15 @@ def collides(
     *,
     decided_by: bool = False,
 ) -> Any:
-    """Whether the distance of the primitives is at most the separation at some t in [0, 1]; 0 asks whether they touch.
+    """Whether the primitives come within the separation at some t in [0, 1]; 0 asks whether they touch.
 
-    The answer is that of exact arithmetic, also for degenerate, huge and subnormal queries. A smallest distance of exactly the
-    separation counts.
+    The answer is that of exact arithmetic, even for degenerate, huge and subnormal queries. A smallest
+    distance of exactly the separation is a yes.
 
     kind, x:    the queries, as help(nearmiss) describes them
     separation: a number for all queries, or (n,), in the unit of the coordinates
-    decided_by: whether to return (answers, what decided) instead, the latter as values of DecidedBy
+    decided_by: whether to return a pair instead: the answers, and what decided each of them, as values of
+                DecidedBy
     """
     asked = Asked(kind, x, separation)
     answers, deciders = _interface.collides(asked.queries)
@@ -89,8 +90,9 @@ def earliest_time(
 ) -> Interval:
     """The earliest time t* at which the distance is at most the separation: lo <= t* <= hi.
 
-    lo and hi are the same if t* is a double, and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of
-    impact: nothing happens before it. Both are infinite if there is no collision.
+    By default, lo and hi are equal if t* is a double, and neighbouring doubles if it is not. With `width`, hi
+    - lo may be as large as `width`. lo is a safe time of impact: nothing happens before it. Both are infinite
+    if there is no collision.
 
     kind, x, separation: as for collides()
     """
@@ -107,8 +109,8 @@ def time_of_impact(
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """Whether each query is a collision at some t in [0, tmax], and its time of impact.
 
-    The time is the largest double that is not after the earliest time, so nothing happens before it. It is infinite if there is
-    no collision.
+    The time is the largest double that is not after the earliest time, so nothing happens before it. It is
+    infinite if there is no collision.
 
     kind, x, separation: as for collides()
     tmax:                a part of the step, at most 1
@@ -138,7 +140,8 @@ def smallest_distance(
 def wang(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.bool_]:
     """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
 
-    It reports every collision. It may report a query that is none, but none whose primitives stay farther apart than wang_bound().
+    It reports every collision. It may also report other queries, but only if their primitives come as near as
+    wang_bound().
 
     kind, x: as for collides()
     """
@@ -148,9 +151,9 @@ def wang(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.bool_]:
 
 
 def wang_bound(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.float64]:
-    """The distance below which a false positive of wang() must come, in the unit of the coordinates.
+    """The largest distance at which wang() can report a false positive, in the unit of the coordinates.
 
-    It is about 41 B ε^¼, where B is the size of the pair and ε that of double.
+    It is about 41 B ε^¼, where B is the size of the pair and ε the machine epsilon of double.
 
     kind, x: as for collides()
     """

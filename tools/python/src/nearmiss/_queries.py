@@ -1,4 +1,7 @@
-"""Checks queries in arrays, and describes them for the C interface. Coordinates are copied only if it cannot read them where they are."""
+"""Checks queries in arrays, and describes them for the C interface.
+
+Coordinates are copied only if the C interface cannot read them in place.
+"""
 
 import enum
 import numbers
@@ -31,7 +34,7 @@ class MeshPairs:
 
     pairs: (n, 4) integers, the numbers of the vertices x0 x1 x2 x3 of each pair
     start: (v, 3) coordinates of all vertices at t = 0
-    end:   (v, 3) the same at t = 1
+    end:   (v, 3) coordinates of all vertices at t = 1
     """
 
     pairs: ArrayLike
@@ -48,7 +51,7 @@ def kind_of(kind: KindLike) -> Kind:
 
 
 class Asked:
-    """Queries for the C interface, and the shape of their answers."""
+    """Queries in the layout of the C interface, and the shape of their answers."""
 
     def __init__(
         self, kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
@@ -92,17 +95,17 @@ class Asked:
         return array[0] if self.is_single else array
 
     def are_collisions(self, answers: NDArray[np.int8]) -> Any:
-        """The same for answers that are 0 or 1, as bools."""
+        """The answers to the queries as bools; they must be 0 or 1."""
         return self.answers(answers.view(np.bool_))
 
 
 def not_negative(name: str, value: Any) -> float:
-    """The value of an option as a double. Raises TypeError or ValueError, also with its name."""
+    """The value of an option as a nonnegative double. Raises TypeError or ValueError with its name."""
     return _option(name, value, 'a double that is not negative', lambda number: number >= 0)
 
 
 def at_most_1(name: str, value: Any) -> float:
-    """The same for another option."""
+    """The value of an option as a double that is at most 1. Raises TypeError or ValueError with its name."""
     return _option(name, value, 'a double that is at most 1', lambda number: number <= 1)
 
 
@@ -123,7 +126,7 @@ def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool
 
 
 def _numbers(values: ArrayLike, name: str) -> Coordinates:
-    """The values in float64 or float32, as an array whose elements are aligned. Raises TypeError or ValueError instead of rounding."""
+    """The values as an aligned float64 or float32 array. Raises TypeError or ValueError if that rounds."""
     array = np.asarray(values)
     if array.dtype not in (np.float64, np.float32):
         if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:
@@ -136,14 +139,14 @@ def _numbers(values: ArrayLike, name: str) -> Coordinates:
 
 
 def _expect_doubles(values: Any, name: str) -> None:
-    """Refuses integers that may be no double, also those that NumPy has rounded because there are other numbers beside them."""
+    """Refuses integers that may not be doubles, even if NumPy has already rounded them to floats."""
     _expect_no_mask(values, name)
     is_exact = True
     if isinstance(values, numbers.Integral):
         is_exact = abs(int(values)) <= 2**53
     elif isinstance(values, numbers.Real):
         return
-    elif hasattr(values, '__array__'):  # an array, or what makes one of itself
+    elif hasattr(values, '__array__'):  # an array, or an object that can convert itself to one
         array = np.asarray(values)
         is_exact = array.dtype.kind not in 'iu' or array.size == 0 or _are_doubles(array)
     elif hasattr(values, '__len__') and hasattr(values, '__getitem__'):
@@ -188,7 +191,7 @@ def _checked_pairs(values: ArrayLike, vertices: int) -> NDArray[np.int32]:
 
 
 def _alike(start: Coordinates, end: Coordinates) -> tuple[Coordinates, Coordinates]:
-    """The same coordinates, with one type and the same strides for both."""
+    """`start` and `end`, converted if necessary so that both have the same type and the same strides."""
     if start.dtype != end.dtype:
         start, end = start.astype(np.float64), end.astype(np.float64)
     if start.strides != end.strides:

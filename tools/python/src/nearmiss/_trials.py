@@ -1,4 +1,4 @@
-"""Puts Python functions on trial: they are asked hard random queries, and their answers are compared with the exact ones."""
+"""Puts Python functions on trial: asks them hard random queries, and compares with the exact answers."""
 
 import dataclasses
 import importlib
@@ -20,12 +20,13 @@ CCD = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
 class Subject:
     """A CCD on trial.
 
-    function: gets kind ('vt' or 'ee'), x (n, 2, 4, 3) and separation (n,), and returns bools (n,): whether each query is a
-              collision. It must answer a query in the same way whenever it is asked.
-    name:     in results; by default that of the function
-    time:     if it is not 'none', the function returns (bools, times) instead, with the time of each collision in [0, 1]:
-              'estimate' for a time near the earliest one, 'lower-bound' for one that is not after it
-    kinds:    of the queries that it is asked
+    function: gets kind ('vt' or 'ee'), x (n, 2, 4, 3) and separation (n,), and returns bools (n,): whether
+              each query is a collision. It must answer a query in the same way whenever it is asked.
+    name:     its name in results; by default that of the function
+    time:     if it is not 'none', the function returns (bools, times) instead, with the time of each
+              collision in [0, 1]: 'estimate' for a time near the earliest one, 'lower-bound' for a time that
+              is never after the earliest one
+    kinds:    the kinds of queries that it is asked
     takes_separation: whether it is asked queries with a separation h > 0
     """
 
@@ -58,7 +59,7 @@ class Subject:
     def _decide(
         self, kind: str, x: NDArray[np.float64], separation: NDArray[np.float64]
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-        """The function's answers and times, or an exception that says how they differ from what it should return."""
+        """The function's answers and times. Raises an exception if their form is wrong."""
         answer = self.function(kind, x, separation)
         times: NDArray[Any] = np.full(len(x), np.nan)
         if self.time != 'none':
@@ -79,21 +80,21 @@ class Subject:
                 raise ValueError(
                     f'{self.name} returned {what} of shape {array.shape}, expected ({len(x)},)'
                 )
-        # A view of other bytes may have bools that are neither 0 nor 1.
+        # An array of bools that is a view of other data may have bytes other than 0 and 1.
         return hits.view(np.uint8) != 0, np.asarray(times, np.float64)
 
 
 @dataclass(frozen=True)
 class Counts:
-    """What a subject answered."""
+    """Counters of a subject's answers."""
 
-    queries: int = 0  # that it was asked
-    collisions: int = 0  # by exact arithmetic, among the queries that it answered
+    queries: int = 0  # queries that it was asked
+    collisions: int = 0  # true collisions among the queries that it answered
     missed: int = 0  # collisions that it did not report
-    false_positives: int = 0  # reports of queries that are not collisions
-    late: int = 0  # times of a lower bound that are after the earliest time
+    false_positives: int = 0  # queries that it reported and that are not collisions
+    late: int = 0  # times promised as lower bounds that are after the earliest time
     no_answer: int = 0  # queries without an answer, such as a collision without a time
-    farthest: float = 0.0  # of the false positives: distance divided by the bound of the subject, or of wang if it has none
+    farthest: float = 0.0  # largest distance of a false positive / bound (its own, or wang's)
 
     def __add__(self, other: 'Counts') -> 'Counts':
         sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
@@ -103,14 +104,17 @@ class Counts:
 
 @dataclass(frozen=True)
 class Findings:
-    """Queries on which subjects fail, an array for each property. findings[mask] selects some of them.
+    """Queries on which subjects fail, with an array for each property. findings[mask] selects some of them.
 
     x, separation:             the queries: (m, 2, 4, 3) and (m,)
-    shrunk, shrunk_separation: the simplest queries that fail in the same way, where is_shrunk says so; else the queries themselves
+    shrunk, shrunk_separation: where is_shrunk is true, the simplest queries that fail in the same way; else
+                               the queries themselves
     kind:                      'vt' or 'ee'
-    what:                      'false-negative', 'late', 'fault' or 'refuted-bound' of a subject; or 'oracle-disagreement'
+    what:                      'false-negative', 'late', 'fault' or 'refuted-bound' of a subject; or
+                               'oracle-disagreement'
     subject, family:           names
-    signature:                 what findings of the same kind have in common, such as the features of the first contact
+    signature:                 what findings of the same kind have in common, such as the features of the
+                               first contact
     provenance:                family:seed:index
     """
 
@@ -192,11 +196,15 @@ def trial(
 ) -> TrialResult:
     """Asks subjects hard random queries, and compares their answers with the exact ones.
 
-    subjects: a Subject or a function like that of a Subject, the name of a built-in subject ('wang', 'basic'), or several of these
+    subjects: a Subject or a function like that of a Subject, the name of a built-in subject ('wang',
+              'basic'), or several of these
     cases:    total number of queries, divided among the families
-    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; by default, all that ask for contact. families() lists them.
-    seed:     of the random queries, which are those of `nearmiss fuzz` with the same families, cases and seed
-    shrunk:   number of findings of each signature that are shrunk, which may ask a subject thousands of queries
+    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; by default, all that ask for contact.
+              families() lists them.
+    seed:     seed of the random queries, which are those of `nearmiss fuzz` with the same families, cases and
+              seed
+    shrunk:   how many findings of each signature are shrunk; to shrink one may ask a subject thousands of
+              queries
 
     Exceptions of a function end the trial, and are passed on.
     """
@@ -227,7 +235,7 @@ def trial(
 
 
 def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
-    """The subjects of a trial, of which each has its own name."""
+    """The subjects of a trial. Raises an exception unless their names differ."""
     is_one = isinstance(subjects, (Subject, str)) or callable(subjects)
     if not is_one and (isinstance(subjects, bytes) or not isinstance(subjects, Iterable)):
         raise TypeError(
@@ -243,13 +251,13 @@ def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
     if len(set(names)) != len(names):
         raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
     for name in names:
-        if not name.isprintable():  # nor can a lone surrogate be written
+        if not name.isprintable():  # this also refuses a lone surrogate, which cannot be written
             raise ValueError(f'found the name {name!r}, expected printable characters')
     return chosen
 
 
 def _several(name: str, values: Any, expected: str) -> list[Any]:
-    """The values, or a single one, which is a string, as a list."""
+    """The values as a list; a string is a single value."""
     if isinstance(values, str):
         return [values]
     if not isinstance(values, Iterable):
@@ -258,7 +266,7 @@ def _several(name: str, values: Any, expected: str) -> list[Any]:
 
 
 def _count(name: str, value: Any) -> int:
-    """The value as a number of 64 bits."""
+    """The value as an unsigned number of 64 bits."""
     try:
         number = operator.index(value)
     except TypeError:
