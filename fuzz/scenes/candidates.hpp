@@ -47,8 +47,8 @@ class CandidateFinder {
   CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
   CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh, in less time than a new object would take. The pairs
-  /// are those that a new object would find. After an exception, the object must not be used any more.
+  /// Replaces the mesh by another step of the same mesh, in less time than a new CandidateFinder would take.
+  /// The pairs are those that a new one would find. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;

@@ -28,7 +28,7 @@ struct Symmetry {
   Integers sign;
 };
 
-/// The orders of the vertices that leave the primitives what they are.
+/// The permutations of the vertices that do not change the primitives.
 std::vector<std::array<std::size_t, 4>> vertex_orders(Kind kind) {
   std::vector<std::array<std::size_t, 4>> orders;
   std::array<std::size_t, 4> order{0, 1, 2, 3};

@@ -52,8 +52,8 @@ struct Fit {
   int precisions = 0;                        ///< number of different ε
   double least_part = 0, greatest_part = 0;  ///< range of Rung::part()
 
-  /// Whether the claimed distances are almost reached, so that the fit only repeats the exponent in their
-  /// formula.
+  /// Whether the farthest false positives almost reach the claimed distances. Then the fit only repeats the
+  /// exponent in the formula of the claim.
   [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 

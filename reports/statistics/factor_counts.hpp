@@ -60,9 +60,9 @@ struct CommonFactors {
 };
 
 /// For each subject, kind and family with misses: among the values and pairs of values that at least half of
-/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). If lifts are
-/// equal, it takes the one that more misses have; then a single value before a pair; then the first in
-/// alphabetical order.
+/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). Of values
+/// with equal lifts, the result is the one that more misses have; if these numbers are equal too, a single
+/// value rather than a pair, and then the first in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
 }  // namespace nearmiss

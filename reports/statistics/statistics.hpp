@@ -44,7 +44,7 @@ struct Statistics {
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
   std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
   FactorTable factors;                      ///< collisions of the families whose queries have factors
-  VersionTable versions;                    ///< versions of CCDs, query by query
+  VersionTable versions;                    ///< compares versions of CCDs, query by query
   std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed in each way
   std::map<std::string, Extreme> extremes;  ///< by the name of the tolerance or of the tests
   std::uint64_t oracle_disagreements = 0;   ///< queries about which the exact methods disagree

@@ -239,7 +239,7 @@ TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
   EXPECT_EQ(oracle.collisions, 0);
 }
 
-// A coordinate that would round to 2^1024 becomes the largest number of so many digits.
+// A coordinate that would round to 2^1024 becomes the largest number that the scalar has below it.
 TEST(Ladder, NarrowScalarsRoundTheLargestNumbersToFiniteOnes) {
   constexpr double largest = std::numeric_limits<double>::max();
   const Query query =

@@ -20,7 +20,8 @@ MovingMesh row_of_points(int count) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// The marks of the dots in a picture, from two numbers a dot: its point and its mark.
+/// The marks of the dots in a picture, which has two numbers for each dot: the index of its point, and its
+/// mark.
 std::vector<int> marks_of_dots(const ScenePicture& picture) {
   const auto json = nlohmann::json::parse(picture.json);
   std::istringstream text(json["dots"].get<std::string>());

@@ -57,8 +57,8 @@ class NamedSurvey(Survey):
 
     def find(self, edit):
         """Builds and runs each group of tests with an edit, until one notices it. The verdict is
-        'invalid' if the edit does not compile, and 'open' if not all groups are to be asked, and
-        none of these notices it."""
+        'invalid' if the edit does not compile. It is 'open' if only some groups are to be asked,
+        and none of them notices the edit."""
         answer = Answer()
         copied.make_copy(text_with(edit))
         for group in self.groups:

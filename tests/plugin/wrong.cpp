@@ -20,7 +20,7 @@ using Cubic = std::array<double, 4>;  // coefficient i is that of t^i
 
 double at(const Cubic& f, double t) { return ((f[3] * t + f[2]) * t + f[1]) * t + f[0]; }
 
-/// Adds the determinant of three vectors that move from p, q, r by dp, dq, dr.
+/// The determinant of three vectors that move from p, q, r by dp, dq, dr.
 Cubic determinant(const Vector& p, const Vector& dp, const Vector& q, const Vector& dq, const Vector& r,
                   const Vector& dr) {
   return {p.dot(q.cross(r)), dp.dot(q.cross(r)) + p.dot(dq.cross(r)) + p.dot(q.cross(dr)),

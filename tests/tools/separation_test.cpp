@@ -1,4 +1,4 @@
-// Queries with a separation, and times of impact, as a user asks for them.
+// The command line with queries that have a separation, and with times of impact.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

@@ -125,9 +125,9 @@ function(nearmiss_switch file text result)
   set(${result} "${copied}${part}" PARENT_SCOPE)
 endfunction()
 
-# nearmiss_edited_copies(LIST SPACE SWITCH HEADER...): copies the headers "folder/file.hpp" to
-# "SPACE/folder/file.hpp" in the build folder, in the namespace nearmiss::SPACE, with switches for the edits
-# of a list, which names files without their folder. The copies include each other, and the header SWITCH,
+# nearmiss_edited_copies(LIST SPACE SWITCH HEADER...): copies each header "folder/file.hpp" to
+# "SPACE/folder/file.hpp" in the build folder, and puts the copy into the namespace nearmiss::SPACE. A copy has
+# a switch for each edit of the file LIST, which names headers without their folder. The copies include each other, and the header SWITCH,
 # which declares `makes`. They cause no warnings. "SPACE/edits.inc" is the table of the edits.
 function(nearmiss_edited_copies list space switch)
   nearmiss_read_edits(${list})
