@@ -1,4 +1,5 @@
-// The time of the first contact or approach: what certified arithmetic knows about it, and comparisons with any time.
+// The time of the first contact or approach: its enclosure by certified arithmetic, and comparisons with
+// other times.
 #include "oracle/earliest_time.hpp"
 
 #include <gtest/gtest.h>

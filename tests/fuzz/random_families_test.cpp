@@ -1,4 +1,5 @@
-// The families of random, planted and degenerate queries, and of coordinates as files have them, keep their promises.
+// The families of random, planted and degenerate queries, and of coordinates such as files have, keep their
+// promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// wang in lanes gives the verdicts of wang for one query at a time, bit for bit. More queries, 10^8 for instance:
+// wang in lanes gives the verdicts of wang for one query at a time, bit for bit. With more queries, such as
+// 10^8:
 //   NEARMISS_QUERIES=2300000 fuzz_tests --gtest_filter='*InLanes*'
 #include <gtest/gtest.h>
 
