@@ -13,7 +13,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Two steps of a scene, in each of which 100 pairs of each kind are asked, and 900 are not.
+/// A scene with two steps. In each, 100 pairs of each kind are asked about, and 900 are left out.
 Statistics two_steps() {
   Statistics statistics;
   for (const char* step : {"scene:cloth#0", "scene:cloth#1"})
