@@ -34,8 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The time at which the page draws a query: t*, or without contact, the time at which the primitives are
-/// closest.
+/// The time at which the page draws a query: t* of a collision, else when the primitives are closest.
 double moment(const Query& query) {
   auto earliest = earliest_time(query);
   return earliest ? earliest->enclosure().lo : closest_time(query);

@@ -54,8 +54,7 @@ Error not_a_report(const fs::path& folder) {
                   folder.string()));
 }
 
-/// Throws Error if a folder, or a file that is not the report's own, is in the place of one of the report's
-/// files.
+/// Throws Error if a folder, or a file that is not the report's own, is where the report has a file.
 void expect_room(const fs::path& folder, const ReportPaths& own,
                  const std::map<std::string, std::string>& files) {
   const auto refuse = [](const fs::path& path) {

@@ -1,5 +1,4 @@
-// The plug-ins of tests/plugin/, the queries that they are asked, and copies whose processes a test can
-// count.
+// The plug-ins of tests/plugin/, the queries that they are asked, and copies whose processes are counted.
 #pragma once
 
 #include <stdlib.h>

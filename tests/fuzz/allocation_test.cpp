@@ -29,8 +29,7 @@ std::atomic<std::uint64_t> allocations = 0;
 namespace nearmiss {
 namespace {
 
-/// The number of allocations in a campaign of the uniform family on one thread, in which the oracle's methods
-/// are not compared.
+/// The allocations of a campaign of `uniform` on one thread that does not compare the oracle's methods.
 std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   CampaignPlan plan;
   plan.families = {find_family("uniform")};
@@ -45,8 +44,7 @@ std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   return allocations - before;
 }
 
-/// A campaign asks its cases in slices of 1,024, which contain both kinds. A slice needs about 60 allocations
-/// for each kind.
+/// A campaign asks slices of 1,024 cases of both kinds. A slice needs about 60 allocations for each kind.
 class Allocations : public ::testing::TestWithParam<const char*> {};
 TEST_P(Allocations, AreThoseOfSlices) {
   constexpr std::uint64_t slices = 100;

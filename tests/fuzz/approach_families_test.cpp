@@ -55,8 +55,7 @@ TEST_P(SeparationFamily, FiltersAndBothExactMethodsAgree) {
   }
 }
 
-/// Among 200 queries of a kind, the number with these closest features at the first time when the distance is
-/// at most h.
+/// How many of 200 queries of a kind have these closest features when their distance is first at most h.
 int count_with(const std::string& family, Kind kind, Closest closest) {
   return count_of_400(family, [&](const Query& query) {
     if (query.kind != kind) return false;

@@ -84,8 +84,7 @@ TEST(ContractedSubject, IsTheSubjectItselfIfThereIsNoContract) {
   EXPECT_EQ(subjects.front().get(), subject);
 }
 
-/// A plug-in that rounds coordinates, as two subjects: one for queries within its contract, one for those
-/// beyond it.
+/// A plug-in that rounds, as two subjects: for queries within its contract, and for those beyond it.
 Subjects sides_of_plugin() {
   return keep_contract(make_any_subject(testing::plugin("several") + ":narrow-apart"), true);
 }

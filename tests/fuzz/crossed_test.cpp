@@ -84,8 +84,7 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // The number of roots at the contact, counted with multiplicity, and the number of simple roots in the
-  // step.
+  // The roots at the contact, counted with multiplicity, and the simple roots in the step.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

@@ -1,5 +1,4 @@
-// The time of the first contact or approach: its enclosure by certified arithmetic, and comparisons with
-// other times.
+// The time of the first contact or approach: its certified enclosure, and comparisons with other times.
 #include "oracle/earliest_time.hpp"
 
 #include <gtest/gtest.h>

@@ -111,8 +111,7 @@ TEST_P(Containment, EndsAllProcessesWhenThisProcessIsKilled) {
     EXPECT_GT(copied.processes(), 0);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // The plug-in's processes notice the kill at once, but nothing waits for their end. The test fails if
-    // they remain for a minute.
+    // The processes notice the kill at once, but nothing waits for them. The test fails after a minute.
     constexpr int tries = 6000;
     for (int i = 0; i < tries && copied.processes() > 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -21,8 +21,7 @@ Tolerances<double> changed(const NamedTolerance& tolerance, double factor) {
   return tol;
 }
 
-/// Moves to D² as much of δ as the constraints allow. The code decides as before, because VV uses only their
-/// sum.
+/// Moves to D² as much of δ as the constraints allow. No answer changes: VV uses only their sum.
 Tolerances<double> with_least_delta(Tolerances<double> tol) {
   const double least = full_errors(eps, tol.S, tol.rho).delta;
   tol.D2 += tol.delta - least;

@@ -146,8 +146,7 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
   EXPECT_LE(complexity(shrunk).numbers, 2);
 }
 
-/// If a query fails in a trial, it fails in the same way when it is judged again. Otherwise it could not be
-/// shrunk.
+/// A query that fails in a trial fails in the same way when it is judged again, so it can be shrunk.
 class BadBound : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {

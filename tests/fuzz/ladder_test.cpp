@@ -98,8 +98,7 @@ Rational exactly(const MpfrFloat& a) {
   return value;
 }
 
-// The paper's model: every result is the exact one times 1 + d, |d| <= u. A result has no more digits than
-// the scope sets.
+// The paper's model: a result is the exact one times 1 + d, |d| <= u. It has no more digits than were set.
 TEST(MpfrFloat, EveryOperationIsWithinHalfItsEpsilon) {
   Random random(2, 0, 0);
   for (int i = 0; i < 20000; ++i) {

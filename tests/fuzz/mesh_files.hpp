@@ -96,8 +96,7 @@ class MeshFilesTest : public testing::TemporaryFolder {
     std::string old, by, message;
   };
 
-  /// Expects that a good file is refused after each of these changes, with the message that belongs to the
-  /// change.
+  /// Expects that each change of a good file, made by itself, is refused with its message.
   void expect_refused_with(const std::string& ending, const std::string& good,
                            std::initializer_list<Change> changes) const {
     for (const auto& [old, by, message] : changes) expect_refused(ending, replaced(good, old, by), message);

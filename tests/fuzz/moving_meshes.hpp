@@ -14,8 +14,7 @@
 
 namespace nearmiss {
 
-/// Small tetrahedra with integer coordinates. Of each three, one rests, one moves as a whole, and one changes
-/// shape.
+/// Small tetrahedra with integer coordinates. In turn, they rest, move as a whole, and change shape.
 inline MovingMesh tetrahedra(std::uint64_t seed, int count = 30) {
   Random random(seed, 0, 0);
   Mesh mesh;
@@ -64,8 +63,7 @@ inline Scene scene_of(const MovingMesh& mesh) {
           .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
 }
 
-/// What becomes of a plan's pairs, and which of them collide. The oracle decides the pairs that the plan asks
-/// about.
+/// What becomes of a plan's pairs, and which collide. The oracle decides those that the plan asks about.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

@@ -143,8 +143,7 @@ std::uint64_t fingerprint(const Mutation& kind) {
   return hash.value();
 }
 
-// The provenance of a query that a search or libFuzzer found names a seed, which must give the same query for
-// ever.
+// A provenance of a search or of libFuzzer names a seed, which must always give the same query.
 TEST(Mutation, MakesOfAQueryWhatItAlwaysMade) {
   const std::map<std::string_view, std::uint64_t> recorded{
       {"ulps", 0x62b41b423da15fc0},      {"fraction", 0xa730dd97297b2184},

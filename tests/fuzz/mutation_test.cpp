@@ -33,8 +33,7 @@ const Mutation& mutation(std::string_view name) {
 
 using BeforeAndAfter = std::function<bool(const Query& before, const Query& after)>;
 
-/// For how many of 1000 queries of a family something holds between the query and what a sort of mutation
-/// makes of it.
+/// For how many of 1000 queries of a family something holds between the query and its mutation.
 int count_of_1000(std::string_view name, std::string_view family, const BeforeAndAfter& holds) {
   int count = 0;
   std::uint64_t number = 0;
@@ -133,8 +132,7 @@ TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
   });
 }
 
-// Contact is also planted next to borders of primitives and to ends of the step, where rounding removes half
-// of it.
+// Contact is also planted next to borders and to ends of the step, where rounding removes half of it.
 TEST(Mutation, PlantAndRestoreMakeCollisionsByMovingOnePosition) {
   for (const char* name : {"plant", "restore"})
     for (const char* family : {"uniform", "uniform-slow", "sliver"}) {

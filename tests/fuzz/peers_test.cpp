@@ -1,5 +1,4 @@
-// The published CCDs that are built with the product, as subjects by name. tests/tools/peers_test.sh tests
-// the others.
+// The published CCDs that are built with the product, by name. (peers_test.sh has the others.)
 #include "fuzz/subjects/peers.hpp"
 
 #include <gmock/gmock.h>

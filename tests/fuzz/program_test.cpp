@@ -46,8 +46,7 @@ while header := sys.stdin.buffer.read(24):
     return plugin_identity(*make_any_subject("pipe:" NEARMISS_PYTHON " '" + file + " p.py'"))->sha256;
   }
 
-  /// Asks three queries, and expects this fault, code and text for the last one, at which the code `then`
-  /// does something.
+  /// Asks three queries, and expects this fault, code and text for the last, at which `then` acts.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto subject =
         make_any_subject(program(then), std::nullopt, {.time = std::chrono::milliseconds(200)});

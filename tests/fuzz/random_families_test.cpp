@@ -1,5 +1,4 @@
-// The families of random, planted and degenerate queries, and of coordinates such as files have, keep their
-// promises.
+// Families of random, planted and degenerate queries, and of coordinates as in files, keep their promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>

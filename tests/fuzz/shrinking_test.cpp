@@ -119,8 +119,7 @@ class Patient final : public ForwardingSubject {
   mutable std::size_t left_;
 };
 
-/// Here, the shrinker waits for all queries of the campaign. If one of them waited for the shrinker too, this
-/// test would not end.
+/// The shrinker waits for all queries here. If one waited for the shrinker too, this test would not end.
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};

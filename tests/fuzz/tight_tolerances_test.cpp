@@ -116,8 +116,7 @@ struct ToleranceProblem {
   }
 };
 
-/// The smallest D² that NLopt finds from a point that satisfies the constraints, but is far from our
-/// solution.
+/// The smallest D² that NLopt finds from a point that satisfies the constraints, far from our solution.
 double lowest_D2(int exponent) {
   const ToleranceConstants c = solve_tight(exponent);
   ToleranceProblem problem{std::ldexp(1.0, exponent), c.rho};

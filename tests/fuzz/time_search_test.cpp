@@ -53,8 +53,7 @@ MadeUpSubject early_in_a_region() {
   });
 }
 
-/// time - t*, and whether the time is late. Nothing if the subject does not report the query, or if it is no
-/// collision.
+/// time - t*, and whether the time is late. Nothing if the query is no reported collision.
 struct Error {
   double after;
   bool is_late;

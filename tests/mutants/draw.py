@@ -18,8 +18,7 @@ CACHE = WORK / 'trees'
 
 
 def kept_tree(name):
-    """The path at which the syntax tree of a file is kept. Another text of the file has another
-    path."""
+    """The path that keeps a file's syntax tree. It depends on the file's text."""
     return CACHE / sha(name, read(ROOT / name), inspect.getsource(syntax.Node))
 
 

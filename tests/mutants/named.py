@@ -27,8 +27,7 @@ HEADING = re.compile(r'(\S+) in (\S+?\.[ch]pp)(?: \((\d+) of (\d+)\))?(?:: (.+))
 
 @dataclass
 class Place:
-    """The `nth` of `of` places in a file that have the text `before`. An edit replaces it by
-    `after`."""
+    """The `nth` of `of` places in a file with the text `before`, which `after` replaces."""
 
     file: str
     nth: int

@@ -1,5 +1,4 @@
-"""A survey of named edits of the oracle. It makes one edit at a time, and runs the oracle's
-tests."""
+"""A survey of named edits of the oracle: makes one at a time, and runs the oracle's tests."""
 
 import math
 from dataclasses import asdict
@@ -19,8 +18,7 @@ MOST_SECONDS = 1800  # tests that take longer without an edit, even on a busy ma
 
 
 def text_with(edit):
-    """Returns a function that gives the text of each C++ file with an edit, one character for
-    each byte."""
+    """A function that gives the text of each C++ file with an edit, a character for each byte."""
 
     def text_of(name):
         if name not in {place.file for place in edit.places}:

@@ -151,8 +151,7 @@ def constant(text, node):
 
 
 def arguments(text, node):
-    """The arguments of a call, or the elements of a list, between its parentheses or braces and
-    commas."""
+    """The arguments of a call, or the elements of a list, between brackets and commas."""
     found = []
     for child in node.children:
         before = text[node.start : child.start].rstrip()[-1:]
@@ -222,8 +221,7 @@ def condition_of(node):
 
 @operator
 def negated_condition(text, node):
-    """Negates the condition of an if, a while or a ?:, exchanges == and !=, or leaves out a
-    negation."""
+    """Negates the condition of an if, a while or a ?:; exchanges == and !=; drops a negation."""
     if edits := exchanged(text, node, EQUALITY):
         yield 'expression', edits
     is_condition = node.parent is not None and condition_of(node.parent) is node

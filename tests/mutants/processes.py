@@ -70,8 +70,7 @@ def wait(process, seconds, progress=lambda: None):
 
 
 def limits(cpu=None, memory=None):
-    """The words to put before a command that limit each of its processes, in seconds and in
-    bytes."""
+    """Words to put before a command to limit each of its processes, in seconds and bytes."""
     words = ['nice', '-n', '2', 'prlimit', '--core=0']
     if cpu is not None:
         words.append(f'--cpu={int(cpu)}:{int(cpu) + 1}')

@@ -49,8 +49,7 @@ def switched(original, edit, number, form, what):
 
 
 def with_switches(text, mutants):
-    """The text of a file with all of its mutants, each of which is given as (number, mutation,
-    form)."""
+    """The text of a file with all of its mutants, given as (number, mutation, form)."""
     edits = set()
     for number, mutation, form in mutants:
         for edit in mutation.edits:

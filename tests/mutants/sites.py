@@ -32,8 +32,7 @@ def is_constexpr(text, node):
 
 
 def made_variable(text, node):
-    """The edit that makes a constexpr variable one that gets its value at run time. None for
-    other nodes."""
+    """The edit that gives a constexpr variable its value at run time. None for other nodes."""
     found = re.match(r'[\w\s\[\]:]*?\b(constexpr)\b', text[node.start : node.end])
     if node.kind not in VARIABLES or not found:
         return None

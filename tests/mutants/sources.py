@@ -1,5 +1,4 @@
-"""Reads the product's C++ files. Each byte is one character of the text, because the compiler's
-offsets count bytes."""
+"""Reads the product's C++ files, one character a byte, because the compiler counts bytes."""
 
 import hashlib
 import json

@@ -89,8 +89,7 @@ def all_steps():
 
 
 def measured(step, most_seconds):
-    """The step with its time without a mutant, the mutants that it reaches, and whether it
-    passes in time."""
+    """The step with its time without a mutant, the mutants it reaches, and whether it passes."""
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()

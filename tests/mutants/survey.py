@@ -74,8 +74,7 @@ class DrawnSurvey(Survey):
         return form == 'alone' or (form == 'constexpr' and not self.reaching(number))
 
     def chosen(self):
-        """The numbers of the requested mutants of each folder, and of the mutants that need a
-        separate build."""
+        """The numbers of the requested mutants with a switch, and of those to build separately."""
         switched, alone = [], []
         left = {folder: self.quota for folder in self.folders}
         for number, mutation in enumerate(self.drawn, 1):
@@ -98,8 +97,7 @@ class DrawnSurvey(Survey):
         return None
 
     def find(self, mutation, switch, steps):
-        """Runs the tests with a mutant. `switch` is its number, or 0 if it is built without a
-        switch."""
+        """Runs the tests with a mutant. `switch` is its number, or 0 if it has no switch."""
         if equivalents.reason_of(self.equivalent, mutation):
             return {'verdict': 'equivalent', 'noticed_by': ''}
         if not steps:
@@ -118,8 +116,7 @@ class DrawnSurvey(Survey):
         return mutation, result
 
     def ask_alone(self, number):
-        """The result of a mutant that needs a separate build. The mutant remains in the copy
-        until the next build."""
+        """The result of a mutant in a separate build. It stays until the next build."""
         mutation = self.drawn[number - 1]
         if (result := self.known(mutation)) is None:
             copied.make_copy(self.mutants.text_of)

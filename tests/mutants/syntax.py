@@ -35,8 +35,7 @@ class Node:
 
 
 def parse(path, arguments, wanted):
-    """Parses a compiled file with all files that it includes. Returns the nodes of those files
-    that are wanted."""
+    """Parses a file and all that it includes. Returns the nodes of the wanted files."""
     unit = cindex.Index.create().parse(str(path), args=arguments)
     found = {str(each): [] for each in wanted}
     for cursor in unit.cursor.get_children():

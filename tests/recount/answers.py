@@ -26,8 +26,7 @@ class Asked:
     impact: Impact
 
     def enclosed(self, name):
-        """The numbers whose histogram has this key in reports; NaN for a query that has no such
-        number."""
+        """The numbers whose histogram has this key in reports; NaN for a query without one."""
         return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property
@@ -169,8 +168,7 @@ class Known:
 
 
 def ratios(lo, hi, bound):
-    """Enclosures of distance / bound. The ratio is infinite if the bound is 0, and 0 if the
-    bound is infinite."""
+    """Enclosures of distance / bound: infinite for a bound of 0, and 0 for an infinite one."""
     slack = 1e-15  # more than the rounding error of one division
     with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
         ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)

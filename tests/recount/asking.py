@@ -75,8 +75,7 @@ class Nearmiss:
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Lower and upper ends of the earliest times of collisions: two neighbouring doubles, or
-        one twice."""
+        """Ends of enclosures of collisions' earliest times: neighbouring doubles, or equal."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):

@@ -106,8 +106,7 @@ class _Times:
         self.own[key].append(ratio - common)
 
     def _sampling(self, key):
-        """The variances of the times of one key, now and in the baseline, each with its degrees
-        of freedom."""
+        """The variances of a key's times, now and before, each with its degrees of freedom."""
         nights = [night.times[key] for night in self.nights if key in night.times]
         terms = [self.now.times[key], *nights]
         shares = [1, *([len(nights) ** -2] * len(nights))]

@@ -122,8 +122,7 @@ def _check_truth(comparison, where, found, truth):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that each false negative, late time and refuted bound is counted under one
-    signature."""
+    """Checks that each false negative, late time and refuted bound is in one signature."""
     sums = Counter()
     for each in found:
         sums[each['what'], each['subject']] += each['seen']

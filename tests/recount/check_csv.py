@@ -6,8 +6,7 @@ import math
 
 from check_findings import check_findings
 
-# For columns with a count for each name: the prefix of their headings, and the object in
-# report.json.
+# The columns with a count for each name: their prefix, and the object in report.json.
 NAMED = {
     'fault_': 'faults',
     'missed_': 'false_negatives_by_class',
@@ -71,8 +70,7 @@ def _check_rows(comparison, name, rows, expected, of):
 
 
 def _check_statistics(comparison, name, folder, report, _answers):
-    """Checks all counters and measures by family. The columns by stage must have the same names
-    as in report.json."""
+    """Checks all counters and measures by family. Columns name stages as report.json does."""
     rows = read(folder, name)
     by_stage = [column for column in rows[0] if column.startswith('true_by_')]
     expected = ['true_by_none', *(f'true_by_{stage}' for stage in report['stages'])]

@@ -1,5 +1,4 @@
-"""Checks the extreme cases that a report keeps: the farthest false positives, and the earliest
-and the latest times."""
+"""Checks the kept extreme cases: the farthest false positives, the earliest and latest times."""
 
 from asking import KINDS
 from check_numbers import check_query

@@ -10,8 +10,7 @@ SOLVED = 1e-9  # relative error of an equation's solution, and of values compute
 
 
 def quantile(enclosed, part, largest):
-    """For each end of a quantile's bin, the range of its expected value. The bin ends at the
-    largest number."""
+    """The range of each end of a quantile's bin. The bin ends at the largest number."""
     bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))

@@ -1,5 +1,4 @@
-"""Checks the section verdicts of report.json, which has a row for each subject in the page's
-first table."""
+"""Checks the section verdicts of report.json, the rows of the page's first table."""
 
 from asking import KINDS
 from check_counts import check_rates

@@ -106,8 +106,7 @@ def _beats(other, name, subjects, error):
 
 
 def check_ladder(comparison, where, report, answers, units):
-    """Checks the ladder of precisions: a rung for each subject of its algorithms, and the fits
-    to them."""
+    """Checks the ladder of precisions: a rung for each subject on it, and the fits."""
     rungs = [
         (subject, *place(subject))
         for subject in answers.subjects

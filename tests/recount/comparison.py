@@ -38,8 +38,7 @@ class Comparison:
         self._note(sort, where, found, expected, found == expected)
 
     def near(self, sort, where, found, expected, relative):
-        """`found` must be the expected number up to a relative error. If None is expected, it
-        must be None."""
+        """`found` must be the expected number up to a relative error, or None if that is expected."""
         if found is None or expected is None:
             return self.same(sort, where, found, expected)
         is_near = _is_number(found) and math.isclose(found, expected, rel_tol=relative)
@@ -86,8 +85,7 @@ class Comparison:
             self.fail('structure', where, repr(error), 'something to read')
 
     def allow(self, what, count=1):
-        """Counts values for which two results are allowed, because an enclosure contains a
-        border."""
+        """Counts values with two allowed results, because an enclosure contains a border."""
         self.either_way[what] = self.either_way.get(what, 0) + count
 
     def print(self):

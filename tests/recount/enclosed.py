@@ -50,8 +50,7 @@ class Enclosed:
         return least, most
 
     def largest(self):
-        """For each of the largest numbers, the range in which a report may give it, largest
-        first."""
+        """The ranges in which a report may give the largest numbers, largest first."""
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 

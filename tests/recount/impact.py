@@ -1,5 +1,4 @@
-"""Times of impact: which sort of time a subject gives, and how far its times are from the exact
-ones."""
+"""Times of impact: their sort for each subject, and how far they are from the exact ones."""
 
 from dataclasses import dataclass
 
@@ -23,8 +22,7 @@ SPLIT = dict(zip(KINDS, (1, 2)))  # the first vertex of the second primitive
 
 
 def sort_of(subject, description):
-    """The sort of time of a subject: for a plug-in by its description, and for a built-in
-    subject by its name."""
+    """The sort of time of a subject: by a plug-in's description, or a built-in one's name."""
     built_in = SORTS.get(subject.split(':')[0], 'none')
     return next((sort for words, sort in WORDS.items() if words in description), built_in)
 
@@ -48,8 +46,7 @@ class Impact:
 
     @property
     def late(self):
-        """Whether the time is after t*, although the subject promised that nothing happens
-        before it."""
+        """Whether the time is after t*, although nothing was promised to happen before it."""
         return ~np.isnan(self.after.lo) & (self.sort == 'lower-bound')
 
 

@@ -1,6 +1,5 @@
 #!/usr/bin/python3 -B
-"""Tests that a report agrees with its queries, and that recount notices a change of any sort of
-value."""
+"""Tests that a report agrees with its queries, and that recount notices changed values."""
 
 import argparse
 import copy
@@ -98,8 +97,7 @@ class Recount(unittest.TestCase):
             )
 
     def one_leaf_of_each_pattern(self, value):
-        """The path of the largest value of each sort, because the change of a large number is
-        the easiest to notice."""
+        """The path of the largest value of each sort, whose change is the easiest to notice."""
         chosen = {}
         for path, leaf in leaves(value):
             of = pattern(path, self.names)
@@ -169,8 +167,7 @@ class Recount(unittest.TestCase):
         self.assertEqual(front(subjects, 'error'), ['a', 'better'])
 
     def copy_with_change(self, name, column):
-        """Copies the CSV files, with another value in one column of a row in the middle of a
-        file."""
+        """Copies the CSV files, with another value in one column of a row in the middle."""
         folder = self.folder / 'copy'
         folder.mkdir(exist_ok=True)
         for file in self.report.folder.glob('*.csv'):
@@ -218,8 +215,7 @@ class Recount(unittest.TestCase):
 
     @staticmethod
     def checked_lines(text):
-        """The lines that are compared: verdicts, table rows, the oracle's counters, factors,
-        versions, and fits."""
+        """The compared lines: verdicts, rows, the oracle's counters, factors, versions, fits."""
         is_checked = re.compile(
             r'(FAIL| ok ) |oracle: |[a-z]\S* +(vt|ee|2\^)|[a-z]\S* against | *wang.* goes as '
         )
@@ -278,8 +274,7 @@ class Baseline(unittest.TestCase):
 
     @staticmethod
     def run_nearmiss(*arguments, **environment):
-        """Runs nearmiss with environment variables, and returns its output. Misses are no error
-        here."""
+        """Runs nearmiss in an environment, and returns its output. Misses are no error here."""
         done = subprocess.run(
             [EXECUTABLE, *arguments],
             env={**os.environ, **environment},

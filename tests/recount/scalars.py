@@ -49,8 +49,7 @@ class Units:
         return self._known[subject]
 
     def of_distances(self, subject):
-        """The bound that divides distances in the subject's ratios: its claimed bound, or for
-        basic wang's."""
+        """The bound in a subject's ratios distance / bound: its claim, or for basic wang's."""
         algorithm, _, _ = place(subject)
         if algorithm in ('basic', 'basic-plain'):
             return paper_bound(2.0 ** EPSILONS['double'])

@@ -70,8 +70,7 @@ class Tally:
         )
 
     def refuted(self):
-        """The least and the largest number of refuted bounds that are possible within the
-        enclosures."""
+        """The least and the largest possible number of refuted bounds, by the enclosures."""
         if not self.claims:
             return 0, 0
         return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())

@@ -67,8 +67,7 @@ def verdict(row, kinds):
 
 
 def _false_positives(counts, unknown):
-    """The number of false positives, how many of them are unknown, and the ratio of the
-    farthest."""
+    """The number of false positives, how many are unknown, and the farthest one's ratio."""
     if counts['false_positives'] == 0:
         return 'no false positive'
     text = counted(counts['false_positives'], 'false positive')

@@ -63,8 +63,7 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
   EXPECT_THAT(changes(with_others(1200), with_others(1000)).rates, IsEmpty());
 }
 
-// In a single test, 11 failures in 10,000 after none would be significant. With 4 comparisons at the level of
-// 0.001, 13 are required.
+// In a single test, 11 of 10,000 after none are significant. With 4 tests at a level of 0.001, 13 are.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{key, counts(20000, 10000, missed, 0)}});

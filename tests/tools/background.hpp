@@ -46,8 +46,7 @@ class Background {
     return !has_ended();
   }
 
-  /// Waits until a file changes or appears, or until the process ends. Returns false if the process has
-  /// ended.
+  /// Waits until a file changes or appears. Returns false if the process has ended.
   bool wait_for_a_change(const std::filesystem::path& file) {
     const auto time = [&] {
       std::error_code none;

@@ -42,8 +42,7 @@ for target in "$@"; do
   seeds=$(find seeds -type f | wc -l)
   ((seeds > 100)) || fail "fuzz_$target has $seeds seeds"
 
-  # The target gets the arguments that base-runner passes: its own, those in NAME.options, and NAME.dict if it
-  # exists.
+  # The arguments are those of base-runner: its own, those in NAME.options, and NAME.dict if it exists.
   arguments=(-rss_limit_mb=2560 -timeout=25 $(sed -n 's/^[a-z_]*=/-&/p' "$exe.options"))
   [[ ! -e $exe.dict ]] || arguments+=(-dict="$exe.dict")
   try() {

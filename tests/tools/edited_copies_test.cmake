@@ -1,5 +1,4 @@
-# Checks what tools/cmake/edited_copies.cmake makes of a small header, and how it refuses edits that do not
-# fit.
+# Checks what tools/cmake/edited_copies.cmake makes of a small header, and that it refuses wrong edits.
 #   cmake -DFOLDER=an empty folder -P edited_copies_test.cmake
 cmake_minimum_required(VERSION 3.25)
 

@@ -13,8 +13,7 @@ using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// The words to put before a command so that file permissions apply to it. Root ignores them, unless this
-/// right is taken away.
+/// Words before a command that make file permissions hold even for root.
 const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
 
 TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {

@@ -24,8 +24,7 @@ cd "$folder/tree"
 nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
 nothing tools/setup tools/libfuzzer
 
-# night CODE OPTIONS...: runs a night with a small number of queries instead of a time, and checks its exit
-# code.
+# night CODE OPTIONS...: runs a night of few queries, whatever its time, and checks its exit code.
 night() {
   local code=0
   sleep_until_next_second
@@ -146,8 +145,7 @@ kill -TERM "$night"
 ends 130
 expect "expected a report" test -s build/run/report/index.html
 
-# A signal has the same effect while another script runs: libFuzzer, or the set-up, after which no night
-# begins.
+# A signal does the same while libFuzzer's script runs, or the set-up, after which no night begins.
 forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
 rm build/release/nearmiss
 cp quick build/release/nearmiss

@@ -51,8 +51,7 @@ ask "$folder/all/tight-inclusion.so:tolerance=1e-3:tolerance=1" vt "$vt_hit"
 [[ $said == *"found 'tolerance=1', expected "*", each once"* ]] || fail "an option given twice: found '$said'"
 # The contract of MSRF: the primitives start farther apart than its minimum separation.
 "$nearmiss" subjects "$folder/all/msrf.so" | grep -q 'the distance at t = 0 is more than 1e-08' || fail "msrf: found another contract"
-# The contract of the paper's own code: no contact at t = 0, which it leaves to the step before, and a range
-# of sizes.
+# The contract of the paper's own code: a range of sizes, and no contact at t = 0.
 "$nearmiss" subjects "$folder/all/safeccd.so" | grep -q 'apart at t = 0; .*multiples of .*e-50; .*1e+50 long' || fail "safeccd: found another contract"
 ask "$folder/all/msrf.so:separation=1.5" vt "$vt_miss"
 [[ $said == *"found the options 'separation=1.5', expected none"* ]] || fail "msrf takes an option: found '$said'"

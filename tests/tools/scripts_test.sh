@@ -30,8 +30,7 @@ cd "$folder/tree"
 
 state() { find . -printf '%p %y %s %T@\n' | sort; ls -A "$TMPDIR"; cat "$folder/called" 2>/dev/null || true; }
 before=$(state)
-# try CODE SCRIPT ARGUMENTS...: runs a script, puts its output into `said`, and checks its exit code and that
-# nothing changed.
+# try CODE SCRIPT ARGUMENTS...: puts a script's output into `said`, expects its exit code and no change.
 try() {
   local code=0 now
   case $2 in *.mjs) said=$(timeout 20 node "${@:2}" 2>&1 </dev/null) || code=$? ;;

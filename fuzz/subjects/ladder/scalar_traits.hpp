@@ -15,8 +15,7 @@ struct LimitsOfDouble : std::numeric_limits<double> {
   static T infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
-/// A base class for Eigen::NumTraits<T>, for a real T that has a constructor, with the estimated costs of its
-/// operations.
+/// A base class for Eigen::NumTraits<T>, for a real T with a constructor and these estimated costs.
 template <class T, int read_cost, int add_cost, int multiplication_cost>
 struct RealTraits : Eigen::GenericNumTraits<T> {
   enum {

@@ -34,10 +34,7 @@ function withFindings(name, many) {
   return pathToFileURL(file).href;
 }
 
-/**
- * With any number of findings, the page draws few of them at first, and finds any other. Prints how long both
- * take.
- */
+/** With any number of findings, the page draws a few and finds any other. Prints the times. */
 export async function staysQuickWithManyFindings(browser) {
   for (const many of [10, 10000]) {
     const page = await open(browser, withFindings("found", many));

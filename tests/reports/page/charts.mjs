@@ -7,8 +7,7 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // The chart has 4 panels, each with 2 families, 2 subjects and 3 values. If a value is not 0, there is
-  // another mark for it.
+  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Values above 0 have another mark.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);

@@ -12,8 +12,7 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
     const points = await fills(`${inPanel} .mark-symbol.role-mark path`);
     assert.equal(points.length, Object.keys(subjects).length);
     assert.equal(new Set(points).size, 2);
-    // One line is the front. The other four join the scalars of the machine, and the emulated ones, of each
-    // algorithm.
+    // One line is the front. Each algorithm has one for the machine's scalars, and one for emulated ones.
     assert.equal(await count(page, `${inPanel} .mark-line path`), 1 + 4);
     const labels = await page.locator(`${inPanel} .mark-text.role-mark text`).evaluateAll((all) => all
       .filter((each) => each.getAttribute("stroke") === null || each.getAttribute("stroke") === "none")
