@@ -1,4 +1,4 @@
-// The families with separations of their own keep their promises, exactly.
+// The families that choose separations keep their promises exactly.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -100,7 +100,7 @@ TEST(Classify, EdgesThatDifferByMoreThan1000AreDegenerate) {
 }
 
 TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
-  // F = z, A = 4 / 3, g² = 6 + z²
+  // For the vertex at height z: F = z, A = 4 / 3, g² = 6 + z² (fuzz/families/README.md).
   const double border = 0x1.b65a6f833cc0fp-19;
   EXPECT_TRUE(is_degenerate(falling_vertex(2, 2, border, 1)));
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, above(border), 1)));
@@ -210,7 +210,7 @@ TEST(Classify, WithASeparationEdgesComeNearestInGeneralPositionToo) {
 
 // --- all families ---------------------------------------------------------------------------------------
 
-/// The same primitives with other names for the vertices.
+/// The same primitives, with their vertices in another order.
 Query reordered(const Query& query, const std::array<int, 4>& order) {
   Query other = query;
   for (int i = 0; i < 4; ++i) {

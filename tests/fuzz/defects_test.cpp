@@ -39,7 +39,7 @@ TEST(Defects, MultiplyEveryToleranceByTheSameFactors) {
   for (const NamedTolerance& tolerance : named_tolerances()) {
     for (const double factor : {0.5, 0.1, 0.01, 0.0})
       EXPECT_TRUE(names.contains(scaled_tolerance(tolerance.name, factor))) << tolerance.name << factor;
-    // A larger tolerance cannot cause a miss where it is an upper limit below which a test accepts a pair.
+    // If a test accepts what is within a tolerance, a larger tolerance causes no miss.
     for (const double factor : {10.0, 100.0})
       EXPECT_EQ(names.contains(scaled_tolerance(tolerance.name, factor)), !tolerance.accepts)
           << tolerance.name << factor;

@@ -81,12 +81,12 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     EXPECT_EQ(shrunk_query(finding, basic.get()), shrunk) << finding.provenance;  // deterministic
     Finding again = finding;
     again.query = shrunk;
-    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // nothing is left to do
+    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // already the simplest
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
   EXPECT_EQ(hash.value(), 0x42897e50a3c443da)
-      << std::hex << hash.value();  // each step does what it always did
+      << std::hex << hash.value();  // shrinking gives what it always gave
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
             4);  // most have few distinct numbers; all except the coplanar queries had about 20

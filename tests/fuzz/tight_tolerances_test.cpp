@@ -1,4 +1,4 @@
-// The tolerances that solve the paper's constraints.
+// The smallest tolerances that satisfy the paper's constraints.
 #include "ccd/wang/bounds/tight_tolerances.hpp"
 
 #include <CGAL/Interval_nt.h>

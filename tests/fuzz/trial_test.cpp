@@ -29,7 +29,7 @@ std::unique_ptr<Subject> told(std::string name, bool hit, double bound = infinit
       testing::Claims{.bound = bound, .claims_bound = std::isfinite(bound)});
 }
 
-/// A hit, then a vertex that stays at a distance of 1 or more.
+/// A collision, and a vertex that stays at a distance of 1 or more.
 Batch batch() {
   return batch_of("two", {falling_vertex(0.25, 0.25, 1, -1), falling_vertex(0.25, 0.25, 3, 1)});
 }

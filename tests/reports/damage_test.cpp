@@ -1,4 +1,4 @@
-// A damaged store is refused, or it gives the same campaign as before. A salvage takes the intact part only.
+// A damaged store is refused, or it gives the whole campaign. A salvage takes only the intact part.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The table of a scene's pairs and what became of them.
+// The table that shows what became of a scene's pairs.
 #include "reports/sections/funnel_table.hpp"
 
 #include <gmock/gmock.h>

@@ -173,7 +173,7 @@ TEST(ImpactTimes, ALateFindingHasBothTimesOfItsShrunkQuery) {
   const Campaign campaign = late_campaign(testing::falling_vertex(0.25, 0.25, 3, -1));
   const auto json = report_json(campaign)["findings"][0];
   EXPECT_EQ(json["what"], "late");
-  EXPECT_EQ(json["ratio"], 0);  // it is not the ratio of a distance
+  EXPECT_EQ(json["ratio"], 0);  // only a finding about a distance has a ratio
   EXPECT_EQ(json["late_by"], 0.125);
   EXPECT_EQ(json["time"], 0.75);
   EXPECT_EQ(json["toi"], 0.875);

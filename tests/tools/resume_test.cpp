@@ -82,7 +82,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   RecordProperty("kills", kills);
   EXPECT_GT(kills, 0);
   EXPECT_EQ(timeless_report("a.db"), report);
-  // A complete campaign does not run again.
+  // A resume of a complete campaign does not run it again.
   EXPECT_EQ(run(std::string(campaign) + " --db a.db --resume").code, 1);
   EXPECT_EQ(timeless_report("a.db"), report);
 }

@@ -143,8 +143,8 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
   for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
   return text +
          "\n\nTime and cases up to the first miss; *: up to the first refuted bound; +: up to the first late "
-         "time. Of a directed search, evaluations: at most this many. Of libFuzzer, those of "
-         "the target that was soonest.\n";
+         "time. For directed search, the number of cases is an upper limit of the evaluations. For "
+         "libFuzzer, time and cases are those of the target that found a failure soonest.\n";
 }
 
 int run(const Options& options) {
