@@ -65,7 +65,7 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
   EXPECT_EQ(copied.processes(), 0);
 }
 
-/// What nearmiss holds for its workers: open files, and mappings of the memory that it shares with them.
+/// How many open files, and mappings of memory shared with workers, nearmiss holds.
 std::array<std::size_t, 2> held() {
   std::array<std::size_t, 2> count{};
   for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator("/proc/self/fd")) ++count[0];

@@ -56,7 +56,7 @@ TEST(Contract, OneRoot) {
   const auto keeps = [&](const Query& query) { return keeps_contract(query, contract); };
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 1, -1)));
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 2, 1)));
-  // Where F has its roots:
+  // The roots of F in each query:
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 1, 0)));      // at the end
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 0, 1)));      // at the start
   EXPECT_FALSE(keeps(falling_vertex(0.25, 0.25, 0, 0)));     // always

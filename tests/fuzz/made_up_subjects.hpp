@@ -9,7 +9,7 @@
 
 namespace nearmiss::testing {
 
-/// What a subject says about itself.
+/// The properties that a subject states.
 struct Claims {
   double bound = 0;
   bool claims_bound = true;

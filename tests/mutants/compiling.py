@@ -55,7 +55,7 @@ class Mutants:
         return found
 
     def in_constexpr_functions(self, files):
-        """Mutants in constexpr functions of these files, which may be evaluated far from them."""
+        """Mutants in constexpr functions of these files, which may be evaluated elsewhere."""
         return [
             each
             for name in sorted(files & set(self.by_file))

@@ -46,7 +46,7 @@ class Impact:
 
     @property
     def late(self):
-        """Whether the time is after t*, although nothing was promised to happen before it."""
+        """Whether the time is after t*, although it was promised as a lower bound of t*."""
         return ~np.isnan(self.after.lo) & (self.sort == 'lower-bound')
 
 
