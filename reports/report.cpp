@@ -34,13 +34,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The time at which the page shows a query: t*, or when the primitives are closest if there is none.
+/// The time at which the page draws a query: t* of a collision, else when the primitives are closest.
 double moment(const Query& query) {
   auto earliest = earliest_time(query);
   return earliest ? earliest->enclosure().lo : closest_time(query);
 }
 
-/// The 24 coordinates; a separation other than 0 follows, as in a query file.
+/// The 24 coordinates, and the separation unless it is 0, as in a query file.
 ordered_json numbers_json(const Query& query) {
   ordered_json json = query.x;
   if (query.separation != 0) json.push_back(query.separation);

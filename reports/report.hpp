@@ -25,9 +25,10 @@ struct ReportContext {
 /// The version of report.json, which reports/report.schema.json describes.
 inline constexpr int report_schema_version = 2;
 
-/// Everything that the page shows: the version; summary_json by shown family (family.hpp); the headline, a verdict on each subject,
-/// error against run time, the histogram's borders, the names of the stages, the first findings of each signature and the
-/// farthest false positives with the names of their case files, the earliest and latest times; and the sections of `context`.
+/// Everything that the page shows: the version; summary_json by shown family (family.hpp); the headline, and
+/// a verdict on each subject; error against run time; the histogram's borders, and the names of the stages;
+/// the first findings of each signature and the farthest false positives, with the names of their case files;
+/// the earliest and latest times; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
 /// Writes the files of a report:
@@ -36,7 +37,7 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext
 ///  - statistics.csv, classes.csv, distances.csv, times.csv and findings.csv, with all counters and findings;
 ///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
-/// The files of an earlier report are replaced, and no others (report_folder.hpp). Throws Error if the folder is
+/// Replaces the files of an earlier report, and no others (report_folder.hpp). Throws Error if the folder is
 /// something else, if another file is in the way, or if the files cannot be written.
 void write_report(const Campaign& campaign, const ReportContext& context,
                   const std::filesystem::path& folder);

@@ -27,7 +27,7 @@ constexpr std::array fixed_files{data_file,
                                  std::string_view("findings.csv")};
 constexpr std::array sub_folders{"cases", "farthest"};
 
-/// The folder in which files are written before they are renamed. It is on the same file system as their places.
+/// Files are written in this folder, and then renamed. It is on the file system of the report's folder.
 constexpr const char* part_name = ".nearmiss-part";
 
 /// Whether a path is a file directly in one of the sub-folders.
@@ -54,7 +54,7 @@ Error not_a_report(const fs::path& folder) {
                   folder.string()));
 }
 
-/// Throws Error if a file that is not the report's own, or a folder, has the place of one of the report's files.
+/// Throws Error if a folder, or a file that is not the report's own, is where the report has a file.
 void expect_room(const fs::path& folder, const ReportPaths& own,
                  const std::map<std::string, std::string>& files) {
   const auto refuse = [](const fs::path& path) {
@@ -64,7 +64,7 @@ void expect_room(const fs::path& folder, const ReportPaths& own,
   };
   for (const char* sub_folder : sub_folders)
     if (const auto status = fs::symlink_status(folder / sub_folder);
-        fs::exists(status) && !fs::is_directory(status))  // a link would lead to the user's files
+        fs::exists(status) && !fs::is_directory(status))  // not a link, which could lead to the user's files
       throw refuse(folder / sub_folder);
   for (const auto& [name, content] : files) {
     const auto status = fs::symlink_status(folder / name);
@@ -81,8 +81,8 @@ void write_beside(const fs::path& part, const std::map<std::string, std::string>
   replace_file(part / data_file, files.at(std::string(data_file)));
 }
 
-/// Moves all files from `part` to the folder. The earlier or the new report.json names each of the report's files at
-/// any moment, so that an interrupted replacement can be completed.
+/// Moves all files from `part` to the folder. At any moment, the earlier or the new report.json names each of
+/// the report's files, so that an interrupted replacement can be completed.
 void put_in_place(const fs::path& part, const fs::path& folder, const ReportPaths& own,
                   const std::map<std::string, std::string>& files) {
   for (const char* sub_folder : sub_folders) fs::create_directories(folder / sub_folder);
@@ -138,7 +138,7 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
     put_in_place(part, folder, own, files);
   } catch (const std::exception& error) {
     std::error_code ignored;
-    if (!is_written) {  // otherwise the next replacement needs `part`
+    if (!is_written) {  // if it is written, the next replacement needs `part`
       fs::remove_all(part, ignored);
       fs::remove(folder, ignored);  // if it is empty
     }

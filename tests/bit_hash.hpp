@@ -1,4 +1,4 @@
-// A hash of numbers, for tests that something random stays what it was.
+// A hash of numbers, with which tests check that random data stays the same.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Plug-ins of tests/plugin/, the queries that they are asked, and copies of them whose processes a test can count.
+// The plug-ins of tests/plugin/, the queries that they are asked, and copies whose processes are counted.
 #pragma once
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ namespace nearmiss::testing {
 
 inline std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-/// A hundred queries; a plug-in acts at number 40.
+/// A hundred queries. At number 40, a plug-in does what its name says.
 inline constexpr std::size_t chosen = 40;
 inline std::vector<Query> queries() {
   std::vector<Query> some(100, falling_vertex(0.25, 0.25, 1, -1));
@@ -30,7 +30,7 @@ inline std::vector<Verdict> answers_of(const Subject& subject, const std::vector
   return verdicts;
 }
 
-/// A copy of a plug-in, by whose path its processes are known.
+/// A copy of a plug-in, whose path identifies its processes.
 class CopiedPlugin {
  public:
   explicit CopiedPlugin(const std::string& name) {

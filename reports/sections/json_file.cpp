@@ -17,7 +17,8 @@ void read_json_file(const std::filesystem::path& file, std::string_view expected
   try {
     take(nlohmann::ordered_json::parse(in));
   } catch (const nlohmann::ordered_json::exception& error) {
-    // The library's message begins with its name of the exception, "[json.exception.parse_error.101] ".
+    // The library's message begins with the exception's name in brackets, "[json.exception.parse_error.101]
+    // ".
     const std::string_view message = error.what();
     const std::size_t name = message.find("] ");
     throw Error(fmt::format("{}: found {}, expected {}", file.string(),

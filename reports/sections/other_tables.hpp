@@ -1,4 +1,4 @@
-// Tables of other commands, which reports show: the power of detection, and environments.
+// Tables of other commands that reports show: how soon hunts find defects, and environments.
 #pragma once
 
 #include <cstdint>
@@ -26,20 +26,19 @@ nlohmann::ordered_json hunts_json(const std::vector<Hunt>& hunts);
 /// Reads the file that nearmiss power --json writes. Throws Error.
 std::vector<Hunt> load_hunts(const std::filesystem::path& file);
 
-/// The results of a CCD that was compiled and run in one environment: compiler, flags and mode of the processor.
+/// The results of a CCD in one environment: compiler, flags, and the processor's mode of arithmetic.
 struct Environment {
   std::string subject, compiler, flags, mode;
   std::uint64_t queries = 0, collisions = 0, missed = 0, false_positives = 0, refuted_bounds = 0, faults = 0;
   std::optional<std::string> first = {};  ///< the first failure, with its query's provenance
 
-  /// The guarantee is that no collision is missed: "keeps it", "misses", or "gives no answer" to some
-  /// queries.
+  /// The guarantee is that no collision is missed. "gives no answer" means: to some queries.
   [[nodiscard]] std::string_view verdict() const {
     return missed > 0 ? "misses" : faults > 0 ? "gives no answer" : "keeps it";
   }
 };
 
-/// A list with a verdict for each.
+/// A list of the environments, each with its verdict.
 nlohmann::ordered_json environments_json(const std::vector<Environment>& environments);
 
 /// Reads the table that tools/environments writes. Throws Error.

@@ -13,7 +13,7 @@ namespace {
 std::atomic<std::uint64_t> allocations = 0;
 }
 
-// Not inlined, since g++ 12 would see a mismatch of new and free.
+// Not inlined, because g++ 12 would otherwise warn that new and free do not match.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   while (true) {
@@ -29,7 +29,7 @@ std::atomic<std::uint64_t> allocations = 0;
 namespace nearmiss {
 namespace {
 
-/// The number of allocations in a campaign of the uniform family on one thread, which compares no methods of the oracle.
+/// The allocations of a campaign of `uniform` on one thread that does not compare the oracle's methods.
 std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   CampaignPlan plan;
   plan.families = {find_family("uniform")};
@@ -44,7 +44,7 @@ std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   return allocations - before;
 }
 
-/// A slice has 1,024 cases of both kinds, and needs some 60 allocations for each kind.
+/// A campaign asks slices of 1,024 cases of both kinds. A slice needs about 60 allocations for each kind.
 class Allocations : public ::testing::TestWithParam<const char*> {};
 TEST_P(Allocations, AreThoseOfSlices) {
   constexpr std::uint64_t slices = 100;

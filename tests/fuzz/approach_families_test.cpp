@@ -1,4 +1,4 @@
-// The families with separations of their own keep their promises, exactly.
+// The families that choose separations keep their promises exactly.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ using testing::first_time;
 using testing::longest_edge;
 using Closest = ApproachFeatures::Closest;
 
-/// Whether the distance first reaches h at `time`, and falls below it at once.
+/// Expects that the distance first reaches h at `time`, and falls below h immediately after.
 void expect_above_before_and_below_after(const Query& query, double time) {
   SturmTimes by_sturm(query);
   const double after = std::nextafter(time, 2);
@@ -55,7 +55,7 @@ TEST_P(SeparationFamily, FiltersAndBothExactMethodsAgree) {
   }
 }
 
-/// The number of queries of a kind, among 200, with these closest features when the distance is first at most h.
+/// How many of 200 queries of a kind have these closest features when their distance is first at most h.
 int count_with(const std::string& family, Kind kind, Closest closest) {
   return count_of_400(family, [&](const Query& query) {
     if (query.kind != kind) return false;
@@ -118,7 +118,7 @@ TEST(TiedSeparation, TheDistanceIsReachedAtTheStartInsideAndAtTheEnd) {
 TEST(TiedSeparation, PrimitivesRestOrSlide) {
   const auto rests = [](const Query& query) { return at_rest(query, 0) == query; };
   expect_more("tied-separation", 10, rests);
-  expect_more("tied-separation", 15, [&](const Query& query) {  // these keep the distance
+  expect_more("tied-separation", 15, [&](const Query& query) {  // these slide at the distance h
     const double h = query.separation;
     return !rests(query) && is_tie(at_rest(query, 0), h) && is_tie(at_rest(query, 1), h);
   });
@@ -170,7 +170,8 @@ Closest closest_at(const Query& query, double time) {
   return approach_features(with_separation(now, minimum_distance(now, 0).hi))->closest;
 }
 
-// In the others, another edge of the triangle, or of parallel edges, was closest before; or a side has no length.
+// In the other queries, another edge of the triangle, or another of two parallel edges, was closest before,
+// so that the features' dimension stays the same; or a side has no length.
 TEST(ChangedFeatures, MostChangeToFeaturesOfAnotherDimensionShortlyBefore) {
   constexpr int x = -24;
   int same_last = 0;

@@ -24,7 +24,7 @@ TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
     for (const Query& query : first_queries(family, 200, seed)) {
       if (collides(query)) continue;
       ++apart;
-      // Below 2^-300 of the differences, no precision is required.
+      // A distance below 2^-300 needs no positive lower end.
       const Approach approach = closest_approach(
           VertexDifferences(query), [](double upper) { return upper < 0x1p-300 ? 0 : 0.999 * upper; });
       EXPECT_TRUE(approach.enough) << family;

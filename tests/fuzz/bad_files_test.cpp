@@ -155,14 +155,13 @@ TEST_F(BadFilesTest, BadObjIsNamedWithItsLine) {
 
 using Parse = Mesh (*)(std::string_view, const std::string&);
 
-/// Expects that the text is refused after a cut anywhere, except within the last bytes, where the rest may be
-/// a complete file.
+/// Expects that a cut file is refused, unless at most `last` bytes are missing: it may still be complete.
 void expect_refused_when_cut(Parse parse, const std::string& text, std::size_t last) {
   for (std::size_t size = 0; size + last < text.size(); ++size)
     EXPECT_THROW(parse(text.substr(0, size), "cut"), Error) << size << " bytes of " << text;
 }
 
-// Text may lack its last newline, and the name of a solid. Any other cut is noticed.
+// A file may lack its last newline, and an STL file the solid's last name. Any other cut is noticed.
 TEST(CutFileTest, ACutFileIsRefused) {
   expect_refused_when_cut(parse_off, off, 1);
   expect_refused_when_cut(parse_ply, text_ply, 1);

@@ -35,7 +35,7 @@ class EveryScene : public ::testing::TestWithParam<BuiltInScene> {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scenes()),
                          [](const auto& each) { return each.param.name; });
 
-/// A hash of the first, a middle and the last frame, and of the primitives.
+/// A hash of the points of the first, a middle and the last frame, and of the triangles and lines.
 std::uint64_t fingerprint(const Scene& scene) {
   testing::BitHash hash;
   for (const std::size_t frame : {std::size_t{0}, scene.frames / 2, scene.frames - 1})
@@ -159,7 +159,7 @@ TEST_P(EveryScene, AStepIsOfTheOrderOfAnEdgeInAllSizes) {
   }
 }
 
-/// The number of candidates per triangle, in a step in the middle.
+/// The number of candidates per triangle, in a step in the middle of the scene.
 double candidates_per_triangle(const Scene& scene) {
   double count = 0;
   const MovingMesh mesh = moving_mesh(scene, scene.steps() / 2);
@@ -268,7 +268,7 @@ TEST(Formulas, TheSmoothMaximumHasNoKink) {
   EXPECT_NEAR(smooth_max(1, 1 + 1e-6, 0.5) - smooth_max(1, 1, 0.5), 0.5e-6, 1e-11);
 }
 
-/// Whether a surface is closed, with the same side of all triangles outside. Then each edge occurs once in
+/// Whether a surface is closed and its triangles are oriented consistently, so that each edge occurs once in
 /// each direction.
 bool is_closed(const Mesh& mesh) {
   std::map<std::array<int, 2>, int> edges;

@@ -24,7 +24,7 @@ struct Ran {
   int saves = 0;
 };
 
-/// A plan of these families, or of all.
+/// A plan of these families, or of all families if none is named.
 CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const char*> of = {}) {
   CampaignPlan plan;
   for (const char* name : of) plan.families.push_back(find_family(name));
@@ -133,7 +133,7 @@ TEST(Campaign, ShardsAddUpToTheWhole) {
   EXPECT_EQ(sum, whole.statistics);
 }
 
-/// Never reports a collision, and requests a stop when it has been asked some queries.
+/// Never reports a collision, and requests a stop after this number of queries.
 std::unique_ptr<Subject> stopping(std::atomic<bool>& stop, std::uint64_t queries) {
   const auto left = std::make_shared<std::atomic<std::uint64_t>>(queries);
   return std::make_unique<testing::MadeUpSubject>("stopping", [&stop, left](const Query&) {

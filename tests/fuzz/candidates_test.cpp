@@ -26,7 +26,7 @@ std::vector<Candidate> found_candidates(const MovingMesh& mesh) {
   return found;
 }
 
-/// The same list: all pairs, row by row, whose boxes meet.
+/// All pairs whose boxes meet, row by row, which must be the same list.
 std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
   std::vector<Candidate> found;
   for (const Kind kind : kinds)
@@ -54,7 +54,7 @@ std::size_t expect_brute_force(MovingMesh mesh, const std::vector<double>& separ
   return expected.size();
 }
 
-/// A mesh with integer coordinates, whose triangles have points of nearby numbers.
+/// A mesh with integer coordinates. The points of each triangle have indices near each other.
 MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
   Random random(seed, 0, 0);
   Points start;
@@ -105,7 +105,7 @@ TEST(Candidates, PairsWithACommonVertexAreCounted) {
   }
 }
 
-/// A vertex at rest, displaced along an axis from a triangle at rest whose box is the unit cube.
+/// A vertex at rest, at a height along an axis, beside a triangle at rest whose box is the unit cube.
 MovingMesh vertex_beside_triangle(int axis, double height) {
   Vector3<double> vertex(0.5, 0.5, 0.5);
   vertex[axis] = height;
@@ -113,7 +113,7 @@ MovingMesh vertex_beside_triangle(int axis, double height) {
   return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
 }
 
-// Tests all sides to the last bit.
+// Tests each side of the box with the doubles next to it.
 TEST(Candidates, BoxesThatTouchMeet) {
   for (int axis = 0; axis < 3; ++axis)
     for (const auto& [height, expected] :
@@ -122,7 +122,7 @@ TEST(Candidates, BoxesThatTouchMeet) {
           << axis << ' ' << height;
 }
 
-/// A mesh of n points with n triangles and n lines between any of them.
+/// A mesh of n points, with n triangles and n lines between random points.
 MovingMesh any_mesh(std::uint64_t seed, int n, const Point& point) {
   Random random(seed, 0, 0);
   Mesh mesh;
@@ -137,7 +137,7 @@ MovingMesh any_mesh(std::uint64_t seed, int n, const Point& point) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// Some separations that are distances of coordinates of a mesh, and their neighbours.
+/// Separations that equal the distance between two coordinates of a mesh, and the doubles next to them.
 std::vector<double> distances(const MovingMesh& mesh, std::uint64_t seed) {
   Random random(seed, 1, 0);
   const auto any = [&](const Points& points) {
@@ -176,8 +176,8 @@ TEST(Candidates, FindsTheSameAsBruteForceWithCoordinatesOfAllSizesAtOnce) {
   }
 }
 
-// All coordinates are a few ulps from 1, where the distance of neighbours doubles. The additions of a separation are
-// rounded, and cells are smaller than ulps.
+// All coordinates are a few ulps from 1, where the spacing of doubles changes by a factor of two. Adding a
+// separation rounds, and cells are smaller than an ulp.
 TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   const double ulp = 0x1p-53;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -188,8 +188,8 @@ TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   }
 }
 
-// The distance of a vertex and a triangle is rounded to the separation, and the middle between them is on the border of
-// two cells: the grid goes from -2 to 2 times the middle.
+// The distance between a vertex and a triangle rounds to the separation. The midpoint between them lies on
+// the border of two cells, because the grid extends from -2 to 2 times the midpoint.
 TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
   std::size_t found = 0;
   Random random(1, 0, 0);
@@ -226,7 +226,7 @@ TEST(Candidates, FindsAllPairsOfEqualBoxes) {
   EXPECT_GT(expect_brute_force(point, {1.0, 1e308}), 1000);
 }
 
-// A group has four boxes, so these are one group, two groups, one group of groups, and so on.
+// A group holds four boxes, so these meshes have one group, two groups, a group of groups, and so on.
 TEST(Candidates, FindsTheSameAsBruteForceInMeshesOfFewPrimitives) {
   std::size_t found = 0;
   for (int n = 1; n <= 70; ++n)
@@ -245,7 +245,7 @@ std::vector<Candidate> all_of(const CandidateFinder& finder) {
   return found;
 }
 
-/// Puts each of many tetrahedra in another place, at most `way` away along each axis.
+/// Moves each tetrahedron to another place, at most `way` away along each axis.
 void displace(Points& points, Random& random, double way) {
   for (std::size_t first = 0; first < points.size(); first += 4) {
     const Vector3<double> displacement = random.vector(way);

@@ -9,7 +9,7 @@
 namespace nearmiss {
 namespace {
 
-/// Blocks of 10, 20 and 30 cases.
+/// A plan of three families, with blocks of 10, 20 and 30 cases.
 CampaignPlan plan_of(std::uint64_t cases) {
   CampaignPlan plan;
   plan.cases = cases;
@@ -20,7 +20,7 @@ CampaignPlan plan_of(std::uint64_t cases) {
   return plan;
 }
 
-/// The blocks of a plan's shard, in order, whole again after they were sliced.
+/// The blocks of a plan's shard, in order, each joined again from its slices.
 class Blocks {
  public:
   explicit Blocks(const CampaignPlan& plan, std::uint64_t done = 0) : cases_(plan, done) {
@@ -35,7 +35,7 @@ class Blocks {
   }
 
  private:
-  std::optional<CaseBlock> slice_;  // the first one of the next block
+  std::optional<CaseBlock> slice_;  // the first slice of the next block
   Pace pace_;
   CasesOfShard cases_;
 };
@@ -56,7 +56,7 @@ TEST(CaseOrder, HasRoundsThatDouble) {
 }
 
 TEST(CaseOrder, DividesAGivenNumberOfCasesIntoManyRounds) {
-  const CampaignPlan plan = plan_of(60 * 64 * 2);  // blocks twice as large in all rounds but one
+  const CampaignPlan plan = plan_of(60 * 64 * 2);  // blocks double after the first round
   Blocks cases(plan);
   std::uint64_t largest = 0;
   std::uint64_t blocks = 0;

@@ -30,7 +30,7 @@ bool meet(const CellBox& a, const CellBox& b) {
   return true;
 }
 
-/// Searches for each box among all, and compares with a search through the whole list.
+/// Searches the tree for the boxes that meet each of some boxes, and compares with a search through the list.
 void expect_finds_what_meets(const CellTree& tree, const std::vector<CellBox>& boxes) {
   std::size_t all = 0;
   for (std::size_t i = 0; i < boxes.size(); i += 1 + boxes.size() / 100)

@@ -1,4 +1,5 @@
-// Single queries on both sides of every border between classes, and the class of every family (fuzz/families/README.md).
+// Single queries on both sides of every border between classes, and the classes of every family's queries
+// (fuzz/families/README.md).
 #include "fuzz/families/classify.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,8 @@ TEST(Classify, SubnormalCoordinatesAmongOthersAreOrdinary) {
   EXPECT_TRUE(is_ordinary(query));
 }
 
-/// An edge of length 1 + 2^-60 above one that is 1e8 times as long, except for 2^-60 times a change. Neither length is a double.
+/// An edge of length 1 + 2^-60 above another edge, whose length is 1e8 times that, minus 2^-60 times
+/// `change`. Neither length is a double.
 Query long_edge(double change) {
   const double tiny = 0x1p-60;
   const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);
@@ -98,7 +100,7 @@ TEST(Classify, EdgesThatDifferByMoreThan1000AreDegenerate) {
 }
 
 TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
-  // F = z, A = 4 / 3, g² = 6 + z²
+  // For the vertex at height z: F = z, A = 4 / 3, g² = 6 + z² (fuzz/families/README.md).
   const double border = 0x1.b65a6f833cc0fp-19;
   EXPECT_TRUE(is_degenerate(falling_vertex(2, 2, border, 1)));
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, above(border), 1)));
@@ -106,7 +108,7 @@ TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, 1, above(border))));
 }
 
-/// An edge falls past a second one of another direction.
+/// An edge with this direction, which falls past an edge along x.
 Query falling_past(const Vector& direction) {
   const Vector a(0, 0, 0), b(1, 0, 0), c(0.25, 2, 1);
   const Vector d = c + direction, down(0, 0, -2);
@@ -208,7 +210,7 @@ TEST(Classify, WithASeparationEdgesComeNearestInGeneralPositionToo) {
 
 // --- all families ---------------------------------------------------------------------------------------
 
-/// The same primitives with other names for the vertices.
+/// The same primitives, with their vertices in another order.
 Query reordered(const Query& query, const std::array<int, 4>& order) {
   Query other = query;
   for (int i = 0; i < 4; ++i) {

@@ -1,4 +1,4 @@
-// Whatever a plug-in does to nearmiss, each query gets an answer or a fault, and nothing of the plug-in stays.
+// Whatever a plug-in does, each query gets an answer or a fault, and nothing of the plug-in remains.
 #include <gmock/gmock.h>
 
 #include <stdlib.h>
@@ -30,7 +30,7 @@ using testing::queries;
 
 struct Intrusion {
   std::string name;
-  Fault fault;  ///< at the query at which the plug-in intrudes; what is harmless is no fault
+  Fault fault;  ///< of the query at which the plug-in intrudes; none if the intrusion is harmless
 };
 
 void PrintTo(const Intrusion& each, std::ostream* out) { *out << each.name; }
@@ -65,7 +65,7 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
   EXPECT_EQ(copied.processes(), 0);
 }
 
-/// What nearmiss holds for its workers: open files, and mappings of the memory that it shares with them.
+/// How many open files, and mappings of memory shared with workers, nearmiss holds.
 std::array<std::size_t, 2> held() {
   std::array<std::size_t, 2> count{};
   for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator("/proc/self/fd")) ++count[0];
@@ -87,7 +87,7 @@ TEST(Isolation, LeavesNoFileAndNoMemory) {
   EXPECT_EQ(held(), before);
 }
 
-/// The signal mask of this process, and its reaction to the end of a child.
+/// For a scope, blocks all signals of this process and ignores the end of its children.
 class ForeignSignals {
  public:
   ForeignSignals() {
@@ -117,7 +117,7 @@ TEST(Isolation, DoesNotDependOnTheSignalsOfItsParent) {
   EXPECT_EQ(verdict.fault_code, SIGSEGV);
 }
 
-/// The environment names a file to which a plug-in leaves a mark.
+/// Names a file in the environment, in which a plug-in leaves a mark.
 class Marking : public testing::TemporaryFolder {
  protected:
   Marking() { setenv("NEARMISS_MARK", file("mark").c_str(), 1); }

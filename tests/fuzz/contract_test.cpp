@@ -1,4 +1,4 @@
-// What subjects are asked that have a contract.
+// Which queries a subject with a contract is asked.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -27,7 +27,7 @@ std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& as
 
 constexpr Contract apart{.apart_at_start = true};
 
-/// Hits, of which every third touches at t = 0.
+/// Collisions. In every third of them, the primitives touch at t = 0.
 Batch batch() {
   std::vector<Query> queries;
   for (int i = 0; i < 30; ++i) queries.push_back(falling_vertex(0.25, 0.25, i % 3, -1));
@@ -84,7 +84,7 @@ TEST(ContractedSubject, IsTheSubjectItselfIfThereIsNoContract) {
   EXPECT_EQ(subjects.front().get(), subject);
 }
 
-/// Both sides of the contract of a plug-in that rounds.
+/// A plug-in that rounds, as two subjects: for queries within its contract, and for those beyond it.
 Subjects sides_of_plugin() {
   return keep_contract(make_any_subject(testing::plugin("several") + ":narrow-apart"), true);
 }

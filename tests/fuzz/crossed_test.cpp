@@ -1,4 +1,5 @@
-// The crossed family: its factors are what they say, its contacts are exact, and all combinations occur.
+// The crossed family: queries have the properties that their factors name, contacts are exact, and all
+// combinations of factors occur.
 #include "fuzz/families/crossed.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +66,7 @@ TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
   });
 }
 
-/// How often F changes its sign between times hardly before 0 and hardly after 1.
+/// How often F changes its sign between a time just before 0 and a time just after 1.
 int sign_changes(const Query& query) {
   const auto at = [&](int vertex, double t) -> Vector3<double> {
     return query.start(vertex) + t * (query.end(vertex) - query.start(vertex));
@@ -83,7 +84,7 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // The number of roots at the contact, counted with multiplicity, and of simple roots in the step.
+  // The roots at the contact, counted with multiplicity, and the simple roots in the step.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

@@ -39,7 +39,7 @@ TEST(Defects, MultiplyEveryToleranceByTheSameFactors) {
   for (const NamedTolerance& tolerance : named_tolerances()) {
     for (const double factor : {0.5, 0.1, 0.01, 0.0})
       EXPECT_TRUE(names.contains(scaled_tolerance(tolerance.name, factor))) << tolerance.name << factor;
-    // A tolerance that accepts misses nothing when it is larger.
+    // If a test accepts what is within a tolerance, a larger tolerance causes no miss.
     for (const double factor : {10.0, 100.0})
       EXPECT_EQ(names.contains(scaled_tolerance(tolerance.name, factor)), !tolerance.accepts)
           << tolerance.name << factor;
@@ -77,8 +77,8 @@ TEST(Defects, PromiseWhatTheSoundSubjectPromises) {
   }
 }
 
-/// The number of queries of `uniform` and of `uniform` with separations on which a defect answers or times otherwise than the
-/// sound subject.
+/// The number of queries of `uniform`, with and without separations, for which a defect gives another answer
+/// or time than the sound subject.
 int differences(const std::string& defect, const std::string& sound) {
   const auto defective = try_make_defect(defect);
   const auto subject = make_subject(sound);

@@ -1,4 +1,4 @@
-// The time of the first contact or approach: what certified arithmetic knows about it, and comparisons with any time.
+// The time of the first contact or approach: its certified enclosure, and comparisons with other times.
 #include "oracle/earliest_time.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A plug-in that acts on the processes around it reaches none of them, with a PID namespace of its own and without.
+// A plug-in that acts on the processes around it reaches none of them, with or without its own PID namespace.
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ class Containment : public ::testing::TestWithParam<bool> {
   Containment() { setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1); }
 
   [[nodiscard]] static isolation::PluginLimits limits() { return {.own_namespace = GetParam()}; }
-  /// Whether a plug-in was refused what it tried.
+  /// Whether the system refused what a plug-in tried.
   [[nodiscard]] static bool refuses(const std::string& name) {
     const auto subject = make_isolated_plugin(plugin(name), limits());
     const Verdict verdict = answers_of(*subject, queries())[chosen];
@@ -111,7 +111,7 @@ TEST_P(Containment, EndsAllProcessesWhenThisProcessIsKilled) {
     EXPECT_GT(copied.processes(), 0);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // They notice it at once, but nobody waits for them. Processes that stay fail the test after a minute.
+    // The processes notice the kill at once, but nothing waits for them. The test fails after a minute.
     constexpr int tries = 6000;
     for (int i = 0; i < tries && copied.processes() > 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));

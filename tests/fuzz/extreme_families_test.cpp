@@ -42,7 +42,7 @@ TEST(Stiff, ThePrimitivesMoveAsFastAsTheParameterSays) {
       return lo <= speed && speed <= hi;
     };
   };
-  // In some queries the direction is short, and in others the shapes change.
+  // In the other queries, the direction of motion is short, or the shapes change.
   expect_more("stiff@8", 300, between(1e6, 1e10));
   expect_more("stiff@-8", 300, between(1e-10, 1e-6));
   expect_all("stiff@-8", between(0, 1e-6));

@@ -38,7 +38,7 @@ TEST_P(EveryFamily, IsAPureFunctionOfSeedAndIndex) {
   EXPECT_NE(make_query(GetParam(), 1, 1002), later);
 }
 
-/// The number of queries to look at: fewer of near-separation, which finds each pair's exact distance.
+/// The number of queries to check: fewer for near-separation, which computes each pair's exact distance.
 std::uint64_t count_of(const Family& family, std::uint64_t most) {
   const bool is_slow = family.has_separation && family.block_cases < 25;
   return is_slow ? std::min<std::uint64_t>(most, 200) : most;

@@ -1,4 +1,4 @@
-// Queries of a family.
+// The first queries of a family, and how many of them have a property.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,8 +30,8 @@ inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
   return name;
 }
 
-/// The number of queries among 0 .. 399 of a family, with seed 5, that have a property: `nearmiss family NAME
-/// --seed 5`.
+/// The number of the first 400 queries of a family, with seed 5, that have a property. `nearmiss family NAME
+/// --seed 5` prints these queries.
 template <class Property>
 int count_of_400(std::string_view name, const Property& has_property) {
   const Family family = find_family(name);
@@ -40,7 +40,7 @@ int count_of_400(std::string_view name, const Property& has_property) {
   return count;
 }
 
-/// Expects that more than `above` and less than `below` of 400 queries of a family have a property (count_of_400).
+/// Expects that more than `above` and less than `below` of 400 queries of a family have a property.
 template <class Property>
 void expect_count(std::string_view name, int above, int below, const Property& has_property) {
   const int count = count_of_400(name, has_property);
@@ -48,13 +48,13 @@ void expect_count(std::string_view name, int above, int below, const Property& h
   EXPECT_LT(count, below) << name;
 }
 
-/// Expects that more than `above` of 400 queries of a family have a property (count_of_400).
+/// Expects that more than `above` of 400 queries of a family have a property.
 template <class Property>
 void expect_more(std::string_view name, int above, const Property& has_property) {
   EXPECT_GT(count_of_400(name, has_property), above) << name;
 }
 
-/// Expects that 400 queries of a family have a property (count_of_400).
+/// Expects that 400 queries of a family have a property.
 template <class Property>
 void expect_all(std::string_view name, const Property& has_property) {
   EXPECT_EQ(count_of_400(name, has_property), 400) << name;
@@ -98,7 +98,7 @@ inline double shortest_edge(const Query& query, int time) {
   return shortest;
 }
 
-/// The primitives at rest in their positions at a time, which are exact for t = 0 and t = 1, and rounded otherwise.
+/// The primitives at rest, in their positions at a time. Positions are rounded except at t = 0 and t = 1.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {
     const double place = (1 - time) * query.x[i] + time * query.x[12 + i];
@@ -107,7 +107,7 @@ inline Query at_rest(Query query, double time) {
   return query;
 }
 
-/// The same motion backwards.
+/// The query with its motion reversed.
 inline Query reversed(Query query) {
   std::rotate(query.x.begin(), query.x.begin() + 12, query.x.end());
   return query;

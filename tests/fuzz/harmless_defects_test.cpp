@@ -1,4 +1,5 @@
-// Defects of tolerances that no hunt can find, since the constraints of ccd/wang/bounds/constraints.hpp hold in spite of them.
+// Defects of tolerances that no hunt can find, because the constraints of ccd/wang/bounds/constraints.hpp
+// hold in spite of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Tolerances<double> changed(const NamedTolerance& tolerance, double factor) {
   return tol;
 }
 
-/// The same code with another pair of D² and δ, since VV uses only their sum: the least δ.
+/// Moves to D² as much of δ as the constraints allow. No answer changes: VV uses only their sum.
 Tolerances<double> with_least_delta(Tolerances<double> tol) {
   const double least = full_errors(eps, tol.S, tol.rho).delta;
   tol.D2 += tol.delta - least;
@@ -29,8 +30,9 @@ Tolerances<double> with_least_delta(Tolerances<double> tol) {
 }
 
 /// Whether the tolerances miss nothing, by the constraints with two refinements:
-/// - The collisions that VE must report are those within s/√8 of an edge, for any s <= S. At such a time t_E, F_0ij with S is
-///   at most (s - S) ‖e‖∞, and ‖e‖∞ >= λ/√3 unless the edge is short. So F_0ij is at most `path` from t_E to the candidate.
+/// - The collisions that VE must report are those within s/√8 of an edge, for any s <= S. At such a time t_E,
+///   F_0ij with S is at most (s - S) ‖e‖∞, and ‖e‖∞ >= λ/√3 unless the edge is short. So F_0ij is at most
+///   `path` from t_E to the candidate.
 /// - On this path, `path` takes the place of ψ in the distance from the edge.
 bool misses_nothing(const Tolerances<double>& given, double s) {
   const Tolerances<double> tol = with_least_delta(given);
@@ -56,7 +58,7 @@ bool misses_nothing(const Tolerances<double>& given, double s) {
   return true;
 }
 
-/// Whether the tolerances report nothing beyond the bound of the sound subject.
+/// Whether, with these tolerances, every reported pair is within the bound of the sound subject.
 bool stays_within_the_bound(const Tolerances<double>& tol) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
   const auto sound = paper_tolerances(1.0);
@@ -69,8 +71,8 @@ bool stays_within_the_bound(const Tolerances<double>& tol) {
   return true;
 }
 
-/// Whether a smaller tolerance only makes tests accept more. Nothing else depends on it: culling in vertex-edge is sound
-/// whatever the other tolerances are.
+/// Whether the only effect of a smaller tolerance is that tests accept more pairs. Nothing else depends on
+/// it: culling in vertex-edge is sound for any values of the other tolerances.
 bool accepts_more(const NamedTolerance& tolerance, double factor) {
   const std::set<std::string_view> excluding{"lambda2", "tau", "eta"};
   return factor < 1 && excluding.contains(tolerance.name);

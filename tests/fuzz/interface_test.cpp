@@ -1,4 +1,4 @@
-// What the plug-in interface can say (ccd/nearmiss_subject.h), in a process of its own and in this one.
+// What a plug-in can state through ccd/nearmiss_subject.h, in its own process and in this one.
 #include <gmock/gmock.h>
 
 #include <string>

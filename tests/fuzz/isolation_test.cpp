@@ -43,14 +43,14 @@ bool is_chosen(const Query& query) {
   return hash % 100 == 0;
 }
 
-/// Limits with little memory. The time limit is short only for plug-ins that exceed it, because a busy
-/// machine may exceed it too.
+/// Limits with little memory. The time limit is short only for plug-ins that are meant to exceed it, because
+/// others might exceed it on a busy machine.
 isolation::PluginLimits limits_for(Fault fault) {
   const auto time = fault == Fault::time ? std::chrono::milliseconds(100) : std::chrono::seconds(60);
   return {.time = time, .bytes = std::uint64_t{64} << 20};
 }
 
-/// Queries of one kind, which a worker gets at once.
+/// Queries of one kind, which a worker receives in one batch.
 std::vector<Query> one_batch(std::uint64_t count) {
   std::vector<Query> queries;
   for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family("uniform"), 1, 2 * i));
@@ -109,7 +109,7 @@ void use_one_processor() {
   sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
-/// Uses the processor for some milliseconds, so that other processes come first afterwards.
+/// Uses the processor for some milliseconds, so that the system prefers other processes afterwards.
 void compute_for_some_time() {
   const auto start = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(5)) {
@@ -192,7 +192,7 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
 }
 
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {
-  // Each of 12 queries takes an eighth of a second, together more than the limit.
+  // Each of 12 queries takes an eighth of a second. Together they take longer than the limit.
   const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::seconds(1)});
   for (const Verdict& verdict : answers_of(*subject, one_batch(12))) EXPECT_EQ(verdict.fault, Fault::none);
 }

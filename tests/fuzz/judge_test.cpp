@@ -52,7 +52,7 @@ TEST(Judge, AReportBeyondTheClaimedBoundFailsAndNoOther) {
   EXPECT_EQ(failure_with_bound(0, hit), std::nullopt);
 }
 
-// The subject claims the bound 0 nevertheless.
+// The subject claims a bound of 0, but its answer is "cannot tell".
 TEST(Judge, ASubjectThatCannotTellClaimsNoBound) {
   const MadeUpSubject subject("undecided", [](const Query&) { return Verdict{true, Stage::unknown, 0}; });
   EXPECT_EQ(Judge(subject).failure(stops_above), std::nullopt);
@@ -142,12 +142,11 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
       Finding::What::refuted_bound, "alarmist", "", stops_above, "", 0, "vt vv", stops_above};
   const Query shrunk = shrunk_query(finding, &subject);
   EXPECT_TRUE(distance_exceeds(shrunk, 0.125));
-  EXPECT_NE(shrunk.x[2], 0);  // a query that is refused does not fail
+  EXPECT_NE(shrunk.x[2], 0);  // a query that the subject refuses does not fail
   EXPECT_LE(complexity(shrunk).numbers, 2);
 }
 
-/// Expects that a failure in a trial is a failure when it is judged again, so that it can be shrunk and fails
-/// in the same way.
+/// A query that fails in a trial fails in the same way when it is judged again, so it can be shrunk.
 class BadBound : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {
@@ -178,7 +177,7 @@ TEST(Judge, ABoundThatTakesTooLongIsLate) {
   const auto subject = make_isolated_plugin(plugin("bound_hang"), {.time = std::chrono::milliseconds(20)});
   const Failure late{Finding::What::fault, "vt time"};
   EXPECT_EQ(Judge(*subject).failure(stops_above), late);
-  // Shrinking gives up after a few such queries.
+  // Shrinking gives up after a few queries that exceed the time limit.
   const Finding finding{late.what, "always", "f", stops_above, "f:1:0", 0, late.signature, stops_above};
   EXPECT_EQ(Judge(*subject).failure(shrunk_query(finding, subject.get())), late);
 }

@@ -15,8 +15,8 @@ namespace {
 
 using testing::falling_vertex;
 
-/// F is a multiple of width(t) height(t): the triangle (0 0 0), (width 0 0), (0 1 0), and a vertex at this height. Both
-/// change linearly.
+/// A vertex at a height above the triangle (0 0 0), (width 0 0), (0 1 0). Width and height change linearly,
+/// and F is a multiple of their product.
 Query two_factors(double width_start, double width_end, double height_start, double height_end) {
   Query query = falling_vertex(0.25, 0.25, height_start, height_end);
   query.set_start(2, {width_start, 0, 0});
@@ -56,6 +56,7 @@ TEST(Contract, OneRoot) {
   const auto keeps = [&](const Query& query) { return keeps_contract(query, contract); };
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 1, -1)));
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 2, 1)));
+  // The roots of F in each query:
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 1, 0)));      // at the end
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 0, 1)));      // at the start
   EXPECT_FALSE(keeps(falling_vertex(0.25, 0.25, 0, 0)));     // always

@@ -28,7 +28,7 @@ using Rational = mp::mpq_rational;
 
 Rational exactly(const DoubleDouble& a) { return Rational(a.value().x[0]) + Rational(a.value().x[1]); }
 
-/// |computed - exact| / |exact|, in ε.
+/// The relative error of a result, in units of ε.
 double error(const DoubleDouble& computed, const Rational& exact) {
   if (exact == 0) return exactly(computed) == 0 ? 0 : std::numeric_limits<double>::infinity();
   const Rational relative = abs((exactly(computed) - exact) / exact);
@@ -98,8 +98,7 @@ Rational exactly(const MpfrFloat& a) {
   return value;
 }
 
-// The paper's model: every result is the exact one times 1 + d, |d| <= u. The result has no more digits than
-// were set.
+// The paper's model: a result is the exact one times 1 + d, |d| <= u. It has no more digits than were set.
 TEST(MpfrFloat, EveryOperationIsWithinHalfItsEpsilon) {
   Random random(2, 0, 0);
   for (int i = 0; i < 20000; ++i) {

@@ -9,14 +9,14 @@
 
 namespace nearmiss::testing {
 
-/// What a subject says about itself.
+/// The properties that a subject states.
 struct Claims {
   double bound = 0;
   bool claims_bound = true;
   TimeSort time_sort = TimeSort::none;
   bool takes_separation = false;
   Contract contract = {};
-  bool rounds = false;  ///< coordinates to float
+  bool rounds = false;  ///< whether it rounds coordinates to float
 };
 
 class MadeUpSubject final : public Subject {
@@ -48,8 +48,8 @@ class MadeUpSubject final : public Subject {
   Claims claims_;
 };
 
-/// Answers as another subject, and then shows each batch with its answers, which may be changed. The other subject must
-/// outlive it.
+/// Passes queries on to another subject, and then calls `watch` with each batch and its answers, which it may
+/// change. The other subject must outlive this one.
 class WatchedSubject final : public ForwardingSubject {
  public:
   using Watch = std::function<void(std::span<const Query>, std::span<Verdict>)>;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most = 8000;
 
-/// A mesh of points alone, in a row.
+/// A mesh that consists of points in a row.
 MovingMesh row_of_points(int count) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) mesh.points.emplace_back(i, 0, 0);
@@ -20,7 +20,7 @@ MovingMesh row_of_points(int count) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// The marks of the dots in a picture, which has two numbers for each dot: the index of its point, and its
+/// The marks of the dots in a picture. Its JSON has two numbers for each dot: the index of a point, and a
 /// mark.
 std::vector<int> marks_of_dots(const ScenePicture& picture) {
   const auto json = nlohmann::json::parse(picture.json);

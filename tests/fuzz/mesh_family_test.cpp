@@ -58,7 +58,7 @@ TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {
 }
 
 TEST(MeshFamily, MovesPairsIntoContact) {
-  // Where rounding moves them apart again, they stay within a few of its errors.
+  // If rounding moves the primitives apart again, their distance is only a few rounding errors.
   const MovingMesh mesh = grids(4);
   const auto pairs = pairs_of(mesh);
   const Family family = mesh_family(mesh);

@@ -84,7 +84,7 @@ class MeshFilesTest : public testing::TemporaryFolder {
     EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
   }
 
-  /// Expects that a file is refused with this message after its name.
+  /// Expects that a file is refused with its name and this message.
   void expect_refused(const std::string& ending, const std::string& text, const std::string& message) const {
     using ::testing::HasSubstr;
     const auto path = write("mesh" + ending, text);
@@ -96,7 +96,7 @@ class MeshFilesTest : public testing::TemporaryFolder {
     std::string old, by, message;
   };
 
-  /// Expects that each change of a good file by itself causes its message.
+  /// Expects that each change of a good file, made by itself, is refused with its message.
   void expect_refused_with(const std::string& ending, const std::string& good,
                            std::initializer_list<Change> changes) const {
     for (const auto& [old, by, message] : changes) expect_refused(ending, replaced(good, old, by), message);

@@ -1,4 +1,4 @@
-// Meshes at rest and moving.
+// Meshes at rest and in motion.
 #include "fuzz/meshes/mesh.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Moving meshes for tests of plans and trials, and what becomes of their pairs.
+// Moving meshes for tests of plans and trials, and the results of plans.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// Small tetrahedra with integer coordinates. In turn they rest, move as a whole, or change shape.
+/// Small tetrahedra with integer coordinates. In turn, they rest, move as a whole, and change shape.
 inline MovingMesh tetrahedra(std::uint64_t seed, int count = 30) {
   Random random(seed, 0, 0);
   Mesh mesh;
@@ -56,14 +56,14 @@ inline MovingMesh grids(int n) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// The scene "grids" of one step, which is that of the mesh. The mesh must outlive it.
+/// A scene of one step, which is the mesh's own. The mesh must outlive the scene.
 inline Scene scene_of(const MovingMesh& mesh) {
   return {.name = "grids",
           .mesh = {mesh.start, mesh.triangles, mesh.edges},
           .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
 }
 
-/// The outcome of a plan. The oracle decides the asked pairs.
+/// What becomes of a plan's pairs, and which collide. The oracle decides those that the plan asks about.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

@@ -1,5 +1,5 @@
-// Chains of mutations, and crossings, are pure functions, make finite numbers, and keep collisions; what becomes of a query's
-// separation, and queries with one as inputs of libFuzzer.
+// Chains of mutations, and crossings, are pure functions, make finite numbers, and keep collisions. Also
+// tests what they do to a query's separation, and libFuzzer's inputs with a separation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ TEST(Mutated, IsAPureFunctionOfTheStreamAndTheQuery) {
   EXPECT_NE(mutated(other, query), result);
 }
 
-/// The queries to start from: of all families, and with extreme coordinates.
+/// Queries to start from: some of each family, and some with extreme coordinates.
 std::vector<Query> seeds() {
   std::vector<Query> queries;
   for (const Family& family : families())
@@ -93,7 +93,7 @@ TEST(Mutated, KeepsToCollisions) {
   EXPECT_GE(collisions, chains * steps / 2);
 }
 
-/// Whether the parent of each coordinate depends only on the coordinate's part.
+/// Whether all coordinates of each part come from the same parent.
 bool is_by(const std::array<bool, 24>& choice, const std::function<std::size_t(std::size_t)>& part) {
   std::array<std::set<bool>, 24> seen;
   for (std::size_t i = 0; i < 24; ++i) seen[part(i)].insert(choice[i]);
@@ -131,7 +131,7 @@ TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
   EXPECT_EQ(seen_kinds.size(), 2);
 }
 
-/// A hash of what a kind of mutation makes of some queries.
+/// A hash of the queries that a mutation makes from some others.
 std::uint64_t fingerprint(const Mutation& kind) {
   testing::BitHash hash;
   for (const char* family : {"uniform", "small-integer", "planted"}) {
@@ -143,7 +143,7 @@ std::uint64_t fingerprint(const Mutation& kind) {
   return hash.value();
 }
 
-// The provenance of a query that a search or libFuzzer found names a seed, which must keep its meaning.
+// A provenance of a search or of libFuzzer names a seed, which must always give the same query.
 TEST(Mutation, MakesOfAQueryWhatItAlwaysMade) {
   const std::map<std::string_view, std::uint64_t> recorded{
       {"ulps", 0x62b41b423da15fc0},      {"fraction", 0xa730dd97297b2184},

@@ -33,7 +33,7 @@ const Mutation& mutation(std::string_view name) {
 
 using BeforeAndAfter = std::function<bool(const Query& before, const Query& after)>;
 
-/// The number of queries, of 1000 of a family, for which something holds before and after a sort of mutation.
+/// For how many of 1000 queries of a family something holds between the query and its mutation.
 int count_of_1000(std::string_view name, std::string_view family, const BeforeAndAfter& holds) {
   int count = 0;
   std::uint64_t number = 0;
@@ -132,7 +132,7 @@ TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
   });
 }
 
-// Contact is also planted next to borders and ends. There rounding removes it half of the time.
+// Contact is also planted next to borders and to ends of the step, where rounding removes half of it.
 TEST(Mutation, PlantAndRestoreMakeCollisionsByMovingOnePosition) {
   for (const char* name : {"plant", "restore"})
     for (const char* family : {"uniform", "uniform-slow", "sliver"}) {
@@ -175,11 +175,11 @@ TEST(Mutation, CoplanarMakesARootOfFByMovingOnePosition) {
     return has_root(after);
   });
   EXPECT_GE(without, 500);
-  EXPECT_GE(made, without * 3 / 4);  // at an end rounding may take it away
+  EXPECT_GE(made, without * 3 / 4);  // rounding may remove a root at an end of the step
 }
 
 TEST(Mutation, PlanarMakesFZeroIdentically) {
-  // Rounding leaves only those that keep to an axis' plane.
+  // After rounding, F is zero only where all vertices are in a plane perpendicular to an axis.
   const auto planar = [](const Query&, const Query& after) { return count_roots(after).planar; };
   for (const char* family : {"uniform", "small-integer"})
     EXPECT_GE(count_of_1000("planar", family, planar), 350) << family;

@@ -21,7 +21,7 @@ namespace {
 
 using testing::one;
 
-/// Exceeds its time limit at the queries that are chosen.
+/// A subject that exceeds its time limit at the chosen queries.
 std::unique_ptr<Subject> late(const std::function<bool(const Query&)>& is_chosen) {
   return std::make_unique<testing::MadeUpSubject>(
       "late",
@@ -42,8 +42,8 @@ CampaignPlan plan_of(int jobs) {
   return plan;
 }
 
-/// The statistics of a campaign of wang and of a subject that is late; without times. A stop is requested when
-/// that subject has been asked `stop_after` queries.
+/// The statistics, without times, of a campaign of wang and of the subject `late`. A stop is requested when
+/// `late` has been asked `stop_after` queries.
 Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
   std::atomic<bool> requested{false};
   std::atomic<std::uint64_t> asked{0};
@@ -78,7 +78,7 @@ TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(run(plan_of(4)), one);
 }
 
-/// The results of trials of a subject that is late; without times.
+/// The results, without times, of trials of the subject `late`.
 TrialResult results_of(int jobs, const std::function<void(Trials&)>& hold) {
   const Subjects subjects = one(late(is_late));
   TrialResult sum;
@@ -165,7 +165,7 @@ TEST(Patience, OfASearchEndsToo) {
   for (const Family& family : searches(*always_late)) {
     asked = 0;
     for (std::uint64_t i = 0; i < 10; ++i) make_query(family, 1, i);
-    // A search for times passes over 20 queries before it ends.
+    // A search for times goes on until 20 queries have exceeded the time limit.
     EXPECT_EQ(asked,
               family.name.starts_with("search-late") || family.name.starts_with("search-early") ? 60 : 3);
   }

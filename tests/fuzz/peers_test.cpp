@@ -1,4 +1,4 @@
-// Published CCDs as subjects, by name: those that are built with the product. (tests/tools/peers_test.sh has the others.)
+// The published CCDs that are built with the product, by name. (peers_test.sh has the others.)
 #include "fuzz/subjects/peers.hpp"
 
 #include <gmock/gmock.h>
@@ -55,8 +55,9 @@ TEST(Peers, BulletDecidesVertexTriangleOnlyAndInFloatWhereItIsBuiltSo) {
   }
 }
 
-// Bullet looks for an axis along which the triangle is on one side of the vertex. For an axis perpendicular to the vertex's path
-// it takes the triangle for separated if no corner has the vertex's coordinate, whichever side the corners are on.
+// Bullet looks for an axis along which the triangle is on one side of the vertex. For an axis perpendicular
+// to the vertex's path, it takes the triangle for separated if no corner has the vertex's coordinate,
+// whichever side the corners are on.
 TEST(Peers, BulletMissesAVertexThatFallsStraightDown) {
   const Query falls = testing::falling_vertex(0.25, 0.25, 1, -1);
   ASSERT_TRUE(collides(falls));

@@ -1,4 +1,4 @@
-// The plane tests of the judge and of the accused, which were written independently, agree on every family.
+// The plane tests of the oracle and of the subjects, which were written independently, agree on every family.
 #include <gtest/gtest.h>
 
 #include "ccd/wang/plane_culling.hpp"

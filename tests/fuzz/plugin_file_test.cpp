@@ -1,4 +1,4 @@
-// Which code a plug-in is, and that it stays the same while it is on trial.
+// The identity of a plug-in's code, which must stay the same during a trial.
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ class PluginFileTest : public testing::TemporaryFolder {
 
   [[nodiscard]] std::unique_ptr<Subject> make() const { return make_isolated_plugin(file("p.so").string()); }
 
-  /// Expects that an answer is refused with these words, because the plug-in changed.
+  /// Expects that asking the plug-in fails with these words, because its file changed.
   template <class Ask>
   static void expect_changed(const Ask& ask, const std::string& words) {
     EXPECT_THAT(ask, ::testing::ThrowsMessage<isolation::PluginChanged>(::testing::HasSubstr(words)));

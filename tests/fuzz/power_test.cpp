@@ -25,7 +25,7 @@ TEST(FirstFailure, IsAMissARefutedBoundOrALateTime) {
   ASSERT_TRUE(miss);
   EXPECT_EQ(miss->finding.what, Finding::What::false_negative);
   EXPECT_TRUE(collides(miss->finding.query));
-  EXPECT_LT(miss->cases, 20000U);  // it stopped there
+  EXPECT_LT(miss->cases, 20000U);  // the hunt ended at the miss
   EXPECT_GT(miss->cases, 0U);
 
   const auto refuted = first_failure("defect:lambda2*0", "degenerate");
@@ -38,7 +38,7 @@ TEST(FirstFailure, IsAMissARefutedBoundOrALateTime) {
   EXPECT_GT(late->finding.ratio, 0);
 }
 
-/// The number of cases of a family, one after the other, until a subject misses a collision.
+/// The number of cases of a family that are asked, one after the other, until a subject misses a collision.
 std::uint64_t cases_one_by_one(const Subject& subject, const Family& family) {
   for (std::uint64_t index = 0;; ++index) {
     const Query query = make_query(family, 1, index);

@@ -16,7 +16,8 @@ using testing::answers_of;
 
 class ProgramTest : public testing::TemporaryFolder {
  protected:
-  /// A program that describes itself, and does `then` with the `rows` of each request before it reports all its queries.
+  /// A program that runs the code `then` for each request, whose queries are `rows`, and reports all of them
+  /// at t = 0.5. `lines` are added to its description.
   [[nodiscard]] std::string program(const std::string& then, const std::string& lines = "") const {
     return command("say('nearmiss 2\\nname p\\nkinds vt ee\\nbatch 64\\n" + lines + R"(\n')
 while header := sys.stdin.buffer.read(24):
@@ -45,7 +46,7 @@ while header := sys.stdin.buffer.read(24):
     return plugin_identity(*make_any_subject("pipe:" NEARMISS_PYTHON " '" + file + " p.py'"))->sha256;
   }
 
-  /// Expects a fault with a code and a text about the last of three queries, at which the program does something.
+  /// Asks three queries, and expects this fault, code and text for the last, at which `then` acts.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto subject =
         make_any_subject(program(then), std::nullopt, {.time = std::chrono::milliseconds(200)});
@@ -99,7 +100,7 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
 TEST_F(ProgramTest, ThatEndsIsACrashOfTheQuery) {
   expect_fault("if rows[-1][0] == 1: sys.exit(3)", Fault::crash, -3);
   expect_fault("if rows[-1][0] == 1: os.kill(os.getpid(), signal.SIGSEGV)", Fault::crash, SIGSEGV);
-  // A child that it leaves behind changes nothing.
+  // A child that the program leaves behind changes nothing.
   expect_fault("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)", Fault::crash, -5);
 }
 
@@ -118,7 +119,7 @@ TEST_F(ProgramTest, AnAnswerThatIsNoneIsInvalid) {
     expect_fault("if rows[-1][0] == 1: answers[-2] = " + answer, Fault::invalid);
 }
 
-// Otherwise the answers to later questions would be those to earlier ones.
+// Otherwise, later questions would get the answers to earlier ones.
 TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
   const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";
   for (const std::string& name :

@@ -1,4 +1,4 @@
-// The families of random, planted and degenerate queries, and of coordinates as files have them, keep their promises.
+// Families of random, planted and degenerate queries, and of coordinates as in files, keep their promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>

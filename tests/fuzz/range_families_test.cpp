@@ -18,8 +18,8 @@ using testing::count_of_400;
 using ::testing::HasSubstr;
 using testing::largest_coordinate;
 
-/// The sum of the magnitudes of F's products of three differences from x0, or of products of two in the
-/// component of the weights that leaves out an axis. It does not overflow an x87 long double.
+/// The sum of the magnitudes of F's products of three differences from x0. If an axis is left out: of the
+/// products of two in the weights' component for that axis. It does not overflow an x87 long double.
 long double sum_of_products(const Query& query, std::size_t left_out) {
   const auto difference = [&](std::size_t vertex, std::size_t k) -> long double {
     const auto v = static_cast<int>(vertex);
@@ -37,7 +37,7 @@ long double sum_of_products(const Query& query, std::size_t left_out) {
   return sum;
 }
 
-/// Whether a sum of products of two or three, or its square, has the magnitude that the parameter gives.
+/// Whether one of these sums of products, or its square, has the magnitude that the parameter gives.
 bool products_are_about(const Query& query, int x) {
   const auto is_about = [](long double sum, int exponent) {
     const long double size = std::ldexp(sum, -exponent);
@@ -79,7 +79,8 @@ TEST(Range, SomeOfTheSumsOverflowAndOthersDoNot) {
       return sum_of_products(query, 3) > std::numeric_limits<double>::max();
     });
   };
-  EXPECT_LT(overflowing(1023), 100);  // products of two, where those of three are far larger
+  // Products of three overflow only in queries whose products of two are near 2^1023.
+  EXPECT_LT(overflowing(1023), 100);
   EXPECT_GT(overflowing(1024), 200);
 }
 

@@ -135,7 +135,7 @@ TEST_F(ReadersTest, PointsNeedNoPrimitive) {
 }
 
 TEST_F(ReadersTest, EqualPointsOfStlAreOne) {
-  const Mesh mesh = read_text(".stl", stl);  // six corners, one of them -0
+  const Mesh mesh = read_text(".stl", stl);  // six corners, one of them at -0
   EXPECT_FALSE(std::signbit(mesh.points[0][0]));
   EXPECT_EQ(mesh.points.size(), 4);
 }

@@ -80,7 +80,7 @@ TEST(EvenRoots, TheTimeBetweenTheContactsIsTheParameter) {
       return 0.005 < last - first && last - first < 0.02;
     });
     std::cout << short_name(kind) << ": " << as_far << " of " << twice << "\n";
-    EXPECT_GT(4 * as_far, 3 * twice) << short_name(kind);  // F has a third root
+    EXPECT_GT(4 * as_far, 3 * twice) << short_name(kind);  // in the others, F has a third root
   }
 }
 

@@ -53,7 +53,7 @@ TEST_P(LargeSeparations, AreThoseOfFiniteQueries) {
 }
 INSTANTIATE_TEST_SUITE_P(Searches, LargeSeparations, ::testing::Values("1e308", "1.7976931348623157e308"));
 
-/// Each search goes on from what it found, so one bit of difference becomes another query.
+/// A search continues from what it has found, so a difference of one bit leads to other queries.
 TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
   testing::BitHash hash;
   for (const char* name : {"wang", "basic", "wang-tight:p24", "defect:vv"}) {

@@ -39,7 +39,7 @@ Query shrunk_while(const Query& query, const std::function<bool(const Query&)>& 
   });
 }
 
-/// The first query of every family and kind that basic misses.
+/// For every family and kind, the first query that basic misses.
 std::vector<Finding> missed_by_basic() {
   const auto basic = make_subject("basic");
   const Judge judge(*basic);
@@ -81,12 +81,12 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     EXPECT_EQ(shrunk_query(finding, basic.get()), shrunk) << finding.provenance;  // deterministic
     Finding again = finding;
     again.query = shrunk;
-    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // nothing is left to do
+    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // already the simplest
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
   EXPECT_EQ(hash.value(), 0x42897e50a3c443da)
-      << std::hex << hash.value();  // each step does what it always did
+      << std::hex << hash.value();  // shrinking gives what it always gave
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
             4);  // most have few distinct numbers; all except the coplanar queries had about 20
@@ -194,7 +194,7 @@ TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   finding.signature = "vt";
   asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               {.time = 12 * takes});  // small queries in batches of 1, 2 and 4, and its own
+               {.time = 12 * takes});  // three batches of small queries (1, 2 and 4), and the finding's own
   EXPECT_GE(asked, 1);
   EXPECT_LE(asked, 1 + 2 + 4 + 1);
 }
@@ -241,7 +241,7 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   for (Finding finding : missed_by_basic()) {
     shrinker.shrink(finding);
     EXPECT_TRUE(finding.is_shrunk);
-    searches += 2 + kinds.size();  // of any class, of its own, and once for each kind among small queries
+    searches += 2 + kinds.size();  // for any class, for its own, and for each kind in the list
   }
   const auto is_slow = [](const auto& call) { return call.second; };
   const auto first = std::find_if(calls.begin(), calls.end(), is_slow);

@@ -1,4 +1,4 @@
-// Findings are shrunk beside a campaign, the most telling ones first, and no query waits for it.
+// A campaign's findings are shrunk while it runs, the most telling ones first, and no query waits for this.
 #include "fuzz/trial/shrinking.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::vector<Finding> missed(const Subjects& subjects) {
   return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
-/// The findings after shrinking, with `of_each` of each signature and class.
+/// The findings after up to `of_each` of each signature and class have been shrunk.
 std::vector<Finding> after_shrinking(const Subjects& subjects, std::vector<Finding> findings,
                                      const Stop& stop = Stop::never(), std::size_t of_each = findings_kept) {
   Shrinking shrinking(subjects, 2, stop, of_each);
@@ -91,7 +91,8 @@ TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
   EXPECT_EQ(shrunk.time, 0.5);
 }
 
-/// Answers queries that are timed, as those of a campaign are, at once, and others only after so many that were timed.
+/// Answers timed queries, such as those of a campaign, at once. Answers other queries only when `timed`
+/// queries have been timed.
 class Patient final : public ForwardingSubject {
  public:
   Patient(const Subject& to, std::size_t timed) : ForwardingSubject("basic", to), left_(timed) {}
@@ -118,7 +119,7 @@ class Patient final : public ForwardingSubject {
   mutable std::size_t left_;
 };
 
-/// If a query waited for the shrinker, which waits for all queries here, this test would not end.
+/// The shrinker waits for all queries here. If one waited for the shrinker too, this test would not end.
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};

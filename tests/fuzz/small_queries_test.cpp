@@ -1,4 +1,4 @@
-// Small queries: the list, and the search in it.
+// The list of small queries, and the search for a failure in it.
 #include "fuzz/trial/small_queries.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ namespace {
 
 using Coordinates = std::array<double, 24>;
 
-/// A copy with other vertices (v), axes (k) and signs (a bit for each axis), which may go back in time.
+/// A copy of a query with its vertices (v) and axes (k) permuted, the signs of some axes changed (a bit for
+/// each axis), and perhaps with time reversed.
 Coordinates copied(const Query& query, const std::array<std::size_t, 4>& v,
                    const std::array<std::size_t, 3>& k, std::size_t signs, bool back) {
   Coordinates x;
@@ -122,7 +123,7 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
     for (const SmallQuery& each : list) ++seen[each.query.separation];
     ASSERT_EQ(seen.size(), 4);
     for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
-    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // without those with two right answers
+    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // queries with two right answers are left out
   }
 }
 

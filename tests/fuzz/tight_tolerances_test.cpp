@@ -1,4 +1,4 @@
-// The tolerances that solve the paper's constraints.
+// The smallest tolerances that satisfy the paper's constraints.
 #include "ccd/wang/bounds/tight_tolerances.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -26,7 +26,7 @@ CgalInterval enclosure(const T& x) {
   return {std::nextafter(near, -1e300), std::nextafter(near, 1e300)};
 }
 
-/// The computed values, divided by the powers of B.
+/// Enclosures of the tolerances as computed, each divided by its power of B.
 template <class T>
 Tolerances<CgalInterval> enclosed(const T& B) {
   const Tolerances<T> tol = tight_tolerances(B);
@@ -89,7 +89,7 @@ TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
   }
 }
 
-/// The constraints as functions of the logarithms of τ, η, R, λ², D², both E, ψ and μ, in units of powers of
+/// The constraints as functions of the logarithms of τ, η, S, λ², D², both E, ψ and μ, in units of powers of
 /// e; ρ is given.
 struct ToleranceProblem {
   double eps;
@@ -116,7 +116,7 @@ struct ToleranceProblem {
   }
 };
 
-/// The smallest D² that NLopt finds from a point that satisfies the constraints, but is far from ours.
+/// The smallest D² that NLopt finds from a point that satisfies the constraints, far from our solution.
 double lowest_D2(int exponent) {
   const ToleranceConstants c = solve_tight(exponent);
   ToleranceProblem problem{std::ldexp(1.0, exponent), c.rho};

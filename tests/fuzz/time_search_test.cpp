@@ -16,7 +16,7 @@ namespace {
 
 using testing::MadeUpSubject;
 
-/// The oracle with another answer, which altered(query, verdict) makes of its own.
+/// The oracle as a subject, whose verdict on a query is replaced by alter(query, verdict).
 template <class Answer>
 MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
   const std::shared_ptr<Subject> exact = make_any_subject("exact");
@@ -28,14 +28,14 @@ MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
            .takes_separation = true}};
 }
 
-/// How far a collision is from a small region: that of times next to 0.4 and last edges as long as 0.77 at t = 0.
+/// How far a collision is from one with the time 0.4 whose last edge has the length 0.77 at t = 0.
 double off(const Query& query, double time) {
   return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
 }
 
 constexpr double region = 0x1p-10;
 
-/// Its times are late in the region alone, by at most 0.1 * region.
+/// A subject whose times are late only in the region off < region, by at most 0.1 * region.
 MadeUpSubject late_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     if (verdict.hit) verdict.time += 0.1 * (region - off(query, verdict.time)) * std::min(verdict.time, 1.0);
@@ -44,7 +44,7 @@ MadeUpSubject late_in_a_region() {
   });
 }
 
-/// Its times are 1e-3 early, and earlier in the region.
+/// A subject whose times are up to 1e-3 early, and in the region up to 0.2 earlier.
 MadeUpSubject early_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     const double inside = std::max(0.0, 1 - off(query, verdict.time) / region);
@@ -53,7 +53,7 @@ MadeUpSubject early_in_a_region() {
   });
 }
 
-/// time - t*, and whether the time is late; nothing if the subject does not report the query or it is no collision.
+/// time - t*, and whether the time is late. Nothing if the query is no reported collision.
 struct Error {
   double after;
   bool is_late;
@@ -66,7 +66,7 @@ std::optional<Error> error_of(const Subject& subject, const Query& query) {
   return Error{verdict.time - earliest->enclosure().lo, earliest->makes_late(verdict.time)};
 }
 
-/// The largest error among the first queries of a family, times `sign`.
+/// The largest value of `sign` times the error, among the first queries of a family.
 double largest(const Subject& subject, const Family& family, std::uint64_t queries, int sign) {
   double found = -1;
   for (std::uint64_t i = 0; i < queries; ++i)
@@ -166,7 +166,7 @@ TEST(TimeSearches, ArePureFunctions) {
       EXPECT_EQ(make_query(family, 1, 1), make_query(family, 1, 1)) << family.name;
 }
 
-/// Misses collisions that do not come nearer than 0.999 h.
+/// The subject misses collisions that do not come nearer than 0.999 h.
 TEST(MissSearch, FindsMissesNextToTheSeparation) {
   const MadeUpSubject subject = altered([](const Query& query, const Verdict& verdict) {
     const bool near = query.separation > 0 && distance_exceeds(query, 0.999 * query.separation);
@@ -180,7 +180,7 @@ TEST(MissSearch, FindsMissesNextToTheSeparation) {
   EXPECT_GE(missed, 5);
 }
 
-/// Reports what comes within h + 1e-3, and claims a bound of half of that.
+/// The subject reports what comes within h + 1e-3, and claims only half of that margin as its bound.
 TEST(FarSearch, RefutesBoundsBeyondTheSeparation) {
   const MadeUpSubject subject = altered(
       [](const Query& query, Verdict verdict) {

@@ -21,7 +21,7 @@ using testing::one;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Gives one answer to all queries. An infinite bound is none.
+/// Gives one answer to all queries. A subject with an infinite bound claims none.
 std::unique_ptr<Subject> told(std::string name, bool hit, double bound = infinity) {
   const Verdict verdict{hit, hit ? Stage::unspecified : Stage::none, 0};
   return std::make_unique<testing::MadeUpSubject>(
@@ -29,7 +29,7 @@ std::unique_ptr<Subject> told(std::string name, bool hit, double bound = infinit
       testing::Claims{.bound = bound, .claims_bound = std::isfinite(bound)});
 }
 
-/// A hit, then a vertex that stays at a distance of 1 or more.
+/// A collision, and a vertex that stays at a distance of 1 or more.
 Batch batch() {
   return batch_of("two", {falling_vertex(0.25, 0.25, 1, -1), falling_vertex(0.25, 0.25, 3, 1)});
 }

@@ -1,4 +1,5 @@
-// wang in lanes gives the verdicts of wang for one query at a time, bit for bit. More queries, 10^8 for instance:
+// wang in lanes gives the verdicts of wang for one query at a time, bit for bit. With more queries, such as
+// 10^8:
 //   NEARMISS_QUERIES=2300000 fuzz_tests --gtest_filter='*InLanes*'
 #include <gtest/gtest.h>
 
@@ -102,7 +103,7 @@ TEST(WangInLanes, LeavesCoordinatesThatAreNotFinite) {
   for (const double c : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, even before its number i is changed
+      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever number i is
       queries.back().x[i] = c;
     }
     for (const Instructions instructions : all_instructions)

@@ -45,7 +45,7 @@ TEST(WithSeparation, DrawnIsFromAMillionthOfTheExtentToAllOfIt) {
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Query query = make_query(find_family("stiff~drawn"), 5, i);
     const double ratio = query.separation / extent(query);
-    EXPECT_LE(0.5e-6, ratio);  // a power of two is rounded down
+    EXPECT_LE(0.5e-6, ratio);  // not 1e-6, because some are rounded down to a power of two
     EXPECT_LE(ratio, 1);
     int exponent = 0;
     powers_of_two += std::frexp(query.separation, &exponent) == 0.5 ? 1 : 0;

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 from suite import run_tests
 
-KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that a limit has killed
-BUDGET = 120  # seconds of one core for the tests of a mutant, by their times without it
+KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that ended at a limit
+BUDGET = 120  # seconds of one core for the tests of a mutant, by their times without one
 
 
 @dataclass
@@ -15,7 +15,7 @@ class Answer:
 
     noticed_by: str = ''  # the first test that failed, or ''
     how: str = ''  # 'failed', 'crashed' or 'too slow'
-    found: str = ''  # the hunter's words: what it found, the query, and how many it asked up to it
+    found: str = ''  # the hunter's words: what it found, the query, and how many it asked
     cpu: float = 0
     wall: float = 0
     asked: int = 0  # number of tests
@@ -25,8 +25,8 @@ class Answer:
 
 
 def batches(steps, folder):
-    """Yields steps sorted by time, in batches of doubling length. In a batch, the tests of
-    `folder` come first."""
+    """Yields the steps, the quickest first, in batches whose total time doubles. In each batch,
+    the tests of `folder` come first."""
     batch, size, limit = [], 0, 0.5
     for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
         if batch and size + step.cpu > limit:
@@ -39,7 +39,7 @@ def batches(steps, folder):
 
 
 def by_group(batch, folder):
-    """The steps of a batch, by executable."""
+    """The steps of a batch as a list for each executable."""
     groups = {}
     for step in batch:
         groups.setdefault(step.group, []).append(step)
@@ -48,7 +48,7 @@ def by_group(batch, folder):
 
 
 def affordable(steps, budget):
-    """The quickest steps that fit a budget in seconds, and the names of the others."""
+    """The quickest steps that together fit a budget in seconds, and the names of the others."""
     kept, left, total = [], [], 0
     for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
         total += step.cpu
@@ -85,16 +85,16 @@ def run_steps(number, group):
 
 
 def is_confirmed(number, step):
-    """Whether a failed test fails again with the mutant, and passes without it. Some tests fail on
-    a busy machine."""
+    """Whether a failed test fails again with the mutant, and passes without it. The first
+    failure may be due to a busy machine."""
     again = run_steps(number, [step])
     without = run_steps(0, [step]) if number else None
     return again.code != 0 and (without is None or without.code == 0)
 
 
 def ask(number, steps, folder, answer, budget=BUDGET):
-    """Adds to an answer what the tests say with the mutant of this number, or with the mutant that
-    is built in if it is 0."""
+    """Runs the tests with the mutant of this number, or with the built-in mutant if the number
+    is 0, and adds the result to `answer`."""
     kept, left = affordable(steps, budget)
     answer.unasked += left
     for batch in batches(kept, folder):

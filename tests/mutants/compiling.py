@@ -14,12 +14,12 @@ PLACE = re.compile(rf'(?:^|\s)(?:\S*/)?{COPY.name}/([\w./-]+\.[ch]pp):(\d+)', re
 
 
 def known_forms():
-    """The forms of mutants by name, from earlier builds."""
+    """The forms that mutants took in earlier builds, by name."""
     return json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
 
 
 class Mutants:
-    """The mutants of a draw, numbered from 1, and the form in which each is compiled."""
+    """The drawn mutants, numbered from 1, and the form in which each is compiled."""
 
     def __init__(self, drawn):
         self.drawn = drawn
@@ -30,7 +30,7 @@ class Mutants:
             self.by_file.setdefault(each.file, []).append((number, each))
 
     def text_of(self, name):
-        """The text of a file in the copy."""
+        """The text of a file in the copy, with its mutants."""
         switches = [
             (number, each, self.forms[each.name])
             for number, each in self.by_file.get(name, [])
@@ -55,7 +55,7 @@ class Mutants:
         return found
 
     def in_constexpr_functions(self, files):
-        """Mutants of these files that the compiler may evaluate far from their own lines."""
+        """Mutants in constexpr functions of these files, which may be evaluated elsewhere."""
         return [
             each
             for name in sorted(files & set(self.by_file))
@@ -75,8 +75,8 @@ def places(text):
 
 
 def blamed(mutants, block):
-    """The mutants on the line of an error, or else on the lines that the error mentions, or else in
-    the constexpr functions of the files that it mentions."""
+    """The mutants on the line of an error; if none, those on lines that the error mentions; if
+    none, those in the constexpr functions of the files that it mentions."""
     errors = '\n'.join(line for line in block.splitlines() if ' error: ' in line)
     mentioned = places(block)
     return (
@@ -118,7 +118,7 @@ def build(mutants, targets, jobs, say):
 
 
 def probes(mutants, compiled):
-    """The object files that show soonest whether the mutants compile."""
+    """The object files that suffice to show whether the mutants compile."""
     units = {unit for name in mutants.by_file for unit in compiled.units(name)}
     objects = []
     for unit in sorted(units):
@@ -128,6 +128,6 @@ def probes(mutants, compiled):
 
 
 def build_all(mutants, compiled, jobs, say):
-    """Builds the files that show whether the mutants compile first, then everything."""
+    """Builds the files that show whether the mutants compile, and then everything."""
     build(mutants, probes(mutants, compiled), jobs, say)
     build(mutants, ['all'], jobs, say)

@@ -32,8 +32,8 @@ def link(target, path):
 
 
 def mirror(source, target, text_of):
-    """Copies a folder. `text_of` gives the text of its C++ files and headers; all other files
-    become links. Removes everything else from the copy."""
+    """Copies a folder. C++ files and headers get the text that `text_of` gives, and all other
+    files become links. Removes everything else from the copy."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -64,7 +64,7 @@ def text_of_copy(name):
 
 
 def make_copy(text_of):
-    """Makes the copy, with the text that `text_of` gives for the name of a C++ file."""
+    """Makes the copy. `text_of` gives the text of a C++ file by its name."""
     COPY.mkdir(parents=True, exist_ok=True)
     for entry in ROOT.iterdir():
         if entry.name in FOLDERS:
@@ -74,8 +74,8 @@ def make_copy(text_of):
 
 
 def configure():
-    """Configures the build of the copy, with the product's semantics and less optimisation. Finds
-    new and removed files."""
+    """Configures the build of the copy, with the product's semantics and less optimisation. Must
+    run again when files appear or disappear."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'NEARMISS_COMPONENTS': 'ccd;oracle;tools;python;tests',
@@ -91,7 +91,7 @@ def configure():
 
 
 def ninja(targets, jobs, say=None):
-    """Builds targets as far as possible, without a cache: with precompiled headers it is slower
-    than the compiler."""
+    """Builds as many of the targets as possible. Does not use a compiler cache, which is slower
+    with precompiled headers than the compiler itself."""
     words = ['ninja', '-C', BUILD, f'-j{jobs}', '-k', '0', *targets]
     return run(words, cwd=COPY, env={'CCACHE_DISABLE': '1'}, seconds=24 * 3600, say=say)

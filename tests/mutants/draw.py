@@ -18,12 +18,12 @@ CACHE = WORK / 'trees'
 
 
 def kept_tree(name):
-    """The path at which the syntax tree of a file is kept until the file changes."""
+    """The path that keeps a file's syntax tree. It depends on the file's text."""
     return CACHE / sha(name, read(ROOT / name), inspect.getsource(syntax.Node))
 
 
 def sites_of(task):
-    """The mutants of files, parsed in a unit that includes all of them."""
+    """The mutants of some files, which are parsed in a compiled file that includes all of them."""
     unit, arguments, names = task
     missing = [name for name in names if not kept_tree(name).exists()]
     if missing:
@@ -38,7 +38,7 @@ def sites_of(task):
 
 
 def end_on_signals():
-    """Ignores SIGINT, because only the first process ends the processes of the pool."""
+    """Ignores SIGINT in a process of the pool, because the first process ends the others."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
@@ -65,7 +65,7 @@ def in_turn(lists):
 
 
 class Lines:
-    """The lines that have a mutant already; a line gets at most one."""
+    """The lines that already have a mutant. A line gets at most one."""
 
     def __init__(self):
         self.taken = set()
@@ -79,7 +79,7 @@ class Lines:
 
 
 def draw(mutations, folders, seed, count):
-    """Up to `count` mutants of each folder, its operators in turn."""
+    """Up to `count` mutants of each folder, from each operator in turn."""
     chosen = []
     for folder in folders:
         by_operator = {}

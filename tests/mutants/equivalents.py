@@ -31,8 +31,7 @@ def entries(text):
 
 
 def complaints(found, root=ROOT):
-    """Yields complaints about entries whose text does not occur in the file, or does not
-    change."""
+    """Yields complaints about entries whose text is not in the file, or does not change."""
     for file, before, after in found:
         if not (root / file).is_file():
             yield f'{file}: no such file'

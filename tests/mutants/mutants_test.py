@@ -25,7 +25,7 @@ SITES = mutants_of(FILE, TEXT, TREE)
 
 
 def made(operator, before):
-    """The lines that an operator makes from a line."""
+    """The lines that an operator makes from a line of code."""
     return {
         each.after
         for each in SITES
@@ -133,7 +133,7 @@ class Switches(unittest.TestCase):
 
 
 class Blame(unittest.TestCase):
-    """Which mutants an error of the compiler is about."""
+    """Tests which mutants an error of the compiler is attributed to."""
 
     @classmethod
     def setUpClass(cls):

@@ -25,9 +25,9 @@ class Mutation:
     constants: tuple = ()  # edits that make constexpr variables depend on the switch
     line: int = 0
     last_line: int = 0
-    before: str = ''  # the changed lines, before and after
+    before: str = ''  # the changed lines before the edits, and after
     after: str = ''
-    nth: int = 0  # number among equal changes of equal lines
+    nth: int = 0  # distinguishes equal changes of equal lines
 
     @property
     def identity(self):
@@ -72,7 +72,7 @@ def applied(text, edits):
 
 
 def placed(text, mutation):
-    """The mutation with its lines, before and after."""
+    """The mutation with `before` and `after`, the lines that it changes."""
     first = text.rfind('\n', 0, mutation.edits[0].start) + 1
     last = text.find('\n', mutation.edits[-1].end)
     last = len(text) if last < 0 else last

@@ -27,7 +27,7 @@ HEADING = re.compile(r'(\S+) in (\S+?\.[ch]pp)(?: \((\d+) of (\d+)\))?(?:: (.+))
 
 @dataclass
 class Place:
-    """The `nth` of `of` places in a file with the text `before`, which becomes `after`."""
+    """The `nth` of `of` places in a file with the text `before`, which `after` replaces."""
 
     file: str
     nth: int
@@ -36,7 +36,7 @@ class Place:
     after: str = ''
 
     def edit(self, text):
-        """The edit of the file's text. Raises ValueError if the text is not there `of` times."""
+        """The edit of the file's text. Raises ValueError if `before` does not occur `of` times."""
         words = [re.escape(word) for word in self.before.split()]
         found = list(re.finditer(r'\s+'.join(words), text))
         if len(found) != self.of:
@@ -48,7 +48,7 @@ class Place:
 
 @dataclass
 class NamedEdit:
-    """An entry of a list, which a survey treats as a mutant. Its operator is its group."""
+    """An entry of a list, which a survey treats as a mutant with its group as its operator."""
 
     title: str
     about: str
@@ -115,8 +115,8 @@ def listed(folder='tests/judge/defects'):
 
 
 def matching(pattern, seed, count=None):
-    """The edits of the oracle whose 'NAME in FILE' matches: all in the order of the lists, or
-    `count` of them, drawn by a seed."""
+    """The edits of the oracle for which a regular expression matches 'NAME in FILE'. All of
+    them, in the order of the lists, or `count` of them, drawn by a seed."""
     found = [edit for edit in listed() if re.search(pattern, edit.where)]
     if count is None:
         return found
@@ -124,8 +124,8 @@ def matching(pattern, seed, count=None):
 
 
 def complaints(edits, root=ROOT):
-    """Yields complaints about edits that have no description or another's title, do not fit the
-    sources, or change nothing."""
+    """Yields complaints about edits that have no description or another edit's title, do not fit
+    the sources, or change nothing."""
     titles = set()
     for edit in edits:
         if not edit.about:

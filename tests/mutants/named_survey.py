@@ -1,4 +1,4 @@
-"""A survey of named edits of the oracle: makes each by itself, and asks the oracle's tests."""
+"""A survey of named edits of the oracle: makes one at a time, and runs the oracle's tests."""
 
 import math
 from dataclasses import asdict
@@ -9,15 +9,16 @@ from sources import ROOT, read
 from suite import baseline, steps_of
 from survey import Survey, say
 
-# The groups of tests and their targets, in the order in which they are asked: the hunter is built
-# soonest, and notices most. The proofs notice halved bounds, which random queries do not show.
+# The groups of tests and their targets, in the order in which they run. The hunter comes first,
+# because it is built soonest and notices most. The proofs notice halved bounds, which random
+# queries do not show.
 GROUPS = {'judge_hunter': 'judge_hunter', 'oracle': 'oracle_tests', 'proofs': 'proofs_tests'}
-QUERIES = 100000  # of the hunter, which take half a minute of a core
-MOST_SECONDS = 1800  # tests that take longer without an edit are left out, on a busy machine too
+QUERIES = 100000  # of the hunter; they take half a minute of a core
+MOST_SECONDS = 1800  # tests that take longer without an edit, even on a busy machine, are left out
 
 
 def text_with(edit):
-    """The function that gives the text of each C++ file with an edit, one character a byte."""
+    """A function that gives the text of each C++ file with an edit, a character for each byte."""
 
     def text_of(name):
         if name not in {place.file for place in edit.places}:
@@ -28,8 +29,8 @@ def text_with(edit):
 
 
 class NamedSurvey(Survey):
-    """Named edits, each in a build of its own. The verdict about those with a reason that no test
-    notices is 'equivalent'."""
+    """Named edits, each in a separate build. If no test notices an edit that has a reason, its
+    verdict is 'equivalent'."""
 
     def __init__(self, edits, groups, jobs):
         super().__init__(jobs)
@@ -56,9 +57,9 @@ class NamedSurvey(Survey):
         return [step for step in self.steps if step.group == group]
 
     def find(self, edit):
-        """Builds and runs each group of tests with an edit, until one notices it. The verdict is
-        'invalid' if the edit does not compile. It is 'open' if only some groups are to be asked,
-        and none of them notices the edit."""
+        """Builds and runs one group of tests after the other with an edit, until one notices it.
+        The verdict is 'invalid' if the edit does not compile, and 'open' if no group notices it
+        but not all groups were asked."""
         answer = Answer()
         copied.make_copy(text_with(edit))
         for group in self.groups:
@@ -71,7 +72,7 @@ class NamedSurvey(Survey):
         return {'verdict': 'survived' if is_asked else 'open', **asdict(answer)}
 
     def result_of(self, edit):
-        """The result of an edit, which is kept if it is final."""
+        """The result of an edit. It is stored if it is final."""
         if (result := self.results.get(edit)) is None:
             result = self.find(edit)
             if result['verdict'] in ('noticed', 'survived'):
@@ -87,8 +88,8 @@ class NamedSurvey(Survey):
 
 
 def contradictions(results):
-    """A line for each edit that contradicts the list: it is noticed in spite of its reason, or not
-    noticed without one, or does not compile."""
+    """A line for each edit that contradicts its list: a test notices it in spite of its reason,
+    no test notices it although it has none, or it does not compile."""
     lines = []
     for edit, result in results:
         verdict = result['verdict']

@@ -1,7 +1,7 @@
 """The operators. Each yields edits for a node of the syntax tree.
 
-An operator is a function of (text, node) that yields (form, edits), with the forms of Mutation. To
-add an operator, write a function with the decorator."""
+An operator is a function of (text, node) that yields (form, edits); Mutation explains the forms.
+To add an operator, write a function with the decorator @operator."""
 
 import re
 
@@ -26,12 +26,12 @@ EXTREMES = {
     'lower_bound': 'upper_bound',
     'upper_bound': 'lower_bound',
 }
-# Functions for which the order of the arguments makes no difference.
+# For these functions, the order of the arguments makes no difference.
 SYMMETRIC = re.compile(r'\b(min|max|swap|hypot|tie|midpoint|gcd|dot)\s*(<[^()]*>)?$')
 OPERATOR_KINDS = {'BINARY_OPERATOR', 'CALL_EXPR', 'COMPOUND_ASSIGNMENT_OPERATOR', 'UNEXPOSED_EXPR'}
 STATEMENTS = OPERATOR_KINDS | {'UNARY_OPERATOR', 'CONTINUE_STMT', 'BREAK_STMT'}
 BODIES = {'IF_STMT', 'FOR_STMT', 'WHILE_STMT', 'CXX_FOR_RANGE_STMT'}
-# Nodes whose values are known at compile time even without constexpr.
+# The values of these nodes are known at compile time even without constexpr.
 NEVER = {'STATIC_ASSERT', 'ENUM_CONSTANT_DECL', 'ENUM_DECL', 'CONCEPT_DECL'}
 LITERALS = {'INTEGER_LITERAL', 'FLOATING_LITERAL'}
 
@@ -42,7 +42,7 @@ def operator(function):
 
 
 def binary(text, node):
-    """The sign of a binary operator, its place, and its operands; or None."""
+    """The sign of a binary operator, the sign's place, and the operands. None for other nodes."""
     if node.kind not in OPERATOR_KINDS or len(node.children) < 2:
         return None
     left, right = node.children[0], node.children[-1]
@@ -58,13 +58,13 @@ def of(node, text):
 
 
 def exchanged(text, node, table):
-    """The edits that exchange the binary operator of a node."""
+    """The edits that exchange the binary operator of a node by this table."""
     found = binary(text, node)
     if found is None or found[0] not in table:
         return None
     sign, place, left, right = found
     if '"' in (text[left.start], text[left.end - 1], text[right.start]) or 'string' in left.type:
-        return None  # text
+        return None  # the node is text, not an operator
     return [
         Edit(
             node.start,
@@ -76,14 +76,14 @@ def exchanged(text, node, table):
 
 @operator
 def strictness(text, node):
-    """< for <=, > for >=, and back."""
+    """Exchanges < and <=, and > and >=."""
     if edits := exchanged(text, node, STRICTNESS):
         yield 'expression', edits
 
 
 @operator
 def sign(text, node):
-    """+ for -, += for -=, and back; a minus sign left out."""
+    """Exchanges + and -, and += and -=, or leaves out a minus sign."""
     if edits := exchanged(text, node, SIGNS):
         yield 'expression', edits
     if node.kind == 'UNARY_OPERATOR' and re.match(r'-[^-]', of(node, text)):
@@ -92,7 +92,7 @@ def sign(text, node):
 
 @operator
 def dropped_term(text, node):
-    """A term of a sum, a factor, a conjunct or a disjunct left out."""
+    """Leaves out a term of a sum, a factor, a conjunct or a disjunct."""
     found = binary(text, node)
     if found is None:
         return
@@ -104,7 +104,7 @@ def dropped_term(text, node):
 
 
 def is_value(text, node):
-    """Whether a literal is a value, not the argument of a template or the label of a case."""
+    """Whether a literal is a value, and neither a template's argument nor a case label."""
     if node.parent is None or node.parent.kind in (
         'CASE_STMT',
         'DECL_REF_EXPR',
@@ -117,7 +117,7 @@ def is_value(text, node):
 
 @operator
 def index(text, node):
-    """Another index, x[i + 1] for x[i]; or a whole number that is off by one."""
+    """Puts x[i + 1] in place of x[i], or makes a whole number off by one."""
     if (
         node.kind in ('ARRAY_SUBSCRIPT_EXPR', 'CALL_EXPR', 'UNEXPOSED_EXPR')
         and len(node.children) > 1
@@ -138,7 +138,7 @@ def index(text, node):
 
 @operator
 def constant(text, node):
-    """A constant multiplied by two or ten, or halved."""
+    """Multiplies a constant by two or ten, or halves it."""
     if node.kind not in LITERALS or not is_value(text, node):
         return
     literal = of(node, text)
@@ -151,7 +151,7 @@ def constant(text, node):
 
 
 def arguments(text, node):
-    """The arguments of a call, or the elements of a list, if commas or brackets separate them."""
+    """The arguments of a call, or the elements of a list, between brackets and commas."""
     found = []
     for child in node.children:
         before = text[node.start : child.start].rstrip()[-1:]
@@ -166,7 +166,7 @@ def plain(type_name):
 
 
 def is_alike(one, other):
-    """Whether two arguments may be exchanged, by their types."""
+    """Whether the types of two arguments allow exchanging them."""
     if 'dependent' in one.type + other.type:
         return True
     return plain(one.type) == plain(other.type) != ''
@@ -174,7 +174,7 @@ def is_alike(one, other):
 
 @operator
 def swapped_arguments(text, node):
-    """Two neighbouring arguments exchanged."""
+    """Exchanges two neighbouring arguments."""
     if node.kind not in ('CALL_EXPR', 'INIT_LIST_EXPR', 'UNEXPOSED_EXPR'):
         return
     given = arguments(text, node)
@@ -202,7 +202,7 @@ def is_statement(node):
 
 @operator
 def statement_left_out(text, node):
-    """An assignment, a count, a call or a jump left out."""
+    """Leaves out an assignment, a count, a call or a jump."""
     if not is_statement(node):
         return
     rest = text[node.end : node.end + 200]
@@ -213,7 +213,7 @@ def statement_left_out(text, node):
 
 
 def condition_of(node):
-    """The condition of an if, a while or a ?:, if it is an expression."""
+    """The condition of an if, a while or a ?:. None if it is not an expression."""
     if node.kind not in ('IF_STMT', 'WHILE_STMT', 'CONDITIONAL_OPERATOR'):
         return None
     return next((child for child in node.children if child.is_expression), None)
@@ -221,7 +221,7 @@ def condition_of(node):
 
 @operator
 def negated_condition(text, node):
-    """The negated condition of an if, a while or a ?:; == for !=; a negation left out."""
+    """Negates the condition of an if, a while or a ?:; exchanges == and !=; drops a negation."""
     if edits := exchanged(text, node, EQUALITY):
         yield 'expression', edits
     is_condition = node.parent is not None and condition_of(node.parent) is node
@@ -234,7 +234,7 @@ def negated_condition(text, node):
 
 @operator
 def min_for_max(text, node):
-    """A minimum for a maximum, a lower bound for an upper one, and back."""
+    """Exchanges a minimum and a maximum, or a lower and an upper bound."""
     if node.kind != 'CALL_EXPR' or '(' not in of(node, text) or not node.children:
         return
     callee = re.search(r'\b(\w+)\s*(<[^()]*>)?$', of(node.children[0], text))

@@ -1,4 +1,4 @@
-"""Runs commands that the user can stop."""
+"""Runs commands, which the user can stop."""
 
 import os
 import re
@@ -18,7 +18,7 @@ class Stopped(Exception):
 
 @dataclass
 class Ended:
-    """The end of a command, and the time that it used with all of its children."""
+    """How a command ended, and the time that it used, with all of its children."""
 
     code: int  # exit code, or minus the number of the signal that ended it
     output: str
@@ -48,8 +48,8 @@ def latest_step(output):
 
 
 def wait(process, seconds, progress=lambda: None):
-    """Waits for a process to end. Returns whether it exceeded the time, its exit code, and its
-    usage."""
+    """Waits for a process to end. Returns whether it exceeded its time, its exit code, and the
+    resources that it used."""
     begin = shown = time.monotonic()
     late, pause = False, 0.002
     while True:
@@ -70,7 +70,7 @@ def wait(process, seconds, progress=lambda: None):
 
 
 def limits(cpu=None, memory=None):
-    """The words to put before a command to limit its processes, each in seconds and bytes."""
+    """Words to put before a command to limit each of its processes, in seconds and bytes."""
     words = ['nice', '-n', '2', 'prlimit', '--core=0']
     if cpu is not None:
         words.append(f'--cpu={int(cpu)}:{int(cpu) + 1}')
@@ -80,10 +80,10 @@ def limits(cpu=None, memory=None):
 
 
 def seal():
-    """The words to put before a command to isolate its processes. They cannot see or kill other
-    processes, and none of them survives the command. The first process in the isolation is a
-    shell, because a first process ignores signals. If a signal ends the command, the exit code is
-    128 plus the number of the signal.
+    """The words to put before a command that isolate its processes. They cannot see or kill
+    other processes, and none of them survives the command. The first process of an isolation
+    ignores signals, so it is a shell; if a signal ends the command, the shell's exit code is 128
+    plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     return [
@@ -101,7 +101,7 @@ def seal():
 
 
 def run(command, cwd, env=None, seconds=3600, before=(), say=None):
-    """Runs a command in its own process group. `before` are the words from `seal` and `limits`."""
+    """Runs a command in its own process group. `before` are words from `seal` and `limits`."""
     if stopping.is_set():
         raise Stopped
     begin = time.monotonic()

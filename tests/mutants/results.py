@@ -1,4 +1,4 @@
-"""The results for mutants, saved after each of them."""
+"""The results of mutants, which are saved after each mutant."""
 
 import json
 import os
@@ -12,8 +12,8 @@ TEST_DATA = {'.py', '.txt', '.case'}
 
 
 class Results:
-    """The results by mutant. A result is valid for one state of the product. The result that no
-    test notices a mutant is valid only for one state of the tests too."""
+    """The results by mutant. A result is valid for one state of the product. If no test noticed
+    the mutant, it is valid only for one state of the tests, too."""
 
     def __init__(self, file=FILE):
         self.file = file
@@ -23,7 +23,7 @@ class Results:
         self.lock = threading.Lock()
 
     def get(self, mutation):
-        """The result of a mutant, if there is a valid one."""
+        """The result of a mutant, or None if there is no valid one."""
         result = self.kept.get(mutation.name)
         if result is None or result['product'] != self.product:
             return None

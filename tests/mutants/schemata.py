@@ -4,9 +4,9 @@ import re
 
 from mutation import Edit, applied
 
-# The forms of a switch: 'now' is evaluated at run time, 'chosen' selects between values of
-# different types, and 'constexpr' works in constexpr functions. The other forms are 'alone', a
-# separate build, and 'invalid', code that does not compile.
+# The forms in which a mutant is compiled. As a switch, 'now' is evaluated at run time, 'chosen'
+# selects between values of different types, and 'constexpr' works in constexpr functions. 'alone'
+# means a separate build, and 'invalid' means that the mutant does not compile.
 SWITCHES = {'now', 'chosen', 'constexpr'}
 NOT_CONSTANT = re.compile(
     r'constexpr|constant.expression|is not (a )?constant|not usable in a const'
@@ -25,13 +25,13 @@ def next_form(form, errors):
 
 
 def one_line(text):
-    """Removes comments and line ends from code, so that the following lines keep their numbers."""
+    """Removes comments and line ends from code, so that the lines after it keep their numbers."""
     text = re.sub(r'("(?:\\.|[^"\\\n])*")|//[^\n]*', lambda found: found[1] or '', text)
     return ' '.join(text.split())
 
 
 def switched(original, edit, number, form, what):
-    """The code that replaces the text of an edit."""
+    """The code with a switch that replaces the original text of an edit."""
     on = f'mutants::{"mutant" if form == "constexpr" else "now"}({number})'
     changed = one_line(edit.text)
     if what == 'statement':
@@ -49,7 +49,7 @@ def switched(original, edit, number, form, what):
 
 
 def with_switches(text, mutants):
-    """The text of a file with all of its mutants, each given as (number, mutation, form)."""
+    """The text of a file with all of its mutants, given as (number, mutation, form)."""
     edits = set()
     for number, mutation, form in mutants:
         for edit in mutation.edits:

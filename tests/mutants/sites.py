@@ -1,4 +1,4 @@
-"""Finds all mutants of a file."""
+"""Finds all mutants that the operators make of a file."""
 
 import re
 from collections import Counter
@@ -32,7 +32,7 @@ def is_constexpr(text, node):
 
 
 def made_variable(text, node):
-    """The edit that gives a constexpr variable its value at run time; None for other nodes."""
+    """The edit that gives a constexpr variable its value at run time. None for other nodes."""
     found = re.match(r'[\w\s\[\]:]*?\b(constexpr)\b', text[node.start : node.end])
     if node.kind not in VARIABLES or not found:
         return None
@@ -44,8 +44,8 @@ def made_variable(text, node):
 
 
 def context(text, node):
-    """Whether a node is in a constexpr function, with the edits that its constexpr variables need.
-    None if it cannot be mutated."""
+    """Whether a node is in a constexpr function, and the edits that its constexpr variables
+    need. None if the node cannot be mutated."""
     at_compile_time, constants = False, []
     for each in [node, *node.ancestors()]:
         if each.kind in NEVER or (each is not node and each.kind == 'CXX_THROW_EXPR'):

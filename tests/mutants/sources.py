@@ -1,5 +1,4 @@
-"""Reads the product's C++ files as text in which offsets count bytes, as they do for the
-compiler."""
+"""Reads the product's C++ files, one character a byte, because the compiler counts bytes."""
 
 import hashlib
 import json
@@ -50,7 +49,7 @@ def fingerprint(folders, suffixes, root=ROOT):
 
 
 def included_by(name, root=ROOT, seen=None):
-    """All files of the tree that a file includes, and the file itself."""
+    """The files of the tree that a file includes, directly or not, and the file itself."""
     seen = seen if seen is not None else set()
     if name in seen or not (root / name).is_file():
         return seen
@@ -75,8 +74,8 @@ class Compiled:
                 self.users.setdefault(included, []).append(name)
 
     def units(self, name):
-        """The files to compile to find out whether a file compiles: the file itself, or one or two
-        files that include it."""
+        """The files whose compilation shows whether a file compiles: the file itself, or for a
+        header, one or two files that include it."""
         if name in self.commands:
             return [name]
         users = self.users.get(name, [])
@@ -87,7 +86,7 @@ class Compiled:
         return (product[:1] + tests[:1]) or users[:1]
 
     def arguments(self, unit, copy, root=ROOT):
-        """The compiler arguments for parsing a unit of the tree."""
+        """The arguments with which the compiler parses a compiled file of the tree."""
         entry = self.commands[unit]
         words = entry['command'].replace('\\"', '"').split()
         kept = []

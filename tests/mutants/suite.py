@@ -1,4 +1,4 @@
-"""The tests as steps, each with its time without a mutant and the mutants that it reaches."""
+"""The tests as steps. Each has its time without a mutant, and the mutants that it reaches."""
 
 import hashlib
 import json
@@ -14,14 +14,14 @@ from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
 EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
-MOST_SECONDS = 150  # tests that take longer without a drawn mutant are left out
+MOST_SECONDS = 150  # tests that take longer without an active mutant are left out
 MEMORY = 6 << 30  # bytes of address space for each process
-MARKS = 4096  # size of the file in bytes, as in switch.hpp
+MARKS = 4096  # size in bytes of the file of marks, as in switch.hpp
 
 
 @dataclass
 class Step:
-    """One test: a GoogleTest, or a command with its last argument."""
+    """One test: a GoogleTest, or a command and its last argument."""
 
     group: str
     test: str
@@ -42,7 +42,7 @@ def executable(group):
 
 
 def commands():
-    """The commands of the tests that are not GoogleTests."""
+    """The commands of the groups of tests that are not GoogleTests."""
     recount = COPY / 'tests/recount/recount_test.py'
     return {
         'judge_hunter': [BUILD / 'tests/judge/judge_hunter'],
@@ -51,8 +51,8 @@ def commands():
 
 
 def run_tests(group, tests, env, seconds, cpu=None):
-    """Runs tests of a group until one fails. The tests cannot affect other processes, and their
-    files are removed."""
+    """Runs tests of a group until one fails. They cannot affect other processes, and their files
+    are removed afterwards."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
         if group in commands():
             words = [*commands()[group], *filter(None, tests)]
@@ -78,7 +78,7 @@ def tests_of(group):
 
 
 def steps_of(group, queries=10000):
-    """The steps of a group. The judge's hunter asks this number of queries."""
+    """The steps of a group. `queries` is the number that the judge's hunter asks."""
     if group in EXECUTABLES:
         return [Step(group, test) for test in tests_of(group)]
     return [Step(group, str(queries) if group == 'judge_hunter' else '')]
@@ -89,7 +89,7 @@ def all_steps():
 
 
 def measured(step, most_seconds):
-    """Measures a step without a mutant, and whether it passes within a time."""
+    """The step with its time without a mutant, the mutants it reaches, and whether it passes."""
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()
@@ -103,7 +103,7 @@ def measured(step, most_seconds):
 
 
 def state():
-    """A hash of all executables that the tests use and that are built."""
+    """A hash of those executables of the tests that are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_hunter']
@@ -113,7 +113,8 @@ def state():
 
 
 def baseline(steps, jobs, say, most_seconds=MOST_SECONDS):
-    """Measures steps once for each build, and resumes if it was stopped. Says which are left out."""
+    """Measures the steps once for each build, or the rest of them if an earlier call was
+    stopped. Says which steps are left out."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}

@@ -1,4 +1,4 @@
-"""A survey: draws mutants, compiles them, and asks the tests about each."""
+"""A survey: draws mutants, compiles them, and runs the tests with each."""
 
 import threading
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +14,7 @@ from schemata import by_itself
 from sources import ROOT, Compiled, read
 from suite import all_steps, baseline
 
-SPARE = 1.3  # mutants drawn for each requested one, because some need a separate build
+SPARE = 1.3  # number of drawn mutants for each requested one, because some need a separate build
 
 
 def say(text):
@@ -26,7 +26,7 @@ def folder_of(mutation):
 
 
 class Survey:
-    """The results of mutants, and a line of progress for each."""
+    """The results of mutants. Prints a line of progress for each."""
 
     def __init__(self, jobs):
         self.jobs = jobs
@@ -45,7 +45,7 @@ class Survey:
 
 
 class DrawnSurvey(Survey):
-    """The mutants of a draw, most of them as switches in one build."""
+    """The drawn mutants, most of which are switches in one build."""
 
     def __init__(self, folders, seed, count, alone, jobs):
         super().__init__(jobs)
@@ -69,13 +69,12 @@ class DrawnSurvey(Survey):
         return [step for step in self.steps if step.fine and number in step.reached]
 
     def is_compile_time(self, number):
-        """Whether the switch has no effect when the program runs."""
+        """Whether the switch of a mutant has no effect at run time."""
         form = self.mutants.forms[self.drawn[number - 1].name]
         return form == 'alone' or (form == 'constexpr' and not self.reaching(number))
 
     def chosen(self):
-        """The numbers of the requested mutants of each folder, and the numbers of mutants that
-        need a separate build."""
+        """The numbers of the requested mutants with a switch, and of those to build separately."""
         switched, alone = [], []
         left = {folder: self.quota for folder in self.folders}
         for number, mutation in enumerate(self.drawn, 1):
@@ -90,7 +89,7 @@ class DrawnSurvey(Survey):
         return switched, alone[: self.alone]
 
     def known(self, mutation):
-        """The stored result of a mutant, if the list of equivalent mutants agrees with it."""
+        """The stored result of a mutant, unless the list of equivalent mutants contradicts it."""
         result = self.results.get(mutation)
         is_listed = equivalents.reason_of(self.equivalent, mutation) is not None
         if result is None or is_listed == (result['verdict'] == 'equivalent'):
@@ -98,7 +97,7 @@ class DrawnSurvey(Survey):
         return None
 
     def find(self, mutation, switch, steps):
-        """Runs the tests with a mutant. `switch` is its number, or 0 if it is built in."""
+        """Runs the tests with a mutant. `switch` is its number, or 0 if it has no switch."""
         if equivalents.reason_of(self.equivalent, mutation):
             return {'verdict': 'equivalent', 'noticed_by': ''}
         if not steps:
@@ -108,8 +107,7 @@ class DrawnSurvey(Survey):
         return {'verdict': 'noticed' if answer.noticed_by else 'survived', **asdict(answer)}
 
     def ask_switched(self, number):
-        """The result of a mutant in the form of a switch. Runs the tests if the result is not
-        known."""
+        """The result of a mutant that has a switch. Runs the tests if the result is not known."""
         mutation = self.drawn[number - 1]
         if (result := self.known(mutation)) is None:
             result = self.find(mutation, number, self.reaching(number))
@@ -118,8 +116,7 @@ class DrawnSurvey(Survey):
         return mutation, result
 
     def ask_alone(self, number):
-        """The result of a mutant that needs a separate build. The next build removes it from the
-        copy."""
+        """The result of a mutant in a separate build. It stays until the next build."""
         mutation = self.drawn[number - 1]
         if (result := self.known(mutation)) is None:
             copied.make_copy(self.mutants.text_of)

@@ -1,6 +1,6 @@
 // Every C++ file of the copy that contains the mutants includes this file first; no other file does. The
-// environment variable NEARMISS_MUTANT switches on one mutant. NEARMISS_MUTANTS_REACHED names a file with one
-// byte for each mutant, which marks the mutants that the program evaluates.
+// environment variable NEARMISS_MUTANT switches one mutant on. NEARMISS_MUTANTS_REACHED names a file with one
+// byte for each mutant. If the program evaluates a mutant, its byte becomes 1.
 #pragma once
 #include <fcntl.h>
 #include <stdlib.h>
@@ -19,8 +19,8 @@ inline int chosen() {
   return text != nullptr ? atoi(text) : 0;
 }
 
-/// The marks, or null. All processes of a run share them in memory, so that they survive however a process
-/// ends.
+/// The bytes of the file of reached mutants, or null without a file. All processes of a run share them in
+/// memory, so that they survive however a process ends.
 inline unsigned char* marks() {
   const char* file = getenv("NEARMISS_MUTANTS_REACHED");
   if (file == nullptr) return nullptr;
@@ -34,17 +34,16 @@ inline unsigned char* marks() {
 inline const int on = chosen();
 inline unsigned char* const reached = marks();
 
-/// Whether mutant k is switched on. The function cannot be used in code that must be evaluated at compile
-/// time.
+/// Whether mutant k is switched on. Code that must be evaluated at compile time cannot call this function.
 inline bool now(int k) {
   if (reached != nullptr && reached[k] == 0) reached[k] = 1;
   return k == on;
 }
 
-/// The same as `now` for constexpr functions. While these are evaluated at compile time, no mutant is on.
+/// Does what `now` does, for constexpr functions. At compile time, no mutant is on.
 constexpr bool mutant(int k) { return !std::is_constant_evaluated() && now(k); }
 
-/// The value of an expression; expression templates of Eigen are evaluated.
+/// The value of an expression. An expression template of Eigen is evaluated.
 template <class T>
 constexpr auto value(T&& x) {
   if constexpr (requires { typename std::remove_cvref_t<T>::PlainObject; })
@@ -53,7 +52,7 @@ constexpr auto value(T&& x) {
     return std::remove_cvref_t<T>(std::forward<T>(x));
 }
 
-/// The result of one of two functions whose return types may differ, as those of expression templates do.
+/// The result of one of two functions. Their return types may differ, as those of expression templates do.
 template <class Mutant, class Original>
 constexpr auto choose(bool mutant, Mutant&& changed, Original&& original) -> decltype(original()) {
   if (mutant) return changed();

@@ -1,8 +1,8 @@
-"""The syntax tree of a C++ file from libclang, reduced to kinds and extents."""
+"""The syntax tree of a C++ file from libclang, reduced to the kinds and extents of its nodes."""
 
 from clang import cindex
 
-# Kinds of cursors for which the children's types matter.
+# For cursors of these kinds, the children's types matter.
 TYPED = {'CALL_EXPR', 'INIT_LIST_EXPR'}
 
 
@@ -35,8 +35,7 @@ class Node:
 
 
 def parse(path, arguments, wanted):
-    """Parses a compiled file with all files that it includes. Returns the nodes of the wanted
-    files."""
+    """Parses a file and all that it includes. Returns the nodes of the wanted files."""
     unit = cindex.Index.create().parse(str(path), args=arguments)
     found = {str(each): [] for each in wanted}
     for cursor in unit.cursor.get_children():

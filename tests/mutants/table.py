@@ -21,7 +21,7 @@ def percent(part, all_of_them):
 
 
 def scores(results):
-    """A table with a line for each folder, a line for each operator, and a line for all."""
+    """A table with a line for each folder, for each operator, and for all together."""
     rows = [
         [
             '',
@@ -71,7 +71,7 @@ def one(mutation, result):
 
 
 def costs(results):
-    """How soon and by which tests mutants are noticed, and which tests take longest without
+    """How soon mutants are noticed, by which tests, and which tests take longest without
     noticing any."""
     noticed = [result for _, result in results if result['verdict'] == 'noticed']
     asked = [result for _, result in results if 'spent' in result]
@@ -103,7 +103,7 @@ def costs(results):
 
 
 def table(results, wrong=()):
-    """The whole table, from pairs of mutants and their results. `wrong` are lines about named
+    """The whole table, from pairs of a mutant and its result. `wrong` are the lines about named
     edits that contradict their list."""
     left = [one(*each) for each in results if each[1]['verdict'] in ('survived', 'unreached')]
     parts = [scores(results), costs(results), 'Not noticed:', *left]

@@ -1,4 +1,4 @@
-"""All queries of a campaign with the oracle's and the subjects' answers to each."""
+"""All queries of a campaign, with the oracle's and the subjects' answers to each of them."""
 
 import functools
 import typing
@@ -26,7 +26,7 @@ class Asked:
     impact: Impact
 
     def enclosed(self, name):
-        """The numbers of the histogram with this key in reports; NaN for a query without a number."""
+        """The numbers whose histogram has this key in reports; NaN for a query without one."""
         return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property
@@ -36,7 +36,7 @@ class Asked:
 
 @dataclass
 class Answers:
-    """The queries of each kind, in the order of families and numbers, with all answers."""
+    """The queries of each kind, with all answers. They are sorted by family, and then by number."""
 
     seed: int
     family: dict  # kind -> names
@@ -80,8 +80,8 @@ class Answers:
 
 
 def ask(nearmiss, seed, counts, subjects):
-    """Collects answers to the queries 0 to counts[family] - 1 of each family. Subjects are names, or
-    paths of shared objects with one subject."""
+    """Collects answers to queries number 0 to counts[family] - 1 of each family. Subjects are
+    names, or paths of shared objects that have one subject."""
     classify = functools.partial(query_classes, nearmiss)
     answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, classify)
     for kind in KINDS:
@@ -117,7 +117,7 @@ def _queries(nearmiss, seed, counts):
 
 
 def _numbers(kind, count):
-    """The numbers of the queries of one kind among 0 to count - 1: even numbers are vt."""
+    """Which queries among 0 to count - 1 are of this kind: even numbers are vt."""
     return range(KINDS.index(kind), count, 2)
 
 
@@ -155,21 +155,20 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
 
 
 class Known:
-    """Enclosures of a number of each query. Asks about each query once."""
+    """Enclosures of some number of each query, which is asked for only once."""
 
     def __init__(self, ask_about):
         self._ask_about, self._known = ask_about, {}
 
     def of(self, queries):
-        """Arrays of the lower and upper ends."""
+        """Arrays of the lower and of the upper ends."""
         new = sorted({query for query in queries if query not in self._known})
         self._known.update(zip(new, self._ask_about(new).T))
         return np.array([self._known[query] for query in queries]).reshape(-1, 2).T
 
 
 def ratios(lo, hi, bound):
-    """Enclosures of distance / bound: infinite if the bound is 0, and 0 if the bound is
-    infinite."""
+    """Enclosures of distance / bound: infinite for a bound of 0, and 0 for an infinite one."""
     slack = 1e-15  # more than the rounding error of one division
     with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
         ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)

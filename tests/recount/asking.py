@@ -1,4 +1,4 @@
-"""Runs the executable: for campaigns and reports, and for single queries."""
+"""Runs the executable, for campaigns and reports, and for single queries."""
 
 import json
 import subprocess
@@ -12,7 +12,7 @@ KINDS = ('vt', 'ee')
 
 @dataclass
 class Report:
-    """Output of a campaign and its report: parsed JSON, and text."""
+    """The output of a campaign and of its report: parsed JSON, and text."""
 
     folder: Path
     fuzz_json: dict
@@ -24,13 +24,13 @@ class Report:
 
 
 class Nearmiss:
-    """The executable."""
+    """Calls of the executable."""
 
     def __init__(self, path):
         self.path = str(path)
 
     def run(self, *arguments, text=None, codes=(0,)):
-        """Returns the standard output. An exit code that is not in `codes` raises an error."""
+        """Returns the standard output. Raises an error if the exit code is not in `codes`."""
         done = subprocess.run(
             [self.path, *map(str, arguments)],
             input=text,
@@ -45,7 +45,7 @@ class Nearmiss:
         return done.stdout
 
     def report(self, folder, cases, seed, subjects, families):
-        """Runs a campaign and writes its report into folder/report. Misses are not errors here."""
+        """Runs a campaign and writes its report into folder/report. Misses are no error here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
         command = f'fuzz --family {families} --cases {cases} --seed {seed} -q'
         options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
@@ -59,7 +59,7 @@ class Nearmiss:
         return self.run('family', name, *options).splitlines()
 
     def factors(self, name, seed, kind, count):
-        """The values of the factors of the same queries, as lists."""
+        """The values of the factors of these first queries, as lists."""
         options = '--seed', seed, '--kind', kind, '--count', count
         return [
             line.split() for line in self.run('family', name, '--factors', *options).splitlines()
@@ -75,7 +75,7 @@ class Nearmiss:
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Lower and upper ends of the earliest times, for collisions: neighbouring doubles, or one."""
+        """Ends of enclosures of collisions' earliest times: neighbouring doubles, or equal."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):
@@ -84,7 +84,7 @@ class Nearmiss:
         return np.array(ends, dtype=float).reshape(-1, 2).T
 
     def plugin(self, path):
-        """The name of the only subject in a shared object, and its description."""
+        """The name and the description of the only subject in a shared object."""
         text = self.run('subjects', path)
         return text.split()[0], text
 
@@ -109,13 +109,13 @@ class Nearmiss:
 
 @dataclass
 class Verdicts:
-    """A subject's answers, one for each query."""
+    """A subject's answers. Arrays have one element for each query."""
 
     hit: np.ndarray  # bool
     stage: np.ndarray  # names of the accepting stages, 'none' without a hit
     time: np.ndarray  # NaN without a hit, or without a time
-    bound: np.ndarray  # bound for distances of false positives, in the queries' unit of length
-    claims: bool  # whether the subject claims this bound
+    bound: np.ndarray  # bound on distances of false positives, in the queries' unit of length
+    claims: bool  # whether the subject claims `bound`
     rounded: list  # the queries by which the subject is judged, as lines
 
     @classmethod

@@ -1,4 +1,4 @@
-"""Changes values of reports, and finds out whether a check notices the change."""
+"""Changes values of reports, to find out whether a check notices that."""
 
 import contextlib
 
@@ -15,13 +15,13 @@ def leaves(value, path=()):
 
 
 def pattern(path, names):
-    """A path without the names of subjects, kinds and families, and without list indices."""
+    """A path in which subjects, kinds, families and list indices are not distinguished."""
     return '.'.join('*' if isinstance(key, int) or key in names else key for key in path)
 
 
 def changed(value):
-    """Another value of the same type. Numbers change by more than the precision of a largest
-    ratio."""
+    """Another value of the same type. Numbers change by more than the relative error with which
+    reports give the largest ratios."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, int):
@@ -45,11 +45,11 @@ def put(json_value, path, value):
 
 
 class Found(Exception):
-    """Raised by a difference."""
+    """Raised at a difference."""
 
 
 class UntilFound(Comparison):
-    """A comparison that ends a check at its first difference."""
+    """A comparison that ends a check at the first difference."""
 
     def _note(self, sort, where, found, expected, same):
         if not same:
@@ -57,7 +57,7 @@ class UntilFound(Comparison):
 
 
 def found(check):
-    """Whether a check of a comparison finds a difference."""
+    """Whether a check, which gets a comparison, finds a difference."""
     try:
         check(UntilFound())
     except Found:

@@ -1,4 +1,5 @@
-"""Checks what a report says about run times and ways to fail since its baseline, from the stores."""
+"""Checks what a report says about changes of run times and of ways to fail since its baseline.
+Reads the stores themselves."""
 
 import json
 import math
@@ -56,7 +57,7 @@ def _is_random(family):
 
 
 def _log_time(bins):
-    """The mean logarithm of the times, its variance, and the degrees of freedom."""
+    """The mean logarithm of a family's times, its variance, and the degrees of freedom."""
     queries = sum(count for _, count in bins)
     logs = [(math.log(ps / 1000), count) for ps, count in bins]
     middle = sum(log * count for log, count in logs) / queries
@@ -65,13 +66,13 @@ def _log_time(bins):
 
 
 def _median(values):
-    """The median; between two, the one nearer to 0."""
+    """The median; of the two middle values, the one nearer to 0."""
     values = sorted(values)
     return min(values[(len(values) - 1) // 2], values[len(values) // 2], key=abs)
 
 
 class _Times:
-    """The ratios of times, and their tests."""
+    """The ratios of times to those of the baseline, and tests of these ratios."""
 
     def __init__(self, now, nights):
         self.now, self.nights = now, nights
@@ -105,14 +106,14 @@ class _Times:
         self.own[key].append(ratio - common)
 
     def _sampling(self, key):
-        """The variances of the times, each with its degrees of freedom."""
+        """The variances of a key's times, now and before, each with its degrees of freedom."""
         nights = [night.times[key] for night in self.nights if key in night.times]
         terms = [self.now.times[key], *nights]
         shares = [1, *([len(nights) ** -2] * len(nights))]
         return [(share * value, free) for share, (_, value, free) in zip(shares, terms)]
 
     def _spread(self, key):
-        """The variances of a change, each with its degrees of freedom."""
+        """The variances of a change that is due to chance, each with its degrees of freedom."""
         subject, _, family = key
         factor = 1 + 1 / len(self.own[key])
         families = [each for each in self.own if each[0] == subject and each[2] != ALL]
@@ -133,7 +134,7 @@ class _Times:
         return [*terms, (max(usual**2 - sampled, least), len(families) - 1)]
 
     def tested(self):
-        """What report.json says about each time, in order."""
+        """What report.json should say about each compared time, in order."""
         order = {'vt, ee': 'vt'}
         kinds = ['vt', 'ee']
         for key in sorted(
@@ -173,8 +174,8 @@ def _check_times(comparison, where, found, now, nights):
 
 
 def _gone(now, nights):
-    """The signatures that only the baseline has: those that are gone, and the others. Subjects
-    without faults are asked about random queries."""
+    """Two sets of signatures that only the baseline has: those that are gone, and those that
+    chance may hide. Assumes that subjects have no faults, and are asked only random queries."""
     before, seen, of_sort = defaultdict(int), defaultdict(int), defaultdict(int)
     for night in nights:
         for key, row in night.counts.items():
@@ -208,8 +209,8 @@ def _gone(now, nights):
 
 
 def check_baseline(comparison, where, found, now, nights):
-    """Checks the run times that have changed, and the signatures that are gone, by the stores of
-    the campaign and of its baseline."""
+    """Checks which run times have changed and which signatures are gone, by the stores of the
+    campaign and of its baseline."""
     now, nights = Night.of(now), [Night.of(each) for each in nights]
     _check_times(comparison, where, found, now, nights)
     for name, expected in zip(('gone', 'unrepeated'), _gone(now, nights)):

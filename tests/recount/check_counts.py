@@ -31,8 +31,8 @@ def check_statistics(comparison, where, json, answers):
 
 
 def _check_sum(comparison, where, found, answers, subject, kind, families):
-    """Checks all counters of one subject over the queries of some families, except times, and the
-    extreme cases that are kept."""
+    """Checks all counters of one subject over the queries of some families, except run times.
+    Also checks the extreme cases that the report keeps."""
     tally = Tally.of(answers, subject, [kind], families)
     check_rates(comparison, where, found, tally)
     expected = {
@@ -52,12 +52,13 @@ def _check_sum(comparison, where, found, answers, subject, kind, families):
 
 
 def check_rates(comparison, where, found, tally):
-    """Checks the measures that report.json has of every sum, but for run times."""
+    """Checks the measures that report.json has for every sum, except run times."""
     comparison.entries('counters', where, found, measures(found, tally))
 
 
 def measures(found, tally):
-    """What is expected of measures by their keys. The largest numbers of `found` end its quantiles."""
+    """What is expected of each measure, by its key. The highest bin of a quantile ends at the
+    largest number in `found`."""
     missed, false = tally.false_negatives, tally.false_positives
     of_negatives, of_positives = denominators(tally)
     times, by_wang = tally.times, 0 if tally.claims else false
@@ -97,7 +98,7 @@ def measures(found, tally):
 
 
 def _check_oracle(comparison, where, found, answers):
-    """Checks what the oracle decided, of each family and in all."""
+    """Checks what the oracle decided, for each family and in total."""
     none = {'disagreements': 0, 'mismatches_with_recorded_truth': 0}
     comparison.entries('oracle', where, found, none)
     sums = Counter()
@@ -121,7 +122,7 @@ def _check_truth(comparison, where, found, truth):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that each false negative, each late time and each refuted bound counts for one signature."""
+    """Checks that each false negative, late time and refuted bound is in one signature."""
     sums = Counter()
     for each in found:
         sums[each['what'], each['subject']] += each['seen']

@@ -1,12 +1,12 @@
-"""Checks that the CSV files of a report have the numbers of report.json, which are checked elsewhere:
-statistics.csv, classes.csv, distances.csv, times.csv and findings.csv."""
+"""Checks that the CSV files of a report have the numbers of report.json, which other modules
+check: statistics.csv, classes.csv, distances.csv, times.csv and findings.csv."""
 
 import csv
 import math
 
 from check_findings import check_findings
 
-# Columns with a count for each name, by their prefix, and the object in report.json.
+# The columns with a count for each name: their prefix, and the object in report.json.
 NAMED = {
     'fault_': 'faults',
     'missed_': 'false_negatives_by_class',
@@ -14,7 +14,7 @@ NAMED = {
     'false_by_': 'false_positives_by_stage',
     'rejected_by_': 'rejected_by',
 }
-ENDS = ('_from', '_to')  # of the two columns of a range
+ENDS = ('_from', '_to')  # of the headings of the two columns of a range
 
 
 def read(folder, name):
@@ -44,7 +44,7 @@ def _rows(report, part):
 
 
 def _value(counts, column):
-    """The value in report.json of a column of statistics.csv."""
+    """The value in report.json for a column of statistics.csv."""
     for prefix, name in NAMED.items():
         if column.startswith(prefix):
             return counts[name].get(column.removeprefix(prefix), 0)
@@ -58,8 +58,8 @@ def _value(counts, column):
 
 
 def _check_rows(comparison, name, rows, expected, of):
-    """Checks the rows of statistics.csv or classes.csv; `of` is the heading of families or classes.
-    Run times of single queries are rounded, and left out."""
+    """Checks the rows of statistics.csv or classes.csv; `of` is the heading of families or
+    classes. Leaves out run times of single queries, because they are rounded."""
     found = [(row['subject'], row['kind'], row[of]) for row in rows]
     comparison.same('CSV', f'{name} rows', found, list(expected))
     for key, row in zip(found, rows):
@@ -70,8 +70,7 @@ def _check_rows(comparison, name, rows, expected, of):
 
 
 def _check_statistics(comparison, name, folder, report, _answers):
-    """Checks all counters and measures by family. The columns by stage must have the names in
-    report.json."""
+    """Checks all counters and measures by family. Columns name stages as report.json does."""
     rows = read(folder, name)
     by_stage = [column for column in rows[0] if column.startswith('true_by_')]
     expected = ['true_by_none', *(f'true_by_{stage}' for stage in report['stages'])]
@@ -85,7 +84,7 @@ def _check_classes(comparison, name, folder, report, _answers):
 
 
 def _bins(report, histogram):
-    """The borders and the count of each bin that is not empty."""
+    """The borders and the count of each bin of a histogram that is not empty."""
     borders = [*report['histogram_borders'], math.inf]
     return [(*borders[i : i + 2], count) for i, count in enumerate(histogram) if count]
 
@@ -108,7 +107,7 @@ def _check_distances(comparison, name, folder, report, _answers):
 
 
 def _check_times(comparison, name, folder, report, _answers):
-    """Checks the bins of the errors of times, on both sides of the earliest time."""
+    """Checks the bins of the errors of times, before and after the earliest time."""
     expected = [
         (*key, side, *each)
         for key, counts in _rows(report, 'families').items()
@@ -125,7 +124,7 @@ def _check_findings(comparison, name, folder, report, answers):
     check_findings(comparison, f'{name} row', rows, 'query', report, answers)
 
 
-# The check of each file.
+# The check for each file.
 CSV_CHECKS = {
     'statistics.csv': _check_statistics,
     'classes.csv': _check_classes,

@@ -1,8 +1,9 @@
 """Checks the section "deciders" of report.json: which stage decided, for subjects that pass
 queries on.
 
-The section adds up counts by the accepting stage and by the rejection. Only a campaign knows the
-rejection, so the expected sums come from the section "subjects", which is checked elsewhere."""
+The section adds up counts by accepting stage and by reason of rejection. Only a campaign knows
+why a pair was rejected, so the expected sums come from the section "subjects", which other
+modules check."""
 
 from asking import KINDS
 
@@ -24,7 +25,7 @@ def check_deciders(comparison, where, report, answers):
 
 
 def _row(subject, family):
-    """The number of queries of both kinds that each decider decided."""
+    """For each decider, the number of queries of both kinds that it decided."""
     deciders = {'algorithm': 0, 'filter': 0, 'finer': 0, 'exact': 0}
     for kind in KINDS:
         counts = subject[kind]['families'].get(family) if family else subject[kind]

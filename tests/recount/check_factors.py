@@ -1,4 +1,4 @@
-"""Checks which factors the missed collisions of a family have in common."""
+"""Checks which values of factors the missed collisions of a family have in common."""
 
 import itertools
 
@@ -22,8 +22,8 @@ def check_common_factors(comparison, where, report, answers):
 
 
 def common_factors(answers, subject, kind, family):
-    """The values of one or two factors that have the largest lift among those that at least half of
-    the misses have; None if there are no misses or no factors."""
+    """One or two values of factors: those with the largest lift, among those that at least half
+    of the misses have. None if there are no misses or no factors."""
     asked = answers.asked[subject, kind]
     collisions, misses = {}, {}
     for i, own in enumerate(answers.family[kind]):

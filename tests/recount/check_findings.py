@@ -4,8 +4,8 @@ from check_numbers import check_query
 
 
 def check_findings(comparison, where, rows, query, report, answers):
-    """Checks that each finding is a query of the campaign that fails in the recorded way. The key of
-    the query is given. Values may be numbers or text."""
+    """Checks that each finding is a query of the campaign that fails in the recorded way. `key`
+    is the name of the query's field. Values may be numbers or text."""
     seen = {
         (each['what'], each['subject'], each['signature']): each['seen']
         for each in report['signatures']

@@ -1,12 +1,12 @@
-"""Checks the extreme cases that are kept: the farthest false positives, and the earliest and the
-latest times."""
+"""Checks the kept extreme cases: the farthest false positives, the earliest and latest times."""
 
 from asking import KINDS
 from check_numbers import check_query
 from enclosed import PRECISION
 from tally import Tally
 
-# The numbers of the cases, and their key, by the list that keeps the cases of a sum.
+# For each list in which the report keeps cases: the histogram of their numbers, and the field of a
+# case that has its number.
 KEPT = {
     'farthest': ('fp_distance', 'ratio'),
     'earliest': ('early', 'error'),
@@ -15,7 +15,7 @@ KEPT = {
 
 
 def check_kept(comparison, where, found, tally, answers, kind):
-    """Checks the numbers and the queries of the cases that are kept of a sum."""
+    """Checks the numbers and the queries of the cases that are kept for a sum."""
     for name, (of, key) in KEPT.items():
         numbers = tally.enclosed[of]
         expected = (numbers if key == 'ratio' else numbers[numbers.hi > 0]).largest()
@@ -27,7 +27,7 @@ def check_kept(comparison, where, found, tally, answers, kind):
 
 
 def _check_case(comparison, where, case, answers, subject, kind, of, key):
-    """Checks a case with its provenance, its number, and its query. Returns the index of the query."""
+    """Checks a case by its provenance, its number and its query. Returns the index of the query."""
     place, asked = answers.place(kind, case['provenance']), answers.asked[subject, kind]
     if place is None or not asked.enclosed(of).lo[place] >= 0:
         comparison.fail('provenances', where, case['provenance'], f'a query with a number {of}')

@@ -1,4 +1,4 @@
-"""Checks numbers of which enclosures are known (quantiles and histograms), and queries."""
+"""Checks quantiles and histograms, whose numbers are known as enclosures, and queries."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from comparison import Within
 from enclosed import BINS, BORDERS, LARGEST
 
 ROUNDING = 1e-12  # relative error of a quotient of two counts
-SOLVED = 1e-9  # relative error of the solution of an equation, and of values computed from it
+SOLVED = 1e-9  # relative error of an equation's solution, and of values computed from it
 
 
 def quantile(enclosed, part, largest):
-    """The range of each end of a quantile's bin, which ends at the largest number."""
+    """The range of each end of a quantile's bin. The bin ends at the largest number."""
     bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))
@@ -19,13 +19,13 @@ def quantile(enclosed, part, largest):
 
 
 def outward(least, most):
-    """The range, widened by the rounding error of a border."""
+    """The range, widened by the rounding error of a bin's border."""
     return least * (1 - ROUNDING), most if most >= LARGEST else most * (1 + ROUNDING)
 
 
 def check_histogram(comparison, where, found, enclosed):
-    """Checks that each bin counts at least the numbers certainly in it, and at most those that may
-    be in it."""
+    """Checks that each bin counts at least the numbers that are certainly in it, and at most
+    those that may be in it."""
     least, most = enclosed.histogram
     comparison.same('histogram bins', f'{where} sum', sum(found), len(enclosed))
     if len(found) != BINS:
@@ -37,6 +37,6 @@ def check_histogram(comparison, where, found, enclosed):
 
 
 def check_query(comparison, where, found, line):
-    """Checks a query, as a line or as a list of numbers."""
+    """Checks a query, which is a line or a list of numbers."""
     numbers = [float.fromhex(word) for word in found.split()] if isinstance(found, str) else found
     comparison.same('provenances', where, numbers, [float.fromhex(word) for word in line.split()])

@@ -1,4 +1,4 @@
-"""Checks the section verdicts of report.json: a row for each subject, for the page's first table."""
+"""Checks the section verdicts of report.json, the rows of the page's first table."""
 
 from asking import KINDS
 from check_counts import check_rates
@@ -8,8 +8,8 @@ from tally import ON_REQUEST, Tally, classes_of, failures_of
 
 
 def check_scorecard(comparison, where, report, answers):
-    """Checks the rates of each subject over both kinds, as a whole and class by class, and which
-    finding is the simplest."""
+    """Checks the rates of each subject over both kinds, in total and class by class, and which
+    of its findings is the simplest."""
     rows = report['verdicts']
     comparison.same('names', where, [row['subject'] for row in rows], answers.subjects)
     for row in rows:
@@ -38,8 +38,8 @@ def check_scorecard(comparison, where, report, answers):
 
 
 def _check_simplest(comparison, where, index, subject, findings):
-    """The least exotic queries come first; then misses, late times and other failures; among equals,
-    the simplest."""
+    """The order of findings: by exoticness of the query, then misses before late times before
+    other failures, then the simplest first."""
     ranks = {
         i: (
             exoticness(each['class'], each['shrunk']),

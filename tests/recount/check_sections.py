@@ -13,8 +13,8 @@ from enclosed import BORDERS
 from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
 from tally import Tally, failures_of
 
-TIME = 'ns_per_query'  # the field with the time that a front compares
-COARSEST, FINEST = -23, -127  # range of exponents of epsilon in a fit
+TIME = 'ns_per_query'  # the field with the run time, by which a front compares subjects
+COARSEST, FINEST = -23, -127  # range of binary exponents of epsilon in a fit
 
 
 def check_borders(comparison, where, report):
@@ -30,7 +30,7 @@ def places(subject):
 
 
 def slack(subject):
-    """Relative error of a claim from the rounding of B in the subject's scalar."""
+    """The relative error of a claim, because B is rounded in the subject's scalar."""
     return 65 * 2.0 ** place(subject)[2] + ROUNDING
 
 
@@ -62,7 +62,7 @@ def check_trade_offs(comparison, where, found, answers, units):
 
 
 def _check_fronts(comparison, where, found):
-    """Checks the Pareto fronts. The expected ones use the report's own times."""
+    """Checks the Pareto fronts. The expected fronts use the report's own run times."""
     sound = {name: each for name, each in found['subjects'].items() if each['sound']}
     bounds = {
         name: {TIME: each[TIME], 'earliness': each['q99_early'][1]}
@@ -85,8 +85,8 @@ def _check_fronts(comparison, where, found):
 
 
 def front(subjects, error):
-    """The names on the front, fastest first: no other subject is at least as fast with at most the
-    same error.
+    """The names on the front, fastest first. A subject is on the front if no other is at least
+    as fast with an error that is at most the same.
 
     If several subjects have equal times and errors, only the first name is on the front."""
     chosen = [
@@ -106,7 +106,7 @@ def _beats(other, name, subjects, error):
 
 
 def check_ladder(comparison, where, report, answers, units):
-    """Checks the ladder of precisions: a rung for each subject of its algorithms, and the fits."""
+    """Checks the ladder of precisions: a rung for each subject on it, and the fits."""
     rungs = [
         (subject, *place(subject))
         for subject in answers.subjects
@@ -141,10 +141,11 @@ def check_ladder(comparison, where, report, answers, units):
 
 
 def fits(report):
-    """What is expected of the fits of each algorithm's farthest distance as a power of epsilon.
+    """What is expected of the fits, in which each algorithm's farthest distance is a power of
+    epsilon.
 
-    The fits are over all families ("") and by family. The fits use the report's largest ratios,
-    which are checked elsewhere."""
+    A fit is over all families ("") or over one. The fits use the report's largest ratios, which
+    other modules check."""
     lines = []
     families = sorted(
         {
@@ -181,8 +182,8 @@ def fits(report):
 
 
 def _points(report, algorithm, origin):
-    """Exponents of epsilon, binary logarithms of the farthest distances in units of B, and the
-    ratios of these distances to the claimed ones."""
+    """For each rung: the exponent of epsilon, the binary logarithm of the farthest distance in
+    units of B, and the ratio of this distance to the claimed one."""
     points = []
     for rung in report['ladder']['rungs']:
         own = report['subjects'][rung['subject']]

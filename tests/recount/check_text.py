@@ -1,7 +1,7 @@
 """Checks texts in a report and in the output: headline, verdicts, tables, and lines with numbers.
 
-Numbers in text are rounded. Therefore the expected texts are made from the numbers of report.json,
-which are checked elsewhere."""
+Numbers in text are rounded. Therefore the expected texts are made from the numbers of
+report.json, which other modules check."""
 
 import itertools
 import math
@@ -22,7 +22,7 @@ def _upper_end(key):
     return lambda counts: f'{counts[key][1]:.2g}'
 
 
-# What a table shows of the counters in a row, by the heading of the column.
+# For each heading of a column: the text that a table shows, from the counters of its row.
 COLUMNS = {
     'queries': _whole('queries'),
     'collisions': _whole('collisions'),
@@ -109,14 +109,14 @@ def _check_output(comparison, where, text, report):
 
 
 def _check_lines(comparison, where, lines, begin, expected):
-    """Checks the lines that begin in a way, a regular expression."""
+    """Checks the lines whose beginning matches a regular expression."""
     found = [line for line in lines if re.match(begin, line)]
     comparison.same('text', where, found, expected)
 
 
 def _check_table(comparison, where, lines, headings, sums):
-    """Checks the table with these headings, and perhaps a last column of run times: a row for each of
-    the sums, which the first cells name."""
+    """Checks the table with these headings, whose last column may be run times. It has a row for
+    each of the sums, whose names are in the first cells."""
     cells = [re.split(r' {2,}', line.strip()) for line in lines]
     headings = headings.split('  ')
     starts = [i for i, row in enumerate(cells) if row in (headings, [*headings, TIME])]
@@ -138,7 +138,7 @@ def _check_ladder(comparison, lines, found):
 
 
 def _common_factors(found):
-    """What the missed collisions of a family have in common."""
+    """What the missed collisions of a family have in common, as a line."""
     return (
         f'{found["subject"]} {found["kind"]}, {found["family"]}: {found["false_negatives"]:,} of '
         f'{counted(found["collisions"], "collision")} missed; {found["text"]}'

@@ -29,7 +29,7 @@ def check_versions(comparison, where, report, answers):
 
 
 def rows(before, after, report, answers):
-    """A row for each class of families and kind."""
+    """A row for each class of families and each kind."""
     for of in CLASSES:
         for kind in KINDS:
             families = report['subjects'][after][kind]['families']

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Near:
-    """What is expected of a number: a value up to a relative error, or None."""
+    """Expects a number up to a relative error, or None."""
 
     value: float
     relative: float
@@ -14,7 +14,7 @@ class Near:
 
 @dataclass
 class Within:
-    """What is expected of a number: a range."""
+    """Expects a number in a range."""
 
     least: float
     most: float
@@ -22,7 +22,7 @@ class Within:
 
 @dataclass
 class Comparison:
-    """Counts compared values by sort of check, and keeps each difference as a line of text."""
+    """Counts compared values by sort of check, and keeps a line of text for each difference."""
 
     compared: dict = field(default_factory=dict)
     differences: list = field(default_factory=list)
@@ -38,8 +38,7 @@ class Comparison:
         self._note(sort, where, found, expected, found == expected)
 
     def near(self, sort, where, found, expected, relative):
-        """`found` must equal the expected number up to a relative error, or None if None is
-        expected."""
+        """`found` must be the expected number up to a relative error, or None if expected."""
         if found is None or expected is None:
             return self.same(sort, where, found, expected)
         is_near = _is_number(found) and math.isclose(found, expected, rel_tol=relative)
@@ -53,8 +52,8 @@ class Comparison:
         )
 
     def entries(self, sort, where, found, expected):
-        """`found` must have these values, and numbers near or within what is expected, by their keys.
-        It may have more."""
+        """`found` must have these keys, with equal values, or with numbers that satisfy a Near
+        or Within. It may have more keys."""
         for key, value in expected.items():
             self._entry(sort, f'{where} {key}', found[key], value)
 
@@ -75,7 +74,7 @@ class Comparison:
         self._note(sort, where, found, expected, False)
 
     def agree(self, sort, count):
-        """Adds the number of values that are as expected."""
+        """Counts values that are as expected."""
         self.compared[sort] = self.compared.get(sort, 0) + count
 
     def section(self, check, where, *arguments):
@@ -86,8 +85,7 @@ class Comparison:
             self.fail('structure', where, repr(error), 'something to read')
 
     def allow(self, what, count=1):
-        """Adds the number of values for which two results are allowed, because an enclosure
-        contains a border."""
+        """Counts values with two allowed results, because an enclosure contains a border."""
         self.either_way[what] = self.either_way.get(what, 0) + count
 
     def print(self):

@@ -1,22 +1,22 @@
-"""Numbers of which enclosures are known, and their histograms."""
+"""Numbers that are known as enclosures, and their histograms."""
 
 import functools
 from dataclasses import dataclass
 
 import numpy as np
 
-# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One more bin lies below
-# all borders and one above.
+# The borders of the histogram's bins, four to a decade from 10^-16 to 10^1. The first bin lies
+# below all borders, and the last one above.
 BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
 BINS = len(BORDERS) + 1
-KEPT = 5  # number of the most extreme cases that are kept
+KEPT = 5  # number of extreme cases that a report keeps
 PRECISION = 1.01e-3  # relative error by which a reported number may exceed the true one
 LARGEST = np.finfo(float).max
 
 
 @dataclass
 class Enclosed:
-    """The lower and the upper ends of some numbers."""
+    """Some numbers, each of which is between a lower and an upper end."""
 
     lo: np.ndarray
     hi: np.ndarray
@@ -29,19 +29,19 @@ class Enclosed:
 
     @classmethod
     def joined(cls, parts):
-        """All numbers of several parts."""
+        """The numbers of several parts together."""
         return cls(
             *(np.concatenate([getattr(part, end) for part in parts]) for end in ('lo', 'hi'))
         )
 
     @functools.cached_property
     def bins(self):
-        """The histogram's bins of each number, by its lower and by its upper end."""
+        """For each number, the histogram's bin of its lower end and that of its upper end."""
         return [np.searchsorted(BORDERS, end, side='right') for end in (self.lo, self.hi)]
 
     @functools.cached_property
     def histogram(self):
-        """For each bin, the number of numbers certainly in it, and the number that may be in it."""
+        """For each bin, how many numbers are certainly in it, and how many may be in it."""
         first, last = self.bins
         least = np.bincount(first[first == last], minlength=BINS)
         most = least.copy()
@@ -50,23 +50,21 @@ class Enclosed:
         return least, most
 
     def largest(self):
-        """The ranges of the largest numbers as they are reported, largest first."""
+        """The ranges in which a report may give the largest numbers, largest first."""
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
     def most(self):
-        """The range of the largest number; 0 without numbers."""
+        """The range in which a report may give the largest number; 0 without numbers."""
         return self.largest()[0] if len(self) else (0, 0)
 
     def reported(self, place):
-        """The range of one number as it is reported."""
+        """The range in which a report may give one of the numbers."""
         return reported(self.lo[place], self.hi[place])
 
     def quantile_bins(self, part):
-        """The first and the last bin that may contain the number that a fraction `part` of all does
-        not exceed.
-
-        The result is None without numbers."""
+        """The first and the last bin in which the quantile may be, a number that a fraction
+        `part` of all numbers does not exceed. None without numbers."""
         if len(self) == 0:
             return None
         place = max(int(np.ceil(part * len(self))), 1) - 1
@@ -74,9 +72,9 @@ class Enclosed:
 
 
 def reported(lo, hi):
-    """The range of a reported number whose true value is from lo to hi. Reports round up.
+    """The range in which a report may give a number between lo and hi. Reports round up.
 
-    The largest double stands for infinity. For a number below all borders, a report need not know
-    more than that."""
+    The largest double stands for infinity. If a number is below all borders, a report need not
+    tell more than that."""
     most = BORDERS[0] if lo < BORDERS[0] else 0
     return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)

@@ -1,4 +1,4 @@
-"""Times of impact: which sort a subject gives, and how far they are from the exact ones."""
+"""Times of impact: their sort for each subject, and how far they are from the exact ones."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from asking import KINDS
 from enclosed import BORDERS, Enclosed, PRECISION
 from scalars import EPSILONS, paper_bound
 
-SORTS = {  # of built-in subjects with times, over all scalars
+SORTS = {  # the sorts of the built-in subjects with times, over all scalars
     'basic': 'estimate',
     'basic-plain': 'estimate',
     'wang-time': 'lower-bound',
@@ -22,22 +22,21 @@ SPLIT = dict(zip(KINDS, (1, 2)))  # the first vertex of the second primitive
 
 
 def sort_of(subject, description):
-    """The sort of time, from the name of a built-in subject, or from what nearmiss subjects says about
-    a plug-in."""
+    """The sort of time of a subject: by a plug-in's description, or a built-in one's name."""
     built_in = SORTS.get(subject.split(':')[0], 'none')
     return next((sort for words, sort in WORDS.items() if words in description), built_in)
 
 
 @dataclass
 class Impact:
-    """The times of one subject for the queries of one kind. Arrays have one element for each query.
-
-    Enclosures are NaN unless the time is on their side."""
+    """The times of one subject for the queries of one kind. Arrays have one element for each
+    query. An enclosure of `early`, `after` or `travelled` is NaN if the query has no such
+    number."""
 
     sort: str
     time: np.ndarray  # as the subject gives it; NaN unless it is a true positive with a time
     early: Enclosed  # t* - time, if the time is not after t*
-    after: Enclosed  # time - t*, if it is
+    after: Enclosed  # time - t*, if the time is after t*
     travelled: Enclosed  # relative motion of the vertices in the time `early`, divided by B
     stuck: np.ndarray  # bool
 
@@ -47,18 +46,18 @@ class Impact:
 
     @property
     def late(self):
-        """Whether nothing was to happen before a time after t*."""
+        """Whether the time is after t*, although it was promised as a lower bound of t*."""
         return ~np.isnan(self.after.lo) & (self.sort == 'lower-bound')
 
 
 def compare(nearmiss, times, kind, sort, verdicts, judged, collision):
-    """Compares the times of true positives with t*; `times` knows the enclosures of t*."""
+    """Compares the times of true positives with t*. `times` gives the enclosures of t*."""
     given = verdicts.hit & collision & ~np.isnan(verdicts.time) & (sort != 'none')
     own = np.flatnonzero(given)
     lo, hi = (np.full(len(judged), np.nan) for _ in range(2))
     lo[own], hi[own] = times.of([judged[i] for i in own])
     time = np.where(given, verdicts.time, np.nan)
-    is_after = (time >= hi) & ~((lo == hi) & (time == lo))  # an open interval if lo < hi
+    is_after = (time >= hi) & ~((lo == hi) & (time == lo))  # t* is inside if lo < hi
     early = _where(given & ~is_after, lo - time, hi - time)
     after = _where(is_after, time - hi, time - lo)
     stuck = (time == 0) & (hi > 0)
@@ -74,7 +73,8 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision):
 
 
 def _where(is_there, lo, hi):
-    """The enclosures of differences that are not negative, widened by their rounding errors."""
+    """Enclosures of differences where `is_there`, NaN elsewhere. They are cut off below 0, and
+    widened by the rounding errors."""
     return Enclosed(
         np.where(is_there, np.maximum(lo, 0) * (1 - ROUNDING), np.nan),
         np.where(is_there, np.maximum(hi, 0) * (1 + ROUNDING), np.nan),
@@ -82,8 +82,8 @@ def _where(is_there, lo, hi):
 
 
 def _speeds(nearmiss, kind, queries):
-    """The largest relative motions of vertices of the two primitives in the whole step, divided by
-    the bound B of the pair, which wang's claimed bound is proportional to."""
+    """The largest relative motions between vertices of the two primitives in the whole step,
+    divided by the pair's B. The bound that wang claims is a multiple of B."""
     if not queries:
         return Enclosed(np.zeros(0), np.zeros(0))
     bound = nearmiss.verdicts(kind, queries, 'wang').bound
@@ -96,8 +96,8 @@ def _speeds(nearmiss, kind, queries):
         relative = np.linalg.norm(first[:, :, None] - second[:, None, :], axis=-1)
         relative = np.nan_to_num(relative, nan=0, posinf=np.inf)
         speed = relative.max(axis=(1, 2))
-        speed[np.isinf(speed)] = 0  # as in the report
-        # The quotients are rounded; a subnormal bound has few digits.
+        speed[np.isinf(speed)] = 0  # as in the program that makes the report
+        # The quotients are rounded, and a subnormal bound has few digits.
         relative_error = 1e-12 + 1e-322 / bound
         slack = np.nan_to_num(
             1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf
@@ -107,7 +107,7 @@ def _speeds(nearmiss, kind, queries):
 
 @dataclass
 class Times:
-    """Times of impact over some queries."""
+    """The times of impact of a subject over some queries."""
 
     sort: str  # 'none' without times
     given: int
@@ -120,7 +120,7 @@ class Times:
 
     @classmethod
     def of(cls, impacts, own):
-        """Adds up the times of some queries of each kind."""
+        """Adds up the times of some queries of each kind; `own` selects them."""
         of_kinds = list(zip(impacts, own))
         given, late, stuck = (
             sum(int(getattr(each, name)[some].sum()) for each, some in of_kinds)
@@ -136,7 +136,7 @@ class Times:
 
     @property
     def errors(self):
-        """The magnitudes of the differences on both sides."""
+        """The differences from t*, before and after it, as positive numbers."""
         return Enclosed.joined([self.early, self.after])
 
 

@@ -1,5 +1,5 @@
-"""The class of a single query, by the rules of fuzz/families/README.md, in fractions. Decisions and
-earliest times come from the oracle."""
+"""The class of a single query, by the rules of fuzz/families/README.md, computed in fractions.
+The oracle decides the queries, and gives their earliest times."""
 
 import math
 import sys
@@ -7,9 +7,9 @@ from fractions import Fraction
 
 EDGES = {'vt': [(1, 2), (2, 3), (3, 1)], 'ee': [(0, 1), (2, 3)]}
 GAPS = {'vt': [(0, 1), (0, 2), (0, 3)], 'ee': [(0, 2), (0, 3), (1, 2), (1, 3)]}
-NEARLY = 1e-6  # of the step, of the longest edge, or of h
-VERY_NEARLY = Fraction(1, 10**12)  # its square
-FAR = 1000  # a factor between sizes
+NEARLY = 1e-6  # as a part of the step, of the longest edge, or of h
+VERY_NEARLY = Fraction(1, 10**12)  # the square of NEARLY
+FAR = 1000  # ratio of sizes above which they differ too much
 VERY_FAR = 10**8
 
 
@@ -53,7 +53,8 @@ class _Moving:
         return _determinant(*(_minus(x[i], x[0]) for i in (1, 2, 3)))
 
     def squares(self, x):
-        """The squares of the lengths whose product bounds F: of both primitives, and between them."""
+        """The squares of three lengths whose product bounds F: of the first primitive, of the
+        second, and between them."""
 
         def sum_of(pairs):
             return [_dot(_minus(x[a], x[b]), _minus(x[a], x[b])) for a, b in pairs]
@@ -98,7 +99,7 @@ def _is_near_segment(p, a, b, squared):
 
 
 def _root(query, lo, hi):
-    """A time near the root of F in an enclosure of the earliest time."""
+    """A time near the root of F that lies in an enclosure of the earliest time."""
     lo, hi = Fraction(lo), Fraction(hi)
     at_0, at_1, at_2, at_3 = (query.volume(query.at(t)) for t in range(4))
     first, second, third = at_1 - at_0, at_2 - 2 * at_1 + at_0, at_3 - 3 * at_2 + 3 * at_1 - at_0
@@ -149,7 +150,7 @@ def _numbers(line):
 
 
 def query_classes(nearmiss, kind, lines):
-    """The classes of queries, which are lines."""
+    """The classes of queries, which are given as lines."""
     queries = {line: _Moving(kind, _numbers(line)) for line in lines}
     classes = {line: 'extreme' for line, query in queries.items() if _is_extreme(query)}
     for line, query in queries.items():
@@ -183,7 +184,7 @@ def _with_separation(line, h):
 
 
 def exoticness(of, numbers):
-    """The rank by which failures are shown."""
+    """The rank of a query when failures are sorted."""
     if of != 'degenerate':
         return {'ordinary': 0, 'extreme': 4, 'unclassified': 5}[of]
     points = [tuple(numbers[i : i + 3]) for i in range(0, 24, 3)]
@@ -193,7 +194,7 @@ def exoticness(of, numbers):
 
 
 def complexity(numbers):
-    """How simple a query is: two of them compare as these tuples do."""
+    """How simple a query is. Of two queries, the one with the smaller tuple is simpler."""
     start, end, h = numbers[:12], numbers[12:24], (numbers[24:] or [0])[0]
     magnitudes = {abs(x) for x in numbers if x}
 

@@ -2,8 +2,8 @@
 """Recomputes a report from single queries, and prints the differences.
 
 It runs a campaign and writes its report. Then it asks the same executable about the same queries
-one by one (nearmiss family, oracle and verdict), and recomputes everything except times with NumPy
-and SciPy. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
+one by one (nearmiss family, oracle and verdict), and recomputes everything except run times with
+NumPy and SciPy. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
 
 import argparse
 import json
@@ -39,7 +39,7 @@ def counts_of(report):
 
 
 def check_report(comparison, report, answers, units):
-    """Checks everything in report.json."""
+    """Checks everything in report.json that can be recomputed."""
     schema = Path(__file__).parents[2] / 'reports' / 'report.schema.json'
     version = json.loads(schema.read_text())['properties']['schema_version']['const']
     comparison.same('names', 'schema_version', report['schema_version'], version)
@@ -62,7 +62,7 @@ def check_report(comparison, report, answers, units):
 
 
 def check_all(comparison, report, answers, units):
-    """Checks everything in a campaign's output and in its report."""
+    """Checks everything in a campaign's output and in its report that can be recomputed."""
     json_report = report.json()
     check_report(comparison, json_report, answers, units)
     comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
@@ -81,7 +81,7 @@ def check_cases(comparison, found, cases, counts, seed):
 
 
 def note_either_way(comparison, answers):
-    """Counts the enclosures that contain a border of bins, or the bound itself."""
+    """Counts enclosures that contain a bin's border or the bound: two results are allowed."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         for name, enclosed in tally.enclosed.items():

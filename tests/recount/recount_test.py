@@ -1,5 +1,5 @@
 #!/usr/bin/python3 -B
-"""Tests that a report agrees with its queries, and that recount notices a change of any value."""
+"""Tests that a report agrees with its queries, and that recount notices changed values."""
 
 import argparse
 import copy
@@ -24,18 +24,18 @@ from check_text import check_text
 from comparison import Comparison
 from recount import check_report, recount
 
-# The subjects: one that misses, several with valid claims at various precisions, one that passes
-# queries on, one whose claim is refuted, and one with exact times; two plug-ins give estimates of
-# times, and lower bounds that are late. The other plug-ins export the name of the latter, so they
-# are its versions.
+# The subjects: one that misses collisions, several with valid claims at various precisions, one
+# that passes queries on, one whose claim is refuted, and one with exact times. Two plug-ins give
+# times: estimates, and lower bounds that are late. The other plug-ins export the name of the second
+# one, so they are its versions.
 SUBJECTS = 'adaptive,basic,wang,wang:float,wang:p60,wang:p144,defect:D2*10,exact'.split(',')
 PLUGINS = ['sampling', 'promises']
-VERSIONS = {'v1': 'v1', 'second': 'v2'}  # names of subjects and plug-ins
+VERSIONS = {'v1': 'v1', 'second': 'v2'}  # names of subjects, and the plug-ins that they are
 CASES, SEED = 2200, 7
 
-# Values that cannot be recomputed: times; facts about the machine of a run; the oracle's counters
-# of its own work; shrunk queries. The headline and the texts of verdicts have a separate test. The
-# number of findings and the names of stages are compared with the CSV files.
+# Values that recount cannot recompute: run times, facts about the machine of a run, the oracle's
+# counters of its own work, and shrunk queries. A separate test checks the headline and the texts of
+# verdicts. The number of findings and the names of stages are compared with the CSV files.
 UNCHECKED = [
     r'^findings_total$',
     r'^stages\b',
@@ -63,7 +63,7 @@ def _is_larger(leaf, other):
 
 
 class Recount(unittest.TestCase):
-    """One campaign, which all tests share."""
+    """One campaign, which all tests use."""
 
     @classmethod
     def setUpClass(cls):
@@ -86,19 +86,18 @@ class Recount(unittest.TestCase):
 
     @staticmethod
     def finds(check, where, *arguments):
-        """Whether a check finds a difference."""
+        """Whether a check finds a difference in the campaign."""
         return found(lambda comparison: comparison.section(check, where, *arguments))
 
     def finds_in_report(self, path, value):
-        """Whether a difference is found if report.json has this value at the path."""
+        """Whether a check finds a difference if report.json has this value at the path."""
         with put(self.json, path, value):
             return found(
                 lambda comparison: check_report(comparison, self.json, self.answers, self.units)
             )
 
     def one_leaf_of_each_pattern(self, value):
-        """Takes the largest value of each sort, because a change of a large number is the
-        clearest."""
+        """The path of the largest value of each sort, whose change is the easiest to notice."""
         chosen = {}
         for path, leaf in leaves(value):
             of = pattern(path, self.names)
@@ -159,7 +158,7 @@ class Recount(unittest.TestCase):
                 self.assertTrue(self.finds_in_csv(name, self.report.folder))
 
     def finds_in_csv(self, name, folder):
-        """Whether a difference is found in a CSV file of a folder."""
+        """Whether a check finds a difference in a CSV file of a folder."""
         return self.finds(CSV_CHECKS[name], name, folder, self.json, self.answers)
 
     def test_ties_on_a_front(self):
@@ -168,7 +167,7 @@ class Recount(unittest.TestCase):
         self.assertEqual(front(subjects, 'error'), ['a', 'better'])
 
     def copy_with_change(self, name, column):
-        """Copies the CSV files with another value in one column of a row in the middle."""
+        """Copies the CSV files, with another value in one column of a row in the middle."""
         folder = self.folder / 'copy'
         folder.mkdir(exist_ok=True)
         for file in self.report.folder.glob('*.csv'):
@@ -211,12 +210,12 @@ class Recount(unittest.TestCase):
                     self.assertTrue(self.finds_in_text(other))
 
     def finds_in_text(self, report):
-        """Whether a difference is found in the texts of this report."""
+        """Whether a check finds a difference in the texts of this report."""
         return self.finds(check_text, 'report.json', report, self.json)
 
     @staticmethod
     def checked_lines(text):
-        """The lines with verdicts, table rows, the oracle's counters, factors, versions, and fits."""
+        """The compared lines: verdicts, rows, the oracle's counters, factors, versions, fits."""
         is_checked = re.compile(
             r'(FAIL| ok ) |oracle: |[a-z]\S* +(vt|ee|2\^)|[a-z]\S* against | *wang.* goes as '
         )
@@ -224,7 +223,7 @@ class Recount(unittest.TestCase):
 
     @staticmethod
     def with_other_digit(line):
-        """The line with another last digit in the last number before a time."""
+        """The line with another last digit in its last number, run times aside."""
         end = line.rindex('  ') if re.search(r'  (vt|ee|2\^\S+) ', line) else len(line)
         i = max(i for i in range(end) if line[i].isdigit())
         return f'{line[:i]}{(int(line[i]) + 1) % 10}{line[i + 1:]}'
@@ -252,8 +251,8 @@ class Recount(unittest.TestCase):
 
 
 class Baseline(unittest.TestCase):
-    """A campaign with a baseline of two. A plug-in that failed does so no more, and takes a hundred
-    times as long for one family."""
+    """A campaign, and two others as its baseline. In the campaign, a plug-in no longer fails as
+    it did, and takes a hundred times as long for one family."""
 
     @classmethod
     def setUpClass(cls):
@@ -275,7 +274,7 @@ class Baseline(unittest.TestCase):
 
     @staticmethod
     def run_nearmiss(*arguments, **environment):
-        """Runs nearmiss in an environment, and returns its output. Misses are no errors here."""
+        """Runs nearmiss in an environment, and returns its output. Misses are no error here."""
         done = subprocess.run(
             [EXECUTABLE, *arguments],
             env={**os.environ, **environment},

@@ -10,15 +10,15 @@ AS_WANG = ('basic', 'basic-plain', 'wang', 'wang-scalar', 'wang-eps', 'wang-plai
 
 
 def exponent(scalar):
-    """The binary exponent of the machine epsilon; None if the name is not a scalar."""
+    """The binary exponent of a scalar's machine epsilon. None if the name is not a scalar."""
     if scalar.startswith('p') and scalar[1:].isdigit():
         return 1 - int(scalar[1:])
     return EPSILONS.get(scalar)
 
 
 def place(subject):
-    """The algorithm, the scalar and the exponent of epsilon. For a name without a scalar, the
-    algorithm is the name."""
+    """The algorithm, the scalar and the exponent of epsilon, by a subject's name. If the name
+    has no scalar, the algorithm is the whole name."""
     algorithm, _, scalar = subject.partition(':')
     if exponent(scalar) is None:
         return subject, 'double', EPSILONS['double']
@@ -26,9 +26,10 @@ def place(subject):
 
 
 def paper_bound(epsilon):
-    """The paper's largest distance of a false positive, in units of B.
+    """The largest distance of a false positive by the paper, in units of B.
 
-    sqrt(D^2 + 2 delta) with D^2 = 1678 eps^(1/2) and delta = 311 eps (sections 4.2 and 4.5)."""
+    It is sqrt(D^2 + 2 delta) with D^2 = 1678 eps^(1/2) and delta = 311 eps (sections 4.2 and
+    4.5)."""
     return math.sqrt(1678 * math.sqrt(epsilon) + 2 * 311 * epsilon)
 
 
@@ -39,17 +40,16 @@ class Units:
         self._nearmiss, self._seed, self._known = nearmiss, seed, {}
 
     def claimed(self, subject):
-        """The bound that a subject claims; None if it claims no bound proportional to B.
+        """The bound that a subject claims. None if it claims no bound proportional to B.
 
-        The bound is computed as the quotient of the subject's and wang's bounds for the same
-        queries, times wang's bound."""
+        It is computed as wang's bound, times the quotient of the subject's and wang's bounds for
+        the same queries."""
         if subject not in self._known:
             self._known[subject] = self._measured(subject)
         return self._known[subject]
 
     def of_distances(self, subject):
-        """The bound in the subject's ratios distance / bound: the claimed bound, or wang's for
-        basic."""
+        """The bound in a subject's ratios distance / bound: its claim, or for basic wang's."""
         algorithm, _, _ = place(subject)
         if algorithm in ('basic', 'basic-plain'):
             return paper_bound(2.0 ** EPSILONS['double'])

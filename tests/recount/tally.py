@@ -1,4 +1,4 @@
-"""Recomputes counters, histograms and intervals from single answers."""
+"""Recomputes counters, histograms and confidence intervals from single answers."""
 
 import functools
 from collections import Counter
@@ -16,26 +16,26 @@ ON_REQUEST = {'unknown', 'contract', 'slow'}  # failures that count only with --
 
 @dataclass
 class Tally:
-    """Counters of one subject over some queries, distance / bound of its false positives, and its
-    times of impact."""
+    """Counters of one subject over some queries, its false positives' ratios of distance to
+    bound, and its times of impact."""
 
     subject: str
     queries: int
     collisions: int
     positives: int
     false_negatives: int
-    missed_by_class: dict  # the false negatives by the class of the query
+    missed_by_class: dict  # false negatives, by the class of the query
     false_positives: int
     claims: bool
     true_by_stage: dict
     false_by_stage: dict
-    ratios: Enclosed  # of the false positives
+    ratios: Enclosed  # distance / bound of the false positives
     times: Times
 
     @classmethod
     def of(cls, answers, subject, kinds, family=None):
-        """The tally over the queries of these kinds, of one family, of a tuple of families, or of
-        all. It is computed once."""
+        """The tally over the queries of these kinds. `family` is one family, a tuple of
+        families, or None for all. Each tally is computed only once."""
         key = subject, tuple(kinds), family
         if key not in answers.tallies:
             answers.tallies[key] = cls._of(answers, *key)
@@ -70,14 +70,14 @@ class Tally:
         )
 
     def refuted(self):
-        """The least and the largest number of refuted bounds that the enclosures allow."""
+        """The least and the largest possible number of refuted bounds, by the enclosures."""
         if not self.claims:
             return 0, 0
         return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())
 
     @property
     def enclosed(self):
-        """The numbers that have a histogram, by its key in reports."""
+        """The numbers that have a histogram in reports, by its key."""
         times = self.times
         return {
             'fp_distance': self.ratios,
@@ -88,14 +88,14 @@ class Tally:
 
     @property
     def unknown(self):
-        """Reports of a subject that could not tell."""
+        """The number of reports for which the subject answered that it cannot tell."""
         return sum(
             stages.get('unknown', 0) for stages in (self.true_by_stage, self.false_by_stage)
         )
 
 
 def _part(answers, subject, kind, family):
-    """The answers to a kind, and which of them are of the family."""
+    """The answers to queries of a kind, and which of these queries are of the family."""
     names = (family,) if isinstance(family, str) else family
     own = slice(None) if names is None else np.isin(answers.family[kind], names)
     return answers.asked[subject, kind], own
@@ -138,10 +138,10 @@ def failures_of(counts, faults):
 
 
 def stages(subject, counts):
-    """Counts by the accepting stage that do not depend on which queries are decided at once.
+    """Counts by accepting stage, without what depends on how many queries are decided at once.
 
-    The subject exact decides many queries at once; its filter then leaves other queries
-    undecided."""
+    The subject exact decides many queries at once. Its filter then leaves other queries
+    undecided than it does for single queries."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}
@@ -149,7 +149,7 @@ def stages(subject, counts):
 
 
 def denominators(tally):
-    """The totals that divide the numbers of false negatives and of false positives."""
+    """The totals by which the numbers of false negatives and of false positives are divided."""
     return tally.collisions, tally.queries - tally.collisions
 
 
@@ -160,12 +160,12 @@ def rate(count, total):
 
 @functools.cache
 def upper_bound(count, total, risk=0.05):
-    """Clopper and Pearson's upper bound of a rate, which is wrong with probability at most
+    """Clopper and Pearson's upper bound of a rate. The rate exceeds it with probability at most
     `risk`."""
     return 1.0 if count >= total else float(betaincinv(count + 1, total - count, 1 - risk))
 
 
 def interval(count, total, risk=0.05):
-    """Clopper and Pearson's interval of a rate, with half of the risk at each end."""
+    """Clopper and Pearson's interval of a rate, with half of the risk on each side."""
     lower = 0.0 if count == 0 else float(betaincinv(count, total - count + 1, risk / 2))
     return lower, upper_bound(count, total, risk / 2)

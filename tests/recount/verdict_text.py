@@ -1,10 +1,10 @@
-"""The expected text of verdicts: of each subject, of each pair of versions, and of the headline."""
+"""The expected text of verdicts on subjects and on pairs of versions, and of the headline."""
 
 from asking import KINDS
 from enclosed import BORDERS, LARGEST
 from tally import CLASSES
 
-# The failures that count, the gravest first: the counter, its total, and the words for it.
+# The failures that count, the gravest first: the counter, its total, the verb, and the noun.
 MISS = 'false_negatives', 'collisions', 'missed', 'collision'
 LATE = 'late', 'times_promised', 'was late in', 'time'
 BEYOND = 'refuted_bounds', 'false_positives', 'exceeded its bound in', 'false positive'
@@ -16,7 +16,7 @@ def counted(count, one, many=None):
 
 
 def fraction(ratio):
-    """A ratio with three digits, or more if a ratio below 1 would be rounded to 1."""
+    """A ratio with three digits. If they would round a ratio below 1 to 1, it has more digits."""
     if ratio == LARGEST:
         return 'inf'
     if 0 < ratio < BORDERS[0]:
@@ -44,8 +44,8 @@ def versions(report):
 
 
 def verdict(row, kinds):
-    """The text of a subject's verdict, by its row in the section verdicts, and its counters of each
-    kind. A campaign that is recomputed has no faults."""
+    """The text of a subject's verdict. `row` is its row in the section verdicts, and `kinds` has
+    its counters of each kind. A campaign that is recomputed has no faults."""
     counts = row['counts']
     if counts['false_negatives']:
         parts = [f'MISSED {_class_by_class(kinds, MISS)}']
@@ -67,7 +67,7 @@ def verdict(row, kinds):
 
 
 def _false_positives(counts, unknown):
-    """How many there are, how many of these are unknown, and the farthest."""
+    """The number of false positives, how many are unknown, and the farthest one's ratio."""
     if counts['false_positives'] == 0:
         return 'no false positive'
     text = counted(counts['false_positives'], 'false positive')
@@ -86,7 +86,7 @@ def _false_positives(counts, unknown):
 
 
 def _by_class(kinds, failure):
-    """For each class in which there are some of the total: the count and the total of each kind."""
+    """The count and the total of each kind, for each class whose total is not 0."""
     counter, total, *_ = failure
     classes = {}
     for name in CLASSES:
@@ -98,7 +98,8 @@ def _by_class(kinds, failure):
 
 
 def _class_by_class(kinds, failure):
-    """ "ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001": the first class by kind."""
+    """Such as "ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001". Only the first
+    class is divided by kind."""
     parts = []
     for name, of_kinds in _by_class(kinds, failure).items():
         if parts:
@@ -116,8 +117,8 @@ def _missed(counts, name):
 
 
 def _class_of_missed(kinds):
-    """The least exotic class of the queries that a subject missed, if no family of this class or a
-    less exotic one has a miss."""
+    """The least exotic class of the queries that a subject missed. None if a family of this
+    class, or of a less exotic one, has a miss."""
     for name in CLASSES:
         own = [of['classes'][name] for of in kinds.values() if name in of['classes']]
         if any(of['false_negatives'] for of in own):
@@ -128,7 +129,7 @@ def _class_of_missed(kinds):
 
 
 def _queries_said(kinds, name):
-    """ "missed 12 ordinary vt collisions in degenerate families" """
+    """Such as "missed 12 ordinary vt collisions in degenerate families"."""
     missed = {kind: _missed(of, name) for kind, of in kinds.items() if _missed(of, name)}
     families = [
         each
@@ -143,8 +144,8 @@ def _queries_said(kinds, name):
 
 
 def _failures_said(kinds):
-    """The class and the words for each failure of a subject, the gravest first: in the least exotic
-    class in which it was seen."""
+    """For each failure of a subject, the gravest first: the least exotic class in which it was
+    seen, and the words for it."""
     nearer = _class_of_missed(kinds)
     if nearer:
         yield nearer, _queries_said(kinds, nearer)
@@ -161,7 +162,7 @@ def _failures_said(kinds):
 
 
 def alarms(report):
-    """Each failure of each subject."""
+    """The text of each alarm: one for each failure of each subject."""
     return [
         f'{subject} {said}'
         for subject, kinds in report['subjects'].items()
@@ -170,7 +171,7 @@ def alarms(report):
 
 
 def headline(report):
-    """The verdict in a line."""
+    """The verdict on the campaign in a line."""
     failed, clean = {}, []
     for subject, kinds in report['subjects'].items():
         if said := list(_failures_said(kinds)):
@@ -193,7 +194,7 @@ def headline(report):
 
 
 def _listed(names):
-    """ "a, b and c", or the number of names if there are more than four."""
+    """Such as "a, b and c". If there are more than four names, only their number."""
     if len(names) > 4:
         return f'{len(names)} subjects'
     return ' and '.join([', '.join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]

@@ -63,8 +63,7 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
   EXPECT_THAT(changes(with_others(1200), with_others(1000)).rates, IsEmpty());
 }
 
-// In a single uncorrected test, 11 failures in 10,000 after none are significant. With 4 comparisons at the
-// level of 0.001, 13 are required.
+// In a single test, 11 of 10,000 after none are significant. With 4 tests at a level of 0.001, 13 are.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{key, counts(20000, 10000, missed, 0)}});
@@ -75,7 +74,7 @@ TEST(Changes, AFewAfterNoneAreEnough) {
   EXPECT_LT(found.rates[0].p, false_alarm_risk / 4);
 }
 
-// No single family has enough failures, but all together have.
+// No single family has enough failures to be noticed, but all together have.
 TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const auto with = [](std::uint64_t missed, std::uint64_t in_the_last) {
     std::map<CountsKey, Counts> all;
@@ -88,7 +87,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);  // three numbers of failures are tried
+  // Families are added up for three limits on their numbers of failures.
+  EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
       "worse: false negatives of basic vt, ee in families with at most 5, 0 of 300,000 before, 30 of 300,000 "
@@ -99,7 +99,7 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   EXPECT_THAT(changes(with(0, 510), with(0, 500)).rates, IsEmpty());
 }
 
-// The number of false positives is the same, but a few of them are far away.
+// The number of false positives is the same, but now a few of them are far from contact.
 TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   const auto with = [](std::uint64_t far, std::uint64_t measured_by_wang = 0) {
     std::map<CountsKey, Counts> all;
@@ -121,7 +121,7 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_EQ(unclaimed.rates[0].what, "false positives beyond wang's bound (no claim)");
 }
 
-// p is 2 / 2^13, which is between 1/5 and 1/4 of the risk.
+// For family a, p is 2 / 2^13, which is between 1/5 and 1/4 of the risk.
 TEST(Changes, ASumOverFamiliesIsAComparisonToo) {
   const auto with = [](std::uint64_t in_a, std::uint64_t in_b) {
     return campaign("1", {{{"basic", Kind::edge_edge, "a"}, counts(10000, 10000, in_a, 0)},
@@ -170,7 +170,7 @@ TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   now.statistics.seen = {{{Finding::What::oracle_disagreement, "", "ee"}, 1}};
   before.statistics.seen[{Finding::What::oracle_disagreement, "", "vt"}] = 1;
   EXPECT_THAT(changes(now, before).new_signatures,
-              SizeIs(1));  // a single failure of the oracle counts
+              SizeIs(1));  // for the oracle, a single failure counts
 }
 
 TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
@@ -182,12 +182,13 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
   EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "wang", "d"}));
-  EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);  // Good and Toulmin: once seen, less what is seen 40 times
+  // Good and Toulmin: the number of signatures seen once, less the number of those seen 40 times.
+  EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
   now.statistics.seen[{missed, "wang", "d"}] = 20;
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "wang", "d"}));
-  now.statistics.seen = {{{missed, "wang", "a"}, 140}};  // known, but far more frequent
+  now.statistics.seen = {{{missed, "wang", "a"}, 140}};  // a known signature, but far more frequent
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "wang", "a"}));
 }
 
@@ -216,7 +217,7 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
 const Signature inside{missed, "wang", "ee inside"};
 const Signature on_edge{missed, "wang", "ee on-edge"};
 
-/// A campaign of wang with the given failures, which began at the date.
+/// A campaign of wang with these failures, which began at this date.
 Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen) {
   Campaign made = campaign(date, {{key, counts(200000, 100000, seen.size(), 0)}});
   made.runs[0].shards[0].started = date;
@@ -233,7 +234,7 @@ TEST(Baseline, IsTheSumOfItsCampaigns) {
   EXPECT_THAT(sum.runs, SizeIs(3));
 }
 
-// In one test, 1,690 after 1,500 are not more than chance explains. After three times 1,500, they are.
+// In a comparison with 1,500, chance can explain 1,690. In one with three times 1,500, it cannot.
 TEST(Baseline, RatesAreComparedWithTheSum) {
   const auto with = [](const std::string& seed, std::uint64_t false_positives) {
     return campaign(seed, {{key, counts(200000, 100000, 0, false_positives)}});
@@ -273,7 +274,7 @@ TEST(Baseline, KnowsWhenEachSignatureWasSeen) {
   EXPECT_EQ(json["unrepeated_signatures"][0]["first_seen"], "2026-01-03");
 }
 
-// A failure is new once. While it is there, it is lasting.
+// A failure is new in one night only. In later nights, it is lasting.
 TEST(Baseline, AFailureIsNewOnceAndThenLasts) {
   std::vector<Campaign> nights{night("1", {})};
   const Changes first = changes(night("2", {{inside, 1}}), nights);

@@ -28,8 +28,8 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   return made;
 }
 
-/// Shard `shard` of three, with a finding in each of its rounds 0 .. 9. The signature is "s", and "t" from
-/// round 5 on.
+/// Shard `shard` of three. Each of its rounds, among 0 .. 9, has a finding with the signature "s" and, from
+/// round 5 on, one with "t".
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.index = shard, .count = 3, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
@@ -60,7 +60,7 @@ TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
   EXPECT_EQ(whole.statistics.oracle_disagreements, 6);
   std::vector<std::uint64_t> order{0, 1, 2};
   while (std::next_permutation(order.begin(), order.end())) EXPECT_EQ(merged(order).runs, whole.runs);
-  // The result is the same in several steps.
+  // Merging in several steps gives the same result.
   const std::vector parts{merged({2, 0}), shard_of_three(1)};
   const std::vector<std::string> names{"a", "b"};
   EXPECT_EQ(merge_campaigns(parts, names).runs, whole.runs);
@@ -106,7 +106,7 @@ TEST(Campaign, RunsThatDifferStandSideBySide) {
   EXPECT_EQ(both.runs[0].info.at("seed"), "0");
 }
 
-/// Shards 0 and 1 of a run, of which the second one has another value of a fact.
+/// Shards 0 and 1 of a run, which have different values of this fact.
 std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[0].runs[0].info[fact] = "a";
@@ -121,7 +121,7 @@ TEST(Campaign, ShardsOfDifferentCodeAreRefused) {
     EXPECT_ERROR(
         merge_campaigns(campaigns, names),
         "b.db: found " + fact + " 'b', expected 'a' as in a.db, for the run with command fuzz, seed 1");
-    campaigns[1].runs[0].info["seed"] = "2";  // another night
+    campaigns[1].runs[0].info["seed"] = "2";  // a run of another night
     EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
     campaigns[1] = campaigns[0];
     campaigns[1].runs[0].shards[0].index = 1;

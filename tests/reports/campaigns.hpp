@@ -10,7 +10,7 @@
 namespace nearmiss::testing {
 
 /// Counters in which the ratio of the farthest false positive is the number of false positives divided by
-/// 1000. `ns` is the time per query.
+/// 1000. `ns` is the run time per query.
 inline Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t missed,
                      std::uint64_t false_positives, std::uint64_t ns = 0) {
   Counts c;

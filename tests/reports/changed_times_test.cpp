@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// How many times as long as usual a subject takes for a family.
+/// For each subject and family: the run time as a multiple of the usual one.
 using Slowness = std::function<double(const CountsKey&)>;
 
 double usual(const CountsKey& /*key*/) { return 1; }
@@ -36,8 +36,8 @@ double noise(const std::string& text) {
   return static_cast<double>(std::hash<std::string>{}(text) % 2001) / 1000 - 1;
 }
 
-/// A night of the subjects, for `families` families. The times of a family differ by up to 2 % from night to night, and those
-/// of its 40 batches by up to 20 %.
+/// A night of these subjects, with `families` families. The times of a family differ by up to 2 % from night
+/// to night, and those of its 40 batches by up to 20 %.
 Campaign night(const std::string& seed, const Slowness& slowness,
                std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
   std::map<CountsKey, Counts> all;
@@ -114,7 +114,7 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
 }
 
-// A family whose times differ by 1.5 between the nights of the baseline does so now.
+// A family whose times differ by a factor of 1.5 among the nights of the baseline may differ as much now.
 TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   std::vector<Campaign> nights;
   for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
@@ -122,10 +122,10 @@ TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   EXPECT_THAT(changed(night("now", usual), nights), IsEmpty());
   const auto other =
       changed(night("now", [](const CountsKey& key) { return key.family == "f3" ? 1.5 : 1.0; }), nights);
-  EXPECT_THAT(other, SizeIs(4));  // both subjects and kinds
+  EXPECT_THAT(other, SizeIs(4));  // for both subjects and kinds
 }
 
-// The spread between many families is not known if there is only one.
+// With a single family, the spread between families is not known.
 TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   const auto few = [](double factor) {
     return [factor](const CountsKey& key) {

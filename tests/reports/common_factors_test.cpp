@@ -1,4 +1,4 @@
-// The values of factors that missed collisions have in common.
+// Which values of factors the missed collisions have in common.
 #include "reports/sections/common_factors_table.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ const FactorKey basic{"basic", Kind::edge_edge, "crossed", ""};
 
 using Values = std::array<std::string, 3>;
 
-/// Counts one collision for each combination of four values of three factors; those for which missed(a, b, c) are missed.
+/// Counts a collision for each combination of three factors' four values, missed if missed(a, b, c).
 template <class Missed>
 FactorTable counted_for(const FactorKey& key, const Missed& missed) {
   FactorTable table;

@@ -9,8 +9,8 @@
 namespace nearmiss {
 namespace {
 
-// Clopper and Pearson's bound solves P(X <= count) = 5 % for binomial X. For 0 in n trials, it is 1 -
-// 0.05^(1/n).
+// Clopper and Pearson's bound is the rate at which P(X <= count) = 5 % for binomial X. For 0 in n trials, it
+// is 1 - 0.05^(1/n).
 TEST(Confidence, NoneSeenInMany) {
   for (const std::uint64_t n : {1U, 10U, 1000U, 1000000U})
     EXPECT_NEAR(clopper_pearson_upper(0, n) / (1 - std::pow(0.05, 1.0 / static_cast<double>(n))), 1, 1e-6);
@@ -23,7 +23,7 @@ TEST(Confidence, TheTailHasFivePercent) {
   EXPECT_NEAR(tail, 0.05, 1e-9);
 }
 
-// P(X <= count) at the upper end and P(X >= count) at the lower end are half of the risk each.
+// P(X <= count) at the upper end is half of the risk, and so is P(X >= count) at the lower end.
 TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
   const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9 trials
   const ConfidenceInterval interval = clopper_pearson(1, 9, 0.01);
@@ -50,21 +50,21 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // Ten events fall on two campaigns of the same size. A given campaign has at least nine of them with
+  // Ten events fall on two campaigns of the same size. Nine or more of them fall on the second with
   // probability 11 / 1024.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
-  // One family has three times as many queries now, and the other as many as before. The mean expectation is
-  // that two thirds of 6 are seen now.
+  // One family has three times as many queries now as before, and the other as many. On average, two thirds
+  // of the 6 events are expected now.
   EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
               std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
   EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);
   EXPECT_EQ(pooled_test({}).either(), 1);
 }
 
-// The binomial distribution for large numbers gives a larger probability, but only slightly larger for small
-// shares.
+// For large numbers, the test uses the binomial distribution. It gives a larger probability than the exact
+// one, but only slightly larger for small shares.
 TEST(FisherTest, OfLargeNumbersIsNearTheBinomial) {
   const double small = fisher_test({60, 1ULL << 30}, {30, (1ULL << 30) - 1}).more;
   const double large = fisher_test({60, 1ULL << 31}, {30, 1ULL << 31}).more;

@@ -1,4 +1,4 @@
-// A damaged store is refused, or it gives the same campaign as before. A salvage takes the intact part only.
+// A damaged store is refused, or it gives the whole campaign. A salvage takes only the intact part.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ bool is_same(const Campaign& a, const Campaign& b) {
   return a.runs == b.runs && a.statistics == b.statistics;
 }
 
-/// Expects that all of a salvaged campaign was in the whole campaign.
+/// Expects that everything in a salvaged campaign was in the whole campaign.
 void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.counts, IsSupersetOf(part.statistics.counts));
   EXPECT_THAT(whole.statistics.oracle, IsSupersetOf(part.statistics.oracle));
@@ -56,7 +56,7 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.factors, IsSupersetOf(part.statistics.factors));
   EXPECT_THAT(whole.statistics.versions, IsSupersetOf(part.statistics.versions));
   EXPECT_THAT(whole.statistics.extremes, IsSupersetOf(part.statistics.extremes));
-  // A row that is lost is made up for by the findings that are stored.
+  // The count of a lost row may come from the stored findings, so it may be smaller.
   for (const auto& [signature, count] : part.statistics.seen)
     EXPECT_LE(count, whole.statistics.times_seen(signature));
   for (const Run& run : part.runs) {
@@ -70,8 +70,8 @@ class DamageTest : public testing::TemporaryFolder {
  protected:
   DamageTest() { write_campaign(whole, file("a.db")); }
 
-  /// Expects that a file is refused in one line, or that it gives the whole campaign, and that a salvage gives nothing else
-  /// than a part of it. Returns whether it is refused.
+  /// Expects that loading a file gives the whole campaign, or an error of one line. After an error, a salvage
+  /// must give nothing but parts of the campaign. Returns whether the file is refused.
   bool is_refused(const std::string& name) const {
     try {
       EXPECT_TRUE(is_same(load_campaign(file(name)), whole));
@@ -130,7 +130,7 @@ TEST_F(DamageTest, OfARowOfAnyTableIsRefusedAndTheOthersAreSaved) {
   }
 }
 
-/// A change to a store, the error that it causes, and what a salvage says is lost.
+/// A change to a store, the error that it causes, and what a salvage reports as lost.
 struct Change {
   const char* sql;
   const char* error;

@@ -1,4 +1,4 @@
-// Deciders of a subject that passes queries on.
+// Counts of what decided the queries, for subjects that pass queries on.
 #include "reports/sections/decider_table.hpp"
 
 #include <gmock/gmock.h>
@@ -59,7 +59,7 @@ TEST(Deciders, AreCountedByFamilyOverBothKinds) {
 TEST(Deciders, TimesAreOverThoseOfTheSameFamiliesAndKinds) {
   const auto rows = decider_rows(some_statistics());
   EXPECT_EQ(rows[2].ns_per_query, 400);
-  EXPECT_EQ(rows[2].time_over.at("wang"), 3);  // wang was not asked about edges
+  EXPECT_EQ(rows[2].time_over.at("wang"), 3);  // vt only: wang was not asked about edges
   EXPECT_EQ(rows[2].time_over.at("exact"), 0.5);
   EXPECT_EQ(rows[1].time_over.at("wang"), 2);
   EXPECT_FALSE(rows[1].time_over.contains("exact"));

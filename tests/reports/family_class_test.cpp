@@ -30,7 +30,7 @@ TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {
     EXPECT_EQ(class_of(name), QueryClass::unclassified) << name;
 }
 
-/// Two ordinary families, one of them with late times; one degenerate family; and cases.
+/// Results of two ordinary families, one with late times, of one degenerate family, and of cases.
 Statistics some_statistics() {
   Statistics statistics;
   const auto of = [&](const char* family) -> Counts& {

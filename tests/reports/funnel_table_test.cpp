@@ -1,4 +1,4 @@
-// The table of a scene's pairs and what became of them.
+// The table that shows what became of a scene's pairs.
 #include "reports/sections/funnel_table.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Two steps of a scene, in each of which 100 pairs of each kind are asked, and 900 are not.
+/// A scene with two steps. In each, 100 pairs of each kind are asked about, and 900 are left out.
 Statistics two_steps() {
   Statistics statistics;
   for (const char* step : {"scene:cloth#0", "scene:cloth#1"})

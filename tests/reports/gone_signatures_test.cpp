@@ -1,4 +1,4 @@
-// Ways to fail that a baseline has, and a campaign has not.
+// Ways to fail that the baseline has and a later campaign does not have.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ const CountsKey key{"mine", Kind::edge_edge, "uniform"};
 const Signature inside{missed, "mine", "ee inside"};
 const Signature on_edge{missed, "mine", "ee on-edge"};
 
-/// A campaign of a plug-in that began at the date.
+/// A campaign with a plug-in, which began at this date.
 Campaign night(const std::string& date, Seen seen, const std::string& version = "1",
                const std::string& sha256 = "a", std::uint64_t queries = 200000) {
   Campaign made = campaign(date, {{key, counts(queries, queries / 2, 0, 0)}});
@@ -49,7 +49,7 @@ TEST(Gone, IsWhatChanceWouldHardlyHide) {
   EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
 }
 
-// Each of them may be hidden by chance, but not all together.
+// Chance could hide each of the failures, but hardly all of them.
 TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   Seen rare;
   for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
@@ -57,7 +57,8 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
-// A campaign that ended by time has asked the family of this signature twice as much as before, and the others as much.
+// The later campaign ended by time, and asked twice as many queries of the signature's family as the earlier
+// one. It asked as many queries of the other family as before.
 TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
   const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
     Campaign made = night(date, {{inside, seen}});
@@ -83,7 +84,7 @@ TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
 }
 
-// The campaign replays fewer of the cases in which it was seen.
+// The signature was seen in cases, and the later campaign replays fewer of them.
 TEST(Gone, DoesNotCountFailuresInCases) {
   Campaign before = night("1", {{inside, 40}});
   before.statistics.counts[{"mine", Kind::edge_edge, "planar/"}] = counts(50, 50, 38, 0);

@@ -28,7 +28,7 @@ constexpr TimeError too_late{.after = 0.125, .promised = true, .late = true};
 /// A vertex that reaches its triangle at t = 1/2.
 const Query hit = testing::falling_vertex(0.25, 0.25, 1, -1);
 
-/// Counters of a subject that gives these times for true collisions, and takes `ns` for each.
+/// Counters of a subject that reports collisions with these errors of times, and takes `ns` for each query.
 Counts counts_of(const std::vector<TimeError>& times, std::uint64_t ns = 100) {
   Counts counts;
   for (const TimeError& time : times)
@@ -103,7 +103,7 @@ TEST(ImpactTimes, ALateTimeInADirectedSearchKeepsASubjectOffTheFront) {
   EXPECT_TRUE(json["front_by_earliness"].empty());
   EXPECT_EQ(json["subjects"]["a"]["late"], 1);
   EXPECT_EQ(json["subjects"]["a"]["times_promised"], 2);
-  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // a quantile, as a rate, is of timed families
+  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // like rates, of timed families only
   EXPECT_EQ(json["subjects"]["a"]["max_time_error"], 0.125);
 }
 
@@ -157,7 +157,7 @@ TEST(ImpactTimes, CsvHasARowForEachBinOfEachSide) {
             "mine,vt,uniform,after,0.1,0.1778279410038923,1\n");
 }
 
-/// A campaign with a late time for `hit`, which is shrunk to another query.
+/// A campaign with a late time for `hit`. The finding's shrunk query is given.
 Campaign late_campaign(const Query& shrunk) {
   Campaign campaign{{}, statistics_of("mine", {in_time, too_late})};
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
@@ -173,7 +173,7 @@ TEST(ImpactTimes, ALateFindingHasBothTimesOfItsShrunkQuery) {
   const Campaign campaign = late_campaign(testing::falling_vertex(0.25, 0.25, 3, -1));
   const auto json = report_json(campaign)["findings"][0];
   EXPECT_EQ(json["what"], "late");
-  EXPECT_EQ(json["ratio"], 0);  // it is not the ratio of a distance
+  EXPECT_EQ(json["ratio"], 0);  // only a finding about a distance has a ratio
   EXPECT_EQ(json["late_by"], 0.125);
   EXPECT_EQ(json["time"], 0.75);
   EXPECT_EQ(json["toi"], 0.875);

@@ -49,7 +49,7 @@ TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
   for (const char* name : {"wang-eps", "wang-scalar"})
     EXPECT_NEAR(*place_of(name).unit, 40.963 * 0x1p-13, 1e-7) << name;
   EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
-  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the bound is not the pair's own
+  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // B is given, not the pair's own
   for (const char* other : {"exact", "defect:vv", "./plugin.so"}) {
     EXPECT_EQ(place_of(other).algorithm, other);
     EXPECT_EQ(place_of(other).unit, std::nullopt);
@@ -69,7 +69,7 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
   EXPECT_EQ(line->greatest_part, 1);
   EXPECT_EQ(describe(*line),
             "wang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions");
-  // A further factor of a half for each halving of ε increases the power by one.
+  // If the distances halve once more for each halving of ε, the exponent grows by one.
   const auto steeper =
       fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
   EXPECT_NEAR(steeper->exponent, 1.25, 1e-4);
@@ -93,8 +93,8 @@ TEST(Ladder, TheIntervalIsStudents) {
             "0.125 to 1 of the claimed distance");
 }
 
-// The middle of three points at intervals of 16 is 1 below the others. The squared residuals are 2/3 with one
-// degree of freedom.
+// Of three points at intervals of 16, the middle one is 1 below the others. The sum of squared residuals is
+// 2/3, with one degree of freedom.
 TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
   const auto line = fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}})), "wang");
   EXPECT_NEAR(line->exponent, 0.25, 1e-5);
@@ -125,7 +125,7 @@ TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   EXPECT_EQ(all[1].origin, "directed search");
   EXPECT_EQ(all[2].origin, families.begin()->first.family);
   for (const Fit& each : all) {
-    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² also has a term in ε
+    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // not exactly, because D² also has a term in ε
     EXPECT_EQ(each.precisions, 3);
   }
 }
@@ -136,7 +136,7 @@ TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
   const auto json = ladder_json(farthest_at({{"wang:p24", 1}, {"wang", 0.5}, {"wang:p64", 1}}));
   ASSERT_TRUE(json.has_value());
   EXPECT_EQ((*json)["rungs"].size(), 3);
-  EXPECT_EQ((*json)["fits"].size(), 2);  // over all, and of its only family
+  EXPECT_EQ((*json)["fits"].size(), 2);  // one over all families, and one of the only family
   EXPECT_NE(
       ladder_table(farthest_at({{"wang:p24", 0.5}, {"wang", 0.5}, {"wang:p64", 0.5}})).find("epsilon^(0.25"),
       std::string::npos);

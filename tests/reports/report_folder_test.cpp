@@ -39,7 +39,7 @@ class ReportFolder : public testing::TemporaryFolder {
     return files;
   }
 
-  /// Expects that a report of the subject bad is refused with these words, and that nothing changes.
+  /// Expects that writing a report of the subject bad fails with these words, and changes nothing.
   void expect_refused(const std::string& folder, const std::string& words) const {
     const ReportPaths before = files_in(folder);
     std::map<std::string, std::string> contents;
@@ -102,7 +102,7 @@ TEST_F(ReportFolder, HasNamesThatAFileSystemTakes) {
   EXPECT_EQ(file_name(std::string(61, 'y')).size(), 60);
 }
 
-// The name of a file has '_' for ' ' and ';', and some file systems take a for A.
+// File names have '_' for ' ' and ';', and some file systems do not distinguish A from a.
 TEST_F(ReportFolder, HasAFileForEachCaseOfSubjectsWithSimilarNames) {
   Campaign campaign;
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
@@ -158,7 +158,8 @@ TEST_F(ReportFolder, AnInterruptedReplacementIsCompleted) {
   write_report_of("bad", "new");
   const fs::path part = file("report/.nearmiss-part");
   fs::copy(file("new"), part, fs::copy_options::recursive);
-  const std::string moved = "cases/false-negative-bad-001.case";  // the only file that was put in its place
+  // Before the interruption, only this file was put in its place.
+  const std::string moved = "cases/false-negative-bad-001.case";
   fs::rename(part / moved, file("report") / moved);
   write_report_of("third");
   EXPECT_EQ(files_in("report"), files_of(ordered_json::parse(read("report/report.json"))));

@@ -78,7 +78,8 @@ TEST(Summary, OnlyRandomSamplesHaveARate) {
     counts.add({.verdict = {true, Stage::vv, 0}, .collision = true}, query, [] { return ""; });
     return statistics;
   };
-  EXPECT_THAT(summary_table(of("uniform")), HasSubstr("0.95"));  // the largest rate that 0 of 1 allows
+  // The upper bound of the rate for 0 misses in 1 collision.
+  EXPECT_THAT(summary_table(of("uniform")), HasSubstr("0.95"));
   for (const std::string family : {"cases/", "scene:cloth#3"}) {
     EXPECT_THAT(summary_table(of(family)), ::testing::Not(HasSubstr("0.95"))) << family;
     const auto json = summary_json({{}, of(family)})["subjects"]["good"]["ee"];
@@ -115,7 +116,7 @@ TEST(Summary, AnswersThatCouldNotTellAreNamed) {
                         "unknown, the farthest at 0.5 of the bound\n"));
 }
 
-/// A campaign of a subject that has one false positive at 2.5 times its unit, and may or may not claim a bound.
+/// A subject with one false positive, at 2.5 times its unit: its claimed bound, or wang's.
 Statistics one_far_report(bool measured_by_wang) {
   Statistics statistics;
   Counts& counts = statistics.counts[{"mine", Kind::vertex_triangle, "f"}];
@@ -215,7 +216,7 @@ TEST_F(ReportTest, ShowsAFewFindingsOfEachSignature) {
   const auto json = report_json(campaign);
   EXPECT_EQ(json["findings_total"], 21);
   ASSERT_EQ(json["findings"].size(), 1 + 3 + 3);
-  EXPECT_EQ(json["findings"][0]["seen"], 1234);  // the most frequent one
+  EXPECT_EQ(json["findings"][0]["seen"], 1234);  // the most frequent signature
   EXPECT_EQ(json["findings"][6]["file"], "cases/false-negative-wang-007.case");
   EXPECT_EQ(json["findings"][6]["original_file"], "cases/false-negative-wang-007-original.case");
 }
@@ -243,7 +244,7 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   EXPECT_EQ(far["false_positive_rate_interval_95"], rates_json({both})["false_positive_rate_interval_95"]);
   EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
   EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
-  // References to a query have the full name.
+  // References to a query use the full name of its family.
   EXPECT_EQ(json["findings"][0]["family"], "search-far-wang");
   ASSERT_EQ(json["farthest"].size(), 5);
   EXPECT_EQ(json["farthest"][1]["family"], "search-far-wang");
@@ -255,7 +256,7 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
 TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   const Campaign before = some_campaign("wang");
   Campaign now = before;
-  now.statistics.seen.begin()->second += 1;  // one more failure in a known way
+  now.statistics.seen.begin()->second += 1;  // one more failure with a known signature
   EXPECT_TRUE(report_json(now, {.baseline = {before}})["baseline"]["new_signatures"].empty());
   now.statistics.seen[{Finding::What::fault, "wang", "vt crash SEGV"}] = 1;
   const auto json = report_json(now, {.baseline = {before}});

@@ -1,4 +1,4 @@
-// A campaign with one result of each sort, for reports.
+// A campaign with one result of each sort, for tests of reports.
 #pragma once
 
 #include <string>
@@ -11,8 +11,7 @@ namespace nearmiss::testing {
 inline const Query query = falling_vertex(0.25, 0.25, 1, -1);
 inline const Query simple = falling_vertex(0.5, 0.5, 1, -1);
 
-/// A campaign in which `subject` finds one collision, misses one, and has one false positive at half of the
-/// bound.
+/// `subject` reports one collision, misses one, and has one false positive, at half of its bound.
 inline Campaign some_campaign(const std::string& subject) {
   Campaign campaign;
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});

@@ -74,7 +74,7 @@ TEST(Counts, AQuantileOfDistancesIsNeverBeyondTheFarthest) {
   counts.add(false_positive(0.5), query, here);
   EXPECT_EQ(counts.ratio_quantile(0.5).to, 0.5);
   counts.add(false_positive(1000), query, here);
-  EXPECT_EQ(counts.ratio_quantile(0.99), (Bin{10, 1000}));  // the last bin has no border above
+  EXPECT_EQ(counts.ratio_quantile(0.99), (Bin{10, 1000}));  // the last bin has no upper border
 }
 
 TEST(Counts, EachOutcomeIsCountedOnce) {

@@ -1,4 +1,4 @@
-// Whatever happens after a save, the store has all saved results.
+// A store has all saved results, whatever happens after a save.
 #include "reports/store/store.hpp"
 
 #include <gmock/gmock.h>
@@ -94,7 +94,7 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   std::filesystem::create_directory(file("killed"));
   {
     const Database db(file("a.db"));
-    // Without a cache, the change is in the file before it is committed, as after a kill.
+    // Without a cache, the change reaches the file before it is committed, as it may in a kill.
     db.execute(
         "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
         "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "
@@ -182,7 +182,7 @@ TEST_F(StoreTest, AFullDiskLosesNothingThatWasSaved) {
 
 TEST_F(StoreTest, ACampaignIsWrittenBesideItsFile) {
   const auto elsewhere = std::filesystem::current_path();
-  std::filesystem::create_directories(file("here/.part/full"));  // in the way of a file of that name
+  std::filesystem::create_directories(file("here/.part/full"));  // where a temporary file might be
   std::filesystem::current_path(file("here"));
   write_campaign({}, file("a.db"));
   std::filesystem::current_path(elsewhere);

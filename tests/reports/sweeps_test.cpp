@@ -1,4 +1,4 @@
-// The names of families are enough to recognise sweeps, and those of subjects to recognise sweeps of an option.
+// Sweeps are recognised by the names of families, and sweeps of an option by the names of subjects.
 #include "reports/sections/sweeps.hpp"
 
 #include <gmock/gmock.h>

@@ -21,7 +21,7 @@ TEST(Times, AreMediansOverTheBatchesOfAFamily) {
   for (const std::uint64_t ns : {500U, 520U, 90'000U}) times.add(Kind::edge_edge, "f", {10, ns});
   EXPECT_EQ(times.ns_per_query(), 52);
   EXPECT_EQ(times.mean(), 91020 / 30.0);
-  times.add(Kind::edge_edge, "f", {31, 31 * 40});  // more queries than all other batches
+  times.add(Kind::edge_edge, "f", {31, 31 * 40});  // this batch has more queries than all others
   EXPECT_EQ(times.ns_per_query(), 40);
   SubjectTimes others;
   others.add(Kind::edge_edge, "g", {10, 10 * 1000});

@@ -1,4 +1,4 @@
-// Verdicts on subjects in words.
+// Verdicts on subjects, as text.
 #include "reports/sections/verdicts.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ Counts with(Counts counts, Fault fault, std::uint64_t number) {
   return counts;
 }
 
-/// The line about the subject "mine" with these counters in a family of its own.
+/// The verdict on the subject "mine", which has these counters in its only family.
 std::string line_of(const Counts& counts, const Failures& failing = usual_failures()) {
   Statistics statistics;
   statistics.counts[{"mine", Kind::edge_edge, "f"}] = counts;
@@ -91,7 +91,7 @@ TEST(Verdicts, NothingAskedAndNothingAnsweredAreNoPass) {
   EXPECT_EQ(
       line_of(with(with(counts(9, 0, 0, 0), Fault::time, 3), Fault::not_asked, 6)),
       "FAIL mine: NO ANSWER IN TIME, SLOW in 9 queries (3 over the time limit, 6 not asked after that)\n");
-  Statistics statistics;  // all queries may well keep the contract
+  Statistics statistics;  // none of these queries is beyond the contract, which is no failure
   statistics.counts[{"mine (beyond contract)", Kind::edge_edge, "f"}] =
       with(counts(9, 0, 0, 0), Fault::contract, 9);
   EXPECT_FALSE(has_failed(statistics));

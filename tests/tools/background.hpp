@@ -1,4 +1,4 @@
-// Runs nearmiss in the background, to send signals to it, or to test what other processes may do meanwhile.
+// Runs nearmiss in the background, to send it signals, or to test what other processes may do meanwhile.
 #pragma once
 
 #include <sys/wait.h>
@@ -15,7 +15,7 @@
 
 namespace nearmiss::testing {
 
-/// "nearmiss ARGUMENTS" in a folder. It is killed at the end of the scope if it still runs.
+/// Runs "nearmiss ARGUMENTS" in a folder. Kills it at the end of the scope if it still runs.
 class Background {
  public:
   Background(const std::filesystem::path& folder, const std::string& arguments) {
@@ -39,14 +39,14 @@ class Background {
     return code_.has_value();
   }
 
-  /// Waits until `is_true`, or until the process ends. False if the process has ended.
+  /// Waits until `is_true()`, or until the process ends. Returns false if the process has ended.
   template <class Condition>
   bool wait_until(const Condition& is_true) {
     while (!has_ended() && !is_true()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return !has_ended();
   }
 
-  /// Waits until a file changes or appears.
+  /// Waits until a file changes or appears. Returns false if the process has ended.
   bool wait_for_a_change(const std::filesystem::path& file) {
     const auto time = [&] {
       std::error_code none;
@@ -55,7 +55,7 @@ class Background {
     return wait_until([&, before = time()] { return time() != before; });
   }
 
-  /// Waits until the process handles the signals of an interrupt itself. False if it has ended.
+  /// Waits until the process catches SIGINT, SIGTERM and SIGHUP. Returns false if it has ended.
   bool wait_until_it_handles_interrupts() {
     constexpr std::uint64_t all = 1U << (SIGINT - 1) | 1U << (SIGTERM - 1) | 1U << (SIGHUP - 1);
     return wait_until([&] {
@@ -74,7 +74,7 @@ class Background {
     code_ = code_of(status);
   }
 
-  /// The exit code after the process has ended; -1 if a signal ended it.
+  /// The exit code of the process, which must have ended; -1 if a signal ended it.
   [[nodiscard]] int code() const { return code_.value(); }
 
  private:

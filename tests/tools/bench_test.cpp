@@ -14,7 +14,7 @@ namespace {
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// A stored run with one row, "own.vt"; its times are those of the passes.
+/// A stored run with one row, "own.vt", which has these times, one for each pass.
 std::string stored(const std::vector<std::string>& times, const std::string& cpu = "cpu",
                    const std::string& subject = "wang") {
   return fmt::format(
@@ -23,7 +23,7 @@ std::string stored(const std::vector<std::string>& times, const std::string& cpu
       cpu, subject, fmt::join(times, ","));
 }
 
-/// Runs of one pass each.
+/// A history of runs, each with one pass.
 std::string history(const std::vector<std::string>& times) {
   std::string lines;
   for (const std::string& time : times) lines += stored({time});

@@ -41,7 +41,7 @@ class CommandLine : public testing::TemporaryFolder {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("error.txt")};
   }
 
-  /// The same, and expects an exit code.
+  /// Runs a command as `run` does, and expects an exit code.
   Output expect_code(int code, const std::string& arguments, const std::string& before = "",
                      const std::string& redirections = "") const {
     Output output = run(arguments, before, redirections);
@@ -49,19 +49,19 @@ class CommandLine : public testing::TemporaryFolder {
     return output;
   }
 
-  /// The report.json of "nearmiss report STORES", which must have an exit code.
+  /// The report.json of "nearmiss report STORES", which must end with this exit code.
   [[nodiscard]] nlohmann::json report_of(const std::string& stores, int code = 0) const {
     expect_code(code, "report " + stores + " -o report");
     return read_json("report/report.json");
   }
 
-  /// A triangle at a height above another one, as a mesh. `last` is where its last vertex is.
+  /// A mesh: a triangle, and another one at a height above it, whose last vertex is at x and y = `last`.
   static std::string two_triangles(const std::string& height, const std::string& last = "0.5 9") {
     return "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 " + height + "\nv 1 0.5 " + height + "\nv " + last + " " +
            height + "\nf 1 2 3\nf 4 5 6\n";
   }
 
-  /// Writes start.obj and end.obj, between which a triangle falls through another one.
+  /// Writes start.obj and end.obj, between which the upper of two_triangles falls through the lower one.
   void write_falling_triangle(const std::string& last = "0.5 9") const {
     write("start.obj", two_triangles("1", last));
     write("end.obj", two_triangles("-1", last));
@@ -79,8 +79,7 @@ class CommandLine : public testing::TemporaryFolder {
       EXPECT_FALSE(std::filesystem::exists(file(name))) << arguments << " left " << name;
   }
 
-  /// Waits until a campaign with the store a.db has saved some of its rounds. False if the campaign ends
-  /// before.
+  /// Waits until a campaign has saved some rounds in a.db. Returns false if it ends before that.
   [[nodiscard]] bool wait_for_a_save(Background& campaign) const {
     const auto has_queries = [&] {
       return run("report a.db -o saved").code == 0 && !read_json("saved/report.json")["subjects"].empty();

@@ -169,7 +169,7 @@ TEST_F(CommandLine, ScenesAreBuiltInToo) {
   expect_refused("scene flying@9", {"flying@9: found size 9, expected 100 to 4000000"});
   expect_refused("scene flyings", {"flyings: found neither a folder nor a scene", "nearmiss scene --list"});
   expect_refused("scene", {"SCENE is required"});
-  // A folder with this name is not the built-in scene.
+  // A path to a folder is not taken for the built-in scene of that name.
   write("flying/1.obj", two_triangles("1"));
   write("flying/2.obj", two_triangles("-1"));
   EXPECT_THAT(run("scene ./flying").out, HasSubstr("flying: 2 frames, 6 vertices"));
@@ -226,7 +226,7 @@ TEST_F(CommandLine, BenchWritesItsResults) {
   write("own.vt", hit);
   expect_code(0, "bench own.vt --queries 50 --runs 3 --json new.json");
   const json results = read_json("new.json")["results"];
-  EXPECT_EQ(results.size(), 2 * 1 + 2 * 2 * 3);  // two subjects: one kind of own.vt, two of each random input
+  EXPECT_EQ(results.size(), 2 * 1 + 2 * 2 * 3);  // 2 subjects: 1 kind of own.vt, 2 kinds of 3 random inputs
   for (const json& each : results) {
     EXPECT_GT(each["ns_per_query"], 0);
     EXPECT_EQ(each["runs"], 3);

@@ -7,7 +7,7 @@ namespace {
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// A number of a subject's counters for a kind.
+/// The counter of this name, or 0 if the counts do not have it.
 std::uint64_t count(const nlohmann::json& counts, const std::string& name) { return counts.value(name, 0U); }
 
 TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
@@ -26,12 +26,12 @@ TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
     EXPECT_GT(count(keeping["faults"], "contract"), 0U);
     EXPECT_EQ(count(keeping["faults"], "contract") + count(beyond["faults"], "contract"),
               count(keeping, "queries"));
-    // Whatever touches at the start is a collision, and this plug-in misses all.
+    // Contact at the start is always a collision, and this plug-in misses all of them.
     EXPECT_EQ(count(beyond, "false_negatives"), count(keeping["faults"], "contract"));
   }
 }
 
-// The plug-in misses everything, but takes edges of 1e300 at least for granted.
+// The plug-in misses everything, but its contract takes for granted that edges are at least 1e300 long.
 TEST_F(CommandLine, MissesBeyondAContractDoNotCount) {
   const Output factors = expect_code(0, "family crossed --count 1000 --missed-by " + plugin("never_asked"));
   EXPECT_EQ(factors.out, "");

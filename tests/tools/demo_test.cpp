@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 class DemoTest : public testing::CommandLine {
  protected:
-  /// The words with which bash completes a command line of these words.
+  /// The words that bash offers to complete the last of these words.
   [[nodiscard]] std::string completed(const std::string& words) const {
     (void)run("completion bash", "", "&& cp out.txt completion");
     const std::string command =
@@ -43,10 +43,10 @@ TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
   EXPECT_EQ(completed("nearmiss fuzz --cas"), "--cases\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject basic,wang-t"), "basic,wang-tight basic,wang-time\n");
   EXPECT_EQ(completed("nearmiss fuzz --family uniform-e"), "uniform-end\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subject = ba"), "basic basic-plain\n");  // --subject=ba
+  EXPECT_EQ(completed("nearmiss fuzz --subject = ba"), "basic basic-plain\n");  // as in --subject=ba
   EXPECT_EQ(completed("nearmiss fuzz --subject ="), completed("nearmiss fuzz --subject \"\""));
   EXPECT_EQ(completed("nearmiss fuzz --sweep asp"), "aspect\n");
-  EXPECT_EQ(completed("nearmiss fuzz --sweep uniform-e"), "\n");  // has no parameter
+  EXPECT_EQ(completed("nearmiss fuzz --sweep uniform-e"), "\n");  // uniform-end has no parameter
   EXPECT_EQ(completed("nearmiss fuzz --subject ./compl"), "./completion\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject wang,./compl"), "wang,./completion\n");
 }

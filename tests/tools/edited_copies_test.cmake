@@ -1,4 +1,4 @@
-# Checks what tools/cmake/edited_copies.cmake makes of a small header, and how it refuses edits that do not fit.
+# Checks what tools/cmake/edited_copies.cmake makes of a small header, and that it refuses wrong edits.
 #   cmake -DFOLDER=an empty folder -P edited_copies_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -28,7 +28,7 @@ inner in next.hpp (2 of 2): so is what it returns
 + a - 1
 ]])
 
-if(NOT DEFINED EDITS)  # makes copies in processes of their own, one for each list
+if(NOT DEFINED EDITS)  # makes the copies for each list in a process of its own
   set(PROJECT_BINARY_DIR ${FOLDER}/build)
   function(make_copies about edits)
     file(WRITE ${FOLDER}/edits.txt "${edits}")
@@ -70,7 +70,7 @@ if(NOT DEFINED EDITS)  # makes copies in processes of their own, one for each li
   return()
 endif()
 
-function(set_property)  # a script has no directory
+function(set_property)  # a script has no directory whose properties could be set
 endfunction()
 set(PROJECT_BINARY_DIR ${FOLDER}/build)
 set(nearmiss_unedited ${FOLDER})

@@ -14,12 +14,12 @@ TEST_F(CommandLine, AMissGivesExitCodeOne) {
   EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
 }
 
-/// What a subject does, and the exit codes of every subcommand that shows it.
+/// A subject, and the exit code of every subcommand that shows its results.
 struct Shown {
   const char* what;
   const char* subject;  ///< a plug-in, with options; or a built-in one
   int code;
-  const char* fails_on = "";  ///< with this value of --fail-on the code is 1
+  const char* fails_on = "";  ///< a value of --fail-on with which the code is 1
   const char* environment = "NEARMISS_ONE_IN=10";
   const char* options = "";
   bool only_replayed = false;
@@ -27,14 +27,14 @@ struct Shown {
 
 class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown> {
  protected:
-  /// Queries of which most plug-ins that misbehave answer some.
+  /// Writes queries of which most plug-ins that misbehave answer only some.
   void SetUp() override {
     const std::string late = "0.95 0.01 1  0 0 0  1 0 0  0 1 0   0.95 0.01 -2  0 0 0  1 0 0  0 1 0\n";
     ASSERT_EQ(run("family uniform --kind vt --count 40").code, 0);
     write("q.vt", hit + miss + late + read("out.txt"));
   }
 
-  /// Expects the exit code of the results that a command stores in a.db, wherever they are shown.
+  /// Expects the exit code of a command that stores its results in a.db, and of all that show these results.
   void expect_codes(const std::string& command) const {
     const Shown& shown = GetParam();
     const std::string subject = std::string(shown.subject).find(".so") == std::string::npos

@@ -1,4 +1,4 @@
-// Files that commands write: whole or not at all, and only where nothing of the user's is lost.
+// Files that commands write are complete or absent, and no file of the user's is lost.
 #include <unistd.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// What precedes a command that may not write where permissions forbid it. Root may, unless this right is taken away.
+/// Words before a command that make file permissions hold even for root.
 const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
 
 TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {

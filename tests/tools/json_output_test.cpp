@@ -10,8 +10,8 @@ using ::testing::HasSubstr;
 
 class JsonToStdout : public CommandLine {
  protected:
-  /// Runs a command with --json -, and expects that standard output is JSON, that the text is on stderr, and that there
-  /// is no file named "-".
+  /// Runs a command with --json -, and expects JSON on standard output, the text on stderr, and no file named
+  /// "-".
   [[nodiscard]] json json_of(const std::string& arguments, const std::string& text, int code = 0) const {
     const Output output = expect_code(code, arguments + " --json -");
     EXPECT_THAT(output.error, HasSubstr(text)) << arguments;

@@ -1,4 +1,4 @@
-// One line that helps: long words are cut, a NaN is called one, and --resume is named.
+// Error messages are one helpful line: long words are cut, a NaN is called NaN, and --resume is suggested.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 class Messages : public CommandLine {
  protected:
-  /// Expects that a command is refused with these words, in a line of at most a few hundred bytes.
+  /// Expects that a command is refused with these words, in a short line.
   void expect_short(const std::string& arguments, const std::string& words) const {
     expect_refused(arguments, {words});
     EXPECT_LT(read("error.txt").size(), 1200) << arguments;
@@ -41,7 +41,7 @@ TEST_F(Messages, ALongWordOfAFileIsCut) {
 
 TEST_F(Messages, AWordIsCutBetweenCharacters) {
   std::string word = "x";
-  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // the 41st byte is the second one of a character
+  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // byte 41 is the second one of a character
   write("q.vt", word);
   expect_short("replay q.vt", std::string("'").append(word, 0, 39).append("...'"));
 }

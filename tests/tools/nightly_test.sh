@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Runs tools/nightly in a tree of its own, in which set-up and libFuzzer do nothing, and checks its exit codes, its baseline,
-# and what it leaves after a signal and on a full disk. Interrupts tools/run there, too.
+# Runs tools/nightly in its own copy of the tree, in which set-up and libFuzzer do nothing. Checks exit codes,
+# the baseline, and what remains after a signal and on a full disk. Also interrupts tools/run.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
-# Another user may mount a disk in a namespace of its own.
+# A user who is not root may mount a disk in a new namespace.
 if ((EUID != 0)) && unshare --map-root-user --mount true 2>/dev/null; then exec unshare --map-root-user --mount "$0" "$@"; fi
 nearmiss=$(realpath "${arguments[0]}")
 source=$(realpath "$(dirname "$0")/../..")
@@ -24,7 +24,7 @@ cd "$folder/tree"
 nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
 nothing tools/setup tools/libfuzzer
 
-# night CODE OPTIONS...: a night with a small number of queries instead of a time, and its exit code.
+# night CODE OPTIONS...: runs a night of few queries, whatever its time, and checks its exit code.
 night() {
   local code=0
   sleep_until_next_second
@@ -41,7 +41,7 @@ exec "$nearmiss" "\$@"
 END_OF_SCRIPT
 chmod +x build/release/nearmiss
 
-mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # a part of the results' name; not a night
+mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # neither of these folders is a night
 night 0 --subject wang
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
 night 1 --subject wang,basic
@@ -50,12 +50,12 @@ expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 "$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
 night 0 --subject wang
-# The failures are red while they are there, and the baseline has them although the night before does not.
+# The night fails while the failures last. The baseline has them, although the night before does not.
 night 1 --subject=wang,basic
 expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z .version .*., last seen 20.*Z .version .*.$'
 seen=$(sed -nE 's/^lasting: .*, first seen ([^ ]*) .*, last seen .*/\1/p' "$folder/said" | sort -u)
 expect "expected that all were first seen in the second night, at $began, found $seen" test "$seen" = "$began"
-# A baseline of one night is the night before.
+# With --baseline 1, the baseline is only the night before.
 night 0 --subject wang
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
@@ -70,19 +70,19 @@ NEARMISS_ONE_IN=5 night 0 --subject "wang,$plugins/crash.so" --results "$folder/
 NEARMISS_ONE_IN=5 night 1 --subject "wang,$plugins/crash.so,basic" --results "$folder/faults"
 expect_said '^alarm: basic missed '
 expect "expected no alarm for what lasts" test -z "$(grep '^alarm: .*misbehaving' "$folder/said")"
-# A night that cannot be read is left out; the clock may have been ahead.
+# A night that cannot be read is left out. Its name may be in the future, because a clock can be ahead.
 mkdir "$folder/the nights/2999-01-01T000000Z"
 echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"
 night 1 --subject wang,basic
 expect_said '^lasting: '
-# The latest night is kept, although its name is not the last.
+# The latest night is kept, although another name comes after its name.
 night 0 --subject wang --keep 2
 expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2*Z" | wc -l)" = 2
 expect "expected that only nights are removed" test -d "$folder/the" -a -d "$folder/the nights/2nd Zoo"
 expect "expected the latest night" test -s "$folder/the nights/last/all.db"
 night 2 --subject none
 expect_said 'there is nothing to report'
-# libFuzzer hunts for each broken promise for the same time.
+# libFuzzer hunts equally long for each way to break a promise.
 printf '#!/bin/sh\necho "$*" >>%s/hunts\n' "$folder" >tools/libfuzzer
 night 0 --subject wang,wang-time --time 100s
 expect "expected six hunts of 6 s, found $(<"$folder/hunts")" cmp "$folder/hunts" - <<END_OF_HUNTS
@@ -96,11 +96,11 @@ END_OF_HUNTS
 nothing tools/libfuzzer
 rm -r "$folder/the nights"
 
-# Each signal is passed on to the part that runs; a report is made, and nothing is left running.
+# Each signal is passed on to the part of the night that runs. A report is made, and no process remains.
 cp build/release/nearmiss quick
 ln -sf "$nearmiss" build/release/nearmiss
 
-# Processes that work in this tree, except this script and its children that wait.
+# Prints the processes that work in this tree, except this script and its waiting children.
 left() {
   local each
   for each in /proc/[0-9]*; do
@@ -127,7 +127,7 @@ expect_report() { expect "expected a report" test -s "$results/last/report/index
 saved() { compgen -G "$results/*/$1.db-wal" >/dev/null; }
 exists() { [[ -e $1 ]]; }
 
-# Each signal is passed on to the campaign; a report of what there is is made.
+# Each signal is passed on to the campaign, and the report shows the results so far.
 for signal in TERM INT HUP; do
   begin "at-$signal"
   until_ saved families
@@ -137,7 +137,7 @@ for signal in TERM INT HUP; do
   expect "SIG$signal: expected no further part" test -z "$(grep -E 'sweeps|libFuzzer' "$folder/said")"
 done
 
-# The main job is interrupted in the same way.
+# tools/run is interrupted in the same way.
 env --default-signal=INT,TERM,HUP tools/run 100h &>"$folder/said" &
 night=$!
 until_ exists build/run/fuzz.db-wal
@@ -145,7 +145,7 @@ kill -TERM "$night"
 ends 130
 expect "expected a report" test -s build/run/report/index.html
 
-# The same holds while a script of ours runs: libFuzzer, and the set-up, after which there is nothing to report.
+# A signal does the same while libFuzzer's script runs, or the set-up, after which no night begins.
 forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
 rm build/release/nearmiss
 cp quick build/release/nearmiss
@@ -162,7 +162,7 @@ kill -TERM "$night"
 ends 130
 expect "expected no night" test "$(ls "$results")" = lock
 
-# A full disk ends the night with a report of what there is.
+# A full disk ends the night with a report of the results so far.
 nothing tools/setup tools/libfuzzer
 ln -sf "$nearmiss" build/release/nearmiss
 mkdir "$folder/disk"

@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 
 class PastedTest : public testing::CommandLine {
  protected:
-  /// Whether a command in the test's folder succeeds; its output is in text.txt.
+  /// Whether a command in the test's folder succeeds. Writes its output to text.txt.
   [[nodiscard]] bool succeeds(const std::string& command) const {
     return std::system(("cd " + file("").string() + " && " + command + " >text.txt").c_str()) == 0;
   }
@@ -25,7 +25,7 @@ class PastedTest : public testing::CommandLine {
     return to_line(parse_line(Kind::vertex_triangle, numbers, arguments));
   }
 
-  /// The query that the test passed to its detector.
+  /// The query that the pasted test passed to its detector.
   [[nodiscard]] std::string printed_numbers() const {
     return to_line(parse_line(Kind::vertex_triangle, read("text.txt"), "text.txt"));
   }
@@ -38,7 +38,7 @@ class PastedTest : public testing::CommandLine {
     return {run("shrink " + arguments + " --as c++").out, run("shrink " + arguments + " --as python").out};
   }
 
-  /// Compiles a test in C++, with a detector that prints its numbers and gives this answer and time, and runs it.
+  /// Compiles and runs a test in C++ with a detector that prints its numbers and gives this answer and time.
   [[nodiscard]] bool passes_in_cpp(const std::string& test, const std::string& name,
                                    const std::string& answer, const std::string& time = "0") const {
     write("test.cpp", test +

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the published CCDs of ../shared/peers with tools/peers, and asks each of them about a plain hit and a plain miss of each
-# kind. Skipped (exit code 77) where that folder is not.
+# Builds the published CCDs of ../shared/peers with tools/peers, and asks each about a plain hit and a plain
+# miss of each kind. Skipped (exit code 77) without that folder.
 # Usage: peers_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -38,7 +38,7 @@ while read -r plugin; do
   done
 done <"$folder/built"
 
-# Options, and what is wrong with them.
+# Options are accepted, and wrong ones refused.
 ask "$folder/all/tight-inclusion.so:tolerance=1e-3:iterations=100" vt "$vt_hit"
 [[ $said == 1* ]] || fail "expected a hit, found '$said'"
 ask "$folder/all/additive.so:iterations=1e3:rescaling=0.99" vt "$vt_miss"
@@ -49,14 +49,14 @@ for bad in tight-inclusion:tolerance=x tight-inclusion:tolerance=-1 tight-inclus
 done
 ask "$folder/all/tight-inclusion.so:tolerance=1e-3:tolerance=1" vt "$vt_hit"
 [[ $said == *"found 'tolerance=1', expected "*", each once"* ]] || fail "an option given twice: found '$said'"
-# The minimum separation root finder takes for granted that the primitives start farther apart than its separation.
+# The contract of MSRF: the primitives start farther apart than its minimum separation.
 "$nearmiss" subjects "$folder/all/msrf.so" | grep -q 'the distance at t = 0 is more than 1e-08' || fail "msrf: found another contract"
-# The paper's own code leaves contact at t = 0 to the step before, and has a range of sizes.
+# The contract of the paper's own code: a range of sizes, and no contact at t = 0.
 "$nearmiss" subjects "$folder/all/safeccd.so" | grep -q 'apart at t = 0; .*multiples of .*e-50; .*1e+50 long' || fail "safeccd: found another contract"
 ask "$folder/all/msrf.so:separation=1.5" vt "$vt_miss"
 [[ $said == *"found the options 'separation=1.5', expected none"* ]] || fail "msrf takes an option: found '$said'"
 
-# What cannot be built is told in a line, and the rest is built.
+# If a CCD cannot be built, a line says so, and the others are built.
 cp -r "$sources" "$folder/broken"
 chmod -R u+w "$folder/broken"
 echo '#error no longer' >>"$folder/broken/safeccd/safeCCDWrapper.cpp"

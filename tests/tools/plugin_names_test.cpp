@@ -1,4 +1,4 @@
-// What a run stores about plug-ins, on the command line: their limits, and names with which a finding can be replayed.
+// What a run stores about plug-ins: their limits, and names with which findings can be replayed.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

@@ -12,7 +12,7 @@ TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
   const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
   EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
-  // basic claims no bound, and is measured by wang's bound.
+  // basic claims no bound, so its distances are measured by wang's bound.
   std::string expected = wangs;
   for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
     expected.replace(at, 7, "wang");
@@ -41,7 +41,7 @@ TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
     EXPECT_EQ(lines(of_kind + "--count 8"),
               lines(of_kind + "--count 4") + lines(of_kind + "--first 8 --count 4"));
   }
-  // These queries are those of a campaign, and give the same counts.
+  // The printed queries are those of a campaign, and give the same counts.
   EXPECT_EQ(run("fuzz --family parallel --seed 5 --cases 1000 --json fuzz.json").code, 0);
   write("q.ee", lines("--kind ee --count 500"));
   EXPECT_EQ(run("replay q.ee --json replay.json").code, 0);

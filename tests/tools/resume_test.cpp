@@ -25,8 +25,8 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes a campaign in a.db, waits until it has saved and then for some time, and sends it a
-  /// signal. Returns the exit code; -1 if the signal ended it.
+  /// Starts or resumes a campaign in a.db, waits until it has saved, waits a further time, and sends it a
+  /// signal. Returns the exit code; -1 if the signal ended the process.
   [[nodiscard]] int run_until_a_signal(const std::string& command, std::chrono::milliseconds after,
                                        int signal) const {
     Background process(file(""), command + " --db a.db --resume");
@@ -59,7 +59,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
     EXPECT_EQ(finding["shrunk"], finding["original"]);
   EXPECT_EQ(run(std::string(campaign) + " --resume --db plain.db").code, 1);
   json later = timeless_report("plain.db");
-  later["runs"] = report["runs"];  // the command that repeats the run has the option
+  later["runs"] = report["runs"];  // its command has the option --shrink
   EXPECT_EQ(later, report);
 
   std::string shards;
@@ -74,15 +74,15 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(timeless_report("merged.db"), report);
 
   int kills = 0;
-  // The times between start and signal cover more than the interval between two saves. These times grow until
-  // the campaign is complete, even on a slow machine.
+  // The waiting times before a signal extend beyond the interval between two saves. They grow until the
+  // campaign completes, even on a slow machine.
   while (run_until_a_signal(campaign, std::chrono::milliseconds(137 * kills % 1000 + 20 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
     ++kills;
   RecordProperty("kills", kills);
   EXPECT_GT(kills, 0);
   EXPECT_EQ(timeless_report("a.db"), report);
-  // A complete campaign does not run again.
+  // A resume of a complete campaign does not run it again.
   EXPECT_EQ(run(std::string(campaign) + " --db a.db --resume").code, 1);
   EXPECT_EQ(timeless_report("a.db"), report);
 }
@@ -103,7 +103,7 @@ TEST_F(Resume, TheReportOnAPluginIsTheSameHoweverTheCampaignWasRun) {
 }
 
 TEST_F(Resume, ResumesOnlyTheSameCampaign) {
-  EXPECT_EQ(run("fuzz --cases 100 --db a.db --resume").code, 0);  // there is no store yet: starts
+  EXPECT_EQ(run("fuzz --cases 100 --db a.db --resume").code, 0);  // starts, because there is no store yet
   expect_refused("fuzz --cases 100 --seed 2 --db a.db --resume",
                  {"a.db: found a run with seed '1', expected '2'"});
   expect_refused("fuzz --cases 100 --subject basic --db a.db --resume",
@@ -131,7 +131,7 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
   EXPECT_EQ(run(again.substr(9) + " --db again.db").code, code);
   json other = timeless_report("again.db");
-  other["runs"] = report["runs"];  // these have a number of cases instead of a time
+  other["runs"] = report["runs"];  // its command has a number of cases instead of a time
   EXPECT_EQ(other, report);
 }
 

@@ -1,4 +1,4 @@
-// A campaign has the results of one build of nearmiss and of one build of each plug-in.
+// A campaign has the results of a single build of nearmiss and of each plug-in.
 #include "reports/sha256.hpp"
 #include "reports/store/store.hpp"
 #include "tests/tools/background.hpp"
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 class SameCode : public CommandLine {
  protected:
-  /// Replaces p.so by a plug-in. Those used here have the same name and version.
+  /// Replaces p.so by a plug-in. All plug-ins of this test have the same name and version.
   void install(const std::string& name) const {
     fs::copy_file(plugin(name), file("new.so"));
     fs::rename(file("new.so"), file("p.so"));

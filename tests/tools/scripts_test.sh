@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs every script of the tree with --help, -h and --nonsense in a copy of the tree, and checks that it prints its usage or
-# refuses, and changes nothing. Programs that would change something, such as cmake and sbatch, are replaced by a note of
-# their call.
+# Runs every script of the tree with --help, -h and --nonsense in a copy of the tree. Checks that it prints
+# its usage or refuses, and changes nothing. Programs that would change something, such as cmake and sbatch,
+# are replaced by one that only notes the call.
 # Usage: scripts_test.sh NEARMISS
 # shellcheck disable=SC2086  # two words in $options
 set -euo pipefail
@@ -30,7 +30,7 @@ cd "$folder/tree"
 
 state() { find . -printf '%p %y %s %T@\n' | sort; ls -A "$TMPDIR"; cat "$folder/called" 2>/dev/null || true; }
 before=$(state)
-# try CODE SCRIPT ARGUMENTS...: runs a script, whose output goes to `said`, and checks its exit code and that nothing changed.
+# try CODE SCRIPT ARGUMENTS...: puts a script's output into `said`, expects its exit code and no change.
 try() {
   local code=0 now
   case $2 in *.mjs) said=$(timeout 20 node "${@:2}" 2>&1 </dev/null) || code=$? ;;
@@ -52,7 +52,7 @@ for each in "${scripts[@]}"; do
   [[ $said ]] || fail "$each --nonsense: expected a line that says why, found nothing"
 done
 
-# Options have their values behind a blank or an equals sign; a missing or wrong value is refused at once.
+# An option's value follows a blank or an equals sign. A missing or wrong value is refused at once.
 for options in "--keep 0" --keep=0; do try 2 tools/nightly $options; expect_said "found --keep '0'"; done
 for options in "--time 9s" --time=9s; do try 2 tools/nightly $options; expect_said "found the time '9s'"; done
 try 2 tools/nightly --subject; expect_said "found --subject without a value"

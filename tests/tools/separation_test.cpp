@@ -19,7 +19,7 @@ class SeparationOption : public testing::CommandLine {
     return query.substr(0, query.size() - 1) + " " + separation + "\n";
   }
 
-  /// A subject that reports every pair at t = 1/2, and promises that nothing happens before.
+  /// A subject that reports every pair, and promises that nothing happens before t = 1/2.
   const std::string promises = " --subject " + plugin("promises");
 };
 
@@ -80,7 +80,7 @@ TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
   const json results = read_json("b.json")["results"];
   ASSERT_EQ(results.size(), 7);
   EXPECT_EQ(results[0]["input"], "q.vt~1.5");
-  EXPECT_EQ(results[0]["queries"], 2);  // boxes that are at most so far apart meet
+  EXPECT_EQ(results[0]["queries"], 2);  // boxes meet if they are at most 1.5 apart
   EXPECT_EQ(results[1]["input"], "uniform~1.5");
   EXPECT_EQ(run(options).code, 0);
   EXPECT_EQ(read_json("b.json")["results"][0]["input"], "q.vt");
@@ -99,7 +99,7 @@ TEST_F(SeparationOption, ZeroAsksForContact) {
 
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {
   write("one.vt", hit);
-  EXPECT_EQ(run("shrink one.vt" + promises).code, 2);  // contact at t = 1/2 is not before
+  EXPECT_EQ(run("shrink one.vt" + promises).code, 2);  // contact begins at t = 1/2, so this time is not late
   expect_code(0, "shrink one.vt -o late.case --separation 0.5" + promises);
   EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
   const Output again = expect_code(1, "replay late.case --json r.json" + promises);

@@ -92,7 +92,7 @@ daemons+=($!)
 idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
 wait_until idle || skip "Slurm does not start: $(grep -h fatal "$folder"/slurm*.log || tail -qn 1 "$folder"/slurm*.log)"
 
-# Makes the report of one machine, and an earlier campaign as its baseline.
+# Makes the report that one machine gives, with an earlier campaign as its baseline.
 fuzz=(--cases 100000 --subject basic,wang)
 expect_code() {
   local code=0
@@ -111,8 +111,8 @@ expect_said "found --shards 'none'"
 expect_code 2 "${campaign[@]}" "${fuzz[@]}" --subject none
 expect_said "nearmiss: "
 
-# The campaign is held until the second task is cancelled. When the others have saved something, the first
-# task is killed, and the third task receives the signal for its time limit.
+# The campaign is held until the second task is cancelled. When the other two have saved something, the first
+# task is killed, and the third gets the signal that its time limit is near.
 expect_code 0 "${campaign[@]}" "${fuzz[@]}" -- --hold
 IFS=, read -r array report <"$results/jobs"
 scancel "${array}_1"

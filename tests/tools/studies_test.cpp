@@ -91,7 +91,7 @@ TEST_F(OptionValues, AreAskedTheSameQueries) {
     EXPECT_EQ(steps[i]["queries"], 400);
     EXPECT_EQ(steps[i]["collisions"], steps[0]["collisions"]);
   }
-  EXPECT_EQ(steps[0]["false_negatives"], steps[0]["collisions"]);  // no sample has a distance of exactly 0
+  EXPECT_EQ(steps[0]["false_negatives"], steps[0]["collisions"]);  // no sampled distance is exactly 0
   EXPECT_LT(steps[1]["false_negatives"], steps[0]["false_negatives"]);
   EXPECT_EQ(steps[2]["false_negatives"], 0);
   EXPECT_EQ(steps[0]["false_positives"], 0);

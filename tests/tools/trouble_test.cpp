@@ -187,7 +187,7 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // The threads of a campaign and the processes of its plug-ins use the arithmetic of the command.
+  // The threads of a campaign, and the processes of its plug-ins, compute with the arithmetic of the command.
   const auto positives = [&](const std::string& preload, const std::string& error) {
     EXPECT_EQ(run("fuzz --family scale@-1070,planted --cases 2000 --quiet --json new.json --subject wang," +
                       plugin("hostile"),
@@ -234,7 +234,7 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
 
 TEST_F(CommandLine, AFullDiskLeavesNoPartOfAStoreWithoutResults) {
   if (std::system("unshare -rm true 2>/dev/null") != 0) GTEST_SKIP() << "found no permission to mount a disk";
-  // Room for the store's tables, but not for results. The disk lasts as long as the shell.
+  // The disk has room for the store's tables, but not for results. It exists as long as the shell.
   const std::string with_disk =
       "unshare -rm sh -c 'mkdir disk && mount -t tmpfs -o size=400k none disk && \"$@\"; code=$?; ls disk > "
       "left.txt; "
@@ -289,7 +289,8 @@ TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   expect_code(0, replay + "a.db", "", "<&-");
   const Output silent = expect_code(0, replay + "b.db", "", "2>&-");
   EXPECT_THAT(silent.out, HasSubstr(" ok  wang: no miss in 1 collision"));
-  // Nothing that is printed gets into the store or its lock.
+  // No printed text gets into the store or its lock, although their files may have the numbers of closed
+  // streams.
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
   for (const char* store : {"a.db", "b.db", "c.db"})
     EXPECT_EQ(run(std::string("report ") + store + " -o report").code, 0) << store;

@@ -1,4 +1,4 @@
-// Two versions of one CCD on the command line: names, what is fixed and broken, and how a broken query is replayed.
+// Two versions of a CCD on the command line: names, fixed and broken queries, and the replay of a broken one.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

@@ -71,8 +71,8 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Hunts with one target. Runs the command, and reads its last line: "found after S s, N executions: PATH" or "nothing in
-/// ...".
+/// Hunts with one libFuzzer target. Runs the command, and reads its last line: "found after S s, N
+/// executions: PATH" or "nothing in ...".
 Hunt hunt_with_target(const Options& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command =
@@ -98,7 +98,7 @@ Hunt hunt_with_target(const Options& options, const std::string& subject,
   return result;
 }
 
-/// Gives each target of the subject an equal share of the time, and returns the failure that its target found soonest.
+/// Gives each target of the subject an equal share of the time. Returns the failure that was found soonest.
 Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   const auto targets = libfuzzer::targets_for(*make_any_subject(subject));
   const double share = parse_duration(options.time, "--time").count() / static_cast<double>(targets.size());
@@ -143,19 +143,19 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
   for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
   return text +
          "\n\nTime and cases up to the first miss; *: up to the first refuted bound; +: up to the first late "
-         "time. Of a directed search, evaluations: at most this many. Of libFuzzer, those of "
-         "the target that was soonest.\n";
+         "time. For directed search, the number of cases is an upper limit of the evaluations. For "
+         "libFuzzer, time and cases are those of the target that found a failure soonest.\n";
 }
 
 int run(const Options& options) {
-  (void)parse_duration(options.time, "--time");  // a bad one is refused before any work
+  (void)parse_duration(options.time, "--time");  // refuses a bad one before any work
   std::vector<Hunt> results;
   const std::filesystem::path stored = options.json.file();
   if (!stored.empty() && std::filesystem::exists(stored)) results = load_hunts(stored);
   std::vector<std::string> subjects = options.subjects;
   if (subjects.empty())
     for (const Defect& defect : defects()) subjects.push_back(defect.name);
-  for (const std::string& subject : subjects) (void)make_any_subject(subject);  // likewise
+  for (const std::string& subject : subjects) (void)make_any_subject(subject);  // refuses an unknown one
   std::vector<std::string> ways = options.ways;
   if (ways.empty()) {
     ways = {std::string(uniform), std::string(all_families), std::string(search)};

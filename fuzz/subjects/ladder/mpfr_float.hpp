@@ -10,9 +10,9 @@
 
 namespace nearmiss {
 
-/// A number with the number of bits that the thread's PrecisionScope sets, without heap memory. Every
-/// operation, including the square root, rounds to nearest, so its relative error is at most u = 2^-bits =
-/// ε/2. Exponents never reach the limits of MPFR here.
+/// A number without heap memory, whose number of bits is set by the thread's PrecisionScope. Every operation,
+/// including the square root, rounds to nearest, so its relative error is at most u = 2^-bits = ε/2.
+/// Exponents never reach the limits of MPFR here.
 class MpfrFloat {
  public:
   static constexpr int most = 256;

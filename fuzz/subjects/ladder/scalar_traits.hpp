@@ -6,8 +6,8 @@
 
 namespace nearmiss::ladder {
 
-/// A base for the std::numeric_limits of a T whose range is at least that of double: the limits of double.
-/// The derived class replaces epsilon.
+/// A base class for std::numeric_limits<T>, for a T whose range is at least that of double. It gives the
+/// limits of double; the derived class replaces epsilon.
 template <class T>
 struct LimitsOfDouble : std::numeric_limits<double> {
   static T min() { return std::numeric_limits<double>::min(); }
@@ -15,7 +15,7 @@ struct LimitsOfDouble : std::numeric_limits<double> {
   static T infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
-/// The Eigen::NumTraits of a real T that has a constructor, with the estimated costs of T's operations.
+/// A base class for Eigen::NumTraits<T>, for a real T with a constructor and these estimated costs.
 template <class T, int read_cost, int add_cost, int multiplication_cost>
 struct RealTraits : Eigen::GenericNumTraits<T> {
   enum {

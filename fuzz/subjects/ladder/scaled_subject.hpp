@@ -39,7 +39,7 @@ struct MachineArithmetic {
 };
 
 /// basic, wang or wang-tight with all arithmetic in T. Each call runs within an Arithmetic(exponent of ε). If
-/// T has fewer digits than a double, coordinates are rounded to T first, and the rounded query is decided.
+/// T has fewer digits than a double, the subject rounds coordinates to T, and decides the rounded query.
 template <class T, class Arithmetic>
 class Scaled final : public Subject {
  public:
@@ -66,7 +66,7 @@ class Scaled final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (!claims_bound()) return std::numeric_limits<double>::infinity();
     const Arithmetic arithmetic(epsilon_exponent_);
-    // Rounded up, with a margin for B in a scalar of few digits: B <= B* (1 + 40ε).
+    // Rounded up, with a margin for B in a scalar of few digits: B <= B* (1 + 40ε), where B* is exact.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));

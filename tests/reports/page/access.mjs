@@ -7,7 +7,7 @@ import { count, folder, open, pageOf } from "./session.mjs";
 
 const axe = readFileSync(new URL("../../../reports/page/node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 
-/** axe-core finds nothing, in both themes and on a phone. */
+/** axe-core finds no barriers, in both themes and on a phone. */
 export async function hasNoBarriers(browser) {
   const [light, dark, phone] = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }];
   for (const [name, ...all] of [["found", light, dark, phone], ["timed", dark], ["many", phone], ["clean", light], ["later", dark], ["decided", light], ["options", light, dark]])
@@ -21,7 +21,7 @@ export async function hasNoBarriers(browser) {
     }
 }
 
-/** A report with this many findings, made of those of another one. */
+/** Makes a copy of a report with this number of findings, which repeat those of the report. */
 function withFindings(name, many) {
   const page = readFileSync(join(folder, name, "index.html"), "utf8");
   const begin = page.indexOf(">", page.indexOf('id="report"')) + 1;
@@ -34,7 +34,7 @@ function withFindings(name, many) {
   return pathToFileURL(file).href;
 }
 
-/** However many findings there are, the page draws a few and finds the others. Prints the times. */
+/** With any number of findings, the page draws a few and finds any other. Prints the times. */
 export async function staysQuickWithManyFindings(browser) {
   for (const many of [10, 10000]) {
     const page = await open(browser, withFindings("found", many));
@@ -45,7 +45,7 @@ export async function staysQuickWithManyFindings(browser) {
       const begin = performance.now();
       input.value = words;
       input.dispatchEvent(new Event("input", { bubbles: true }));
-      document.body.getBoundingClientRect(); // the layout is part of it
+      document.body.getBoundingClientRect(); // forces the layout, so that its time counts
       return performance.now() - begin;
     }, `number-${many - 1}`);
     assert.equal(await page.textContent("#findings-count"), `1 of 1 shown, out of ${many.toLocaleString("en-US")}`);

@@ -1,4 +1,4 @@
-// Tests charts of sweeps, of claims of no distance, and of deciders.
+// Tests charts of sweeps, of refuted claims of a bound of 0, of misses, and of deciders.
 import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
 import { count, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
@@ -7,8 +7,7 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Marks above them show values other
-  // than 0.
+  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Values above 0 have another mark.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);
@@ -17,7 +16,7 @@ export async function showsSweeps(browser) {
   await page.close();
 }
 
-/** A row of charts for each option, with a point for each class and value that has the number. */
+/** Each option has a row of charts, with a point for each class and value that has the number shown. */
 export async function showsValuesOfOptions(browser) {
   const plugin = join(dirname(nearmiss), "plugins", "sampling.so");
   run("tightness", "--subject", `wang,${plugin}:tolerance=*`, "--values", "0,0.01,1", "--cases", "1200", "--db", "options.db");
@@ -37,11 +36,12 @@ export async function showsValuesOfOptions(browser) {
 export async function showsSweepsOfWhatIsNeverWrong(browser) {
   const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
   assert.equal(await count(page, ".units:visible"), 0); // every subject claims a bound
-  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2); // all values are 0 except the times
+  // All values are 0, except the times.
+  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2);
   await page.close();
 }
 
-/** For a claim of 0, the ratio of a false positive is infinite. */
+/** If a subject claims a bound of 0, the ratio of a false positive is infinite. */
 export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   const plugin = join(dirname(nearmiss), "plugins", "claims_exact.so");
   const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,${plugin}`]));
@@ -49,12 +49,16 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
   const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
   assert.ok((await ends("error-time")).includes("∞"));
-  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 3); // and the cross of the one that failed
+  // One mark for each subject, and a cross for the failed one.
+  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 3);
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
   await page.close();
 }
 
-/** The map of misses has a column for each subject that missed, a cell for each family in which any of them did, and classes apart. */
+/**
+ * The map of misses has a column for each subject that missed, and a cell for each family in which any did.
+ * Classes are apart.
+ */
 export async function showsWhereCollisionsAreMissed(browser) {
   const page = await open(browser, pageOf("found"));
   const { families } = Object.entries(jsonOf("found").subjects.basic).reduce((all, [, ofKind]) => {

@@ -1,5 +1,4 @@
-// Tests findings, verdicts and counters: of a campaign with failures, of a campaign without, and with a
-// baseline.
+// Tests findings, verdicts and counters, in a campaign with failures, in one without, and with a baseline.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -27,7 +26,8 @@ async function checkVerdicts(page, report) {
 
 async function checkCharts(page, report) {
   const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
-  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the subject that missed
+  // One point for each of 2 subjects, and a cross for the one that missed.
+  assert.deepEqual([await points(0), await points(1)], [3, 3]);
   assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 2);
   assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
   const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
@@ -65,7 +65,7 @@ async function checkTables(page, report) {
   assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
 }
 
-/** Every section with distances says that basic claims no bound, and its distances are marked. */
+/** Every section with distances says that basic claims no bound, and marks its distances. */
 async function checkUnits(page) {
   const notes = await page.locator(".units:visible").allTextContents();
   assert.ok(notes.length >= 4);
@@ -95,7 +95,7 @@ async function checkFindings(page, report) {
   assert.equal(await shrunk.isVisible(), true);
 }
 
-/** Findings are filtered by their fields and by words, and a subject of the first table leads to its own. */
+/** Findings are filtered by their fields and by words. A subject in the first table links to its findings. */
 async function checkFilter(page, report) {
   const shown = () => page.textContent("#findings-count");
   const of = (test) => report.findings.filter(test).length;
@@ -145,7 +145,7 @@ async function checkThatAPictureTurns(page) {
   assert.notEqual(await drawn(), byMouse);
 }
 
-/** The texts that the buttons of the first finding copy: its command, and its query. */
+/** The texts that the first finding's buttons copy: the command, and the query. */
 async function checkCopies(page, report, command) {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   const copied = async (number) => {
@@ -171,7 +171,10 @@ async function checkOtherSections(page) {
   assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --cases 2200");
 }
 
-/** Two versions of a CCD: which queries the later one fixes and breaks, and how the first broken one is replayed. */
+/**
+ * Two versions of a CCD: the queries that the later one fixes and breaks, and the replay of the first broken
+ * one.
+ */
 export async function showsVersions(browser) {
   const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
   const page = await open(browser, makeReport("versions", ["--subject", `old=${plugin("v1")},new=${plugin("v2")},vt=${plugin("v3")}`, "--family", "uniform", "--cases", "400"]));
@@ -202,7 +205,7 @@ export async function showsFindings(browser) {
 
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
   assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
-    { status: 1 }); // the command on the page repeats the failure
+    { status: 1 }); // the copied command fails again
   await page.close();
 }
 

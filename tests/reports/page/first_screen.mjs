@@ -1,10 +1,13 @@
-// Tests what is seen before scrolling.
+// Tests what the page shows before scrolling.
 import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
 const failing = "basic,basic-plain,defect:vv,defect:proximity,defect:D2*0,defect:S*0,defect:psi*0,defect:rho*0,defect:lambda2*0,defect:mu*0";
 
-/** Without scrolling, on a common screen: is it safe, what does it cost, what is new, how is a failure reproduced. */
+/**
+ * A common screen shows without scrolling: is it safe, what does it cost, what is new, how is a failure
+ * replayed.
+ */
 async function answersEverything(browser, name) {
   const page = await open(browser, pageOf(name), { viewport: { width: 1440, height: 900 } });
   const { verdicts } = jsonOf(name);
@@ -29,7 +32,10 @@ async function answersEverything(browser, name) {
   return failed.length;
 }
 
-/** A night with a scene and a ladder, too: only the ladder's many subjects are folded, and nothing makes the page too wide or too long. */
+/**
+ * A night that also has a scene and a ladder. Only the ladder's many subjects are folded, and the page is
+ * neither too wide nor too long.
+ */
 async function answersBesideAScene(browser) {
   run("ladder", "--scalar", "float,p40,p48,p56,p64", "--cases", "160", "--db", "rungs.db");
   run("scene", "spikes@100", "--subject", "wang,basic", "--db", "beside.db");

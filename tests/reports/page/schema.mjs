@@ -8,11 +8,13 @@ import { folder, jsonOf, nearmiss, run } from "./session.mjs";
 const schema = JSON.parse(readFileSync(new URL("../../../reports/report.schema.json", import.meta.url), "utf8"));
 const isValid = new ajv.default({ strict: false, allErrors: true }).compile(schema);
 
-/** The errors, without the indices of lists. */
+/** The errors of a report, without the indices of lists. */
 const errors = (report) => (isValid(report) ? []
   : [...new Set(isValid.errors.map(({ instancePath, message, params }) => `${instancePath.replace(/\/\d+/g, "/N")} ${message} ${JSON.stringify(params)}`))]);
 
-/** All reports of the other tests are as the schema says, and a report with another field or another type is not. */
+/**
+ * All reports of the other tests satisfy the schema. A report with an added field or a changed type does not.
+ */
 export function everyReportFollowsItsSchema() {
   const sampling = join(dirname(nearmiss), "plugins", "sampling.so:sampling:tolerance=*");
   for (const [name, ...options] of [["values", "--subject", sampling, "--values", "0.5,1e-9", "--cases", "200"], ["factors", "--tolerance", "rho", "--time", "1s"]]) {

@@ -10,7 +10,7 @@ export const nearmiss = process.argv[2];
 export const folder = mkdtempSync(join(tmpdir(), "nearmiss-page-"));
 export const removeFolder = () => rmSync(folder, { recursive: true });
 
-/** Runs nearmiss; exit code 1 (something was found) is fine here. */
+/** Runs nearmiss. Exit code 1, which means that something was found, is no error here. */
 export function run(...args) {
   try {
     execFileSync(nearmiss, args, { cwd: folder, stdio: "pipe" });
@@ -29,7 +29,7 @@ export function makeReport(name, fuzz, report = []) {
   return pageOf(name);
 }
 
-/** Opens a page, which must draw without any error and without the network. */
+/** Opens a page. It must draw without errors, and without the network. */
 export async function open(browser, url, options = {}) {
   const page = await browser.newPage({ offline: true, ...options });
   const complaints = [];

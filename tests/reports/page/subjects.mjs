@@ -2,7 +2,10 @@
 import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
-/** Failed subjects and the Pareto front come first. A change redraws the charts with a row or a line for each subject. */
+/**
+ * Failed subjects and the Pareto front are chosen first. A changed choice redraws the charts, with a row or
+ * line for each subject.
+ */
 export async function showsAChoiceOfManySubjects(browser) {
   const names = "wang:float,wang:p40,wang:p64,wang-tight:float,wang-tight:p40,wang,wang-tight,basic,basic-plain,exact,adaptive".split(",");
   const page = await open(browser, makeReport("many", ["--cases", "600", "--search", "--subject", names.join(",")]));
@@ -35,7 +38,7 @@ export async function showsAChoiceOfManySubjects(browser) {
     assert.ok(rates.height < 2500);
   };
   const first = await chosen();
-  assert.deepEqual(new Set(first), new Set(names)); // there is a colour for each
+  assert.deepEqual(new Set(first), new Set(names)); // each subject has a colour
   const front = [...(error_against_time.ladder ?? error_against_time).front_by_distance, ...error_against_time.front_by_rate, ...error_against_time.front_by_earliness];
   for (const name of front) assert.ok(first.includes(name), name);
   await isAsChosen(first);
@@ -60,11 +63,14 @@ export async function showsAChoiceOfManySubjects(browser) {
   await isAsChosen(names.filter((name) => !ofWang.includes(name)));
   await press("reset");
   await isAsChosen(first);
-  assert.equal(await count(page, "#counts tbody tr"), 2 * names.length); // tables are complete
+  assert.equal(await count(page, "#counts tbody tr"), 2 * names.length); // tables show all subjects
   await page.close();
 }
 
-/** The first picture has every subject; the clean ones are chosen first if there are more subjects than colours. */
+/**
+ * The first chart shows every subject. If there are more subjects than colours, the clean ones are chosen
+ * first.
+ */
 export async function drawsManySubjectsWithoutALadder(browser) {
   const defects = ["D2*0.01", "D2*0", "S*0", "vv", "proximity", "psi*0", "rho*0", "lambda2*0"].map((name) => `defect:${name}`);
   const names = [...defects, ..."wang,wang-eps,wang-plain,wang-tight,basic,basic-plain,exact,adaptive".split(",")];
@@ -93,7 +99,7 @@ export async function drawsManySubjectsWithoutALadder(browser) {
   await page.close();
 }
 
-/** Runs with a ladder, with subjects that have no place on it, and with a scene share one picture. */
+/** One chart shows a ladder, subjects that are on no ladder, and a scene together. */
 export async function drawsAMixOfRuns(browser) {
   run("scene", "spikes@100", "--subject", "wang,wang-time", "--db", "spikes.db");
   run("report", "many.db", "plain.db", "spikes.db", "-o", "mixed");

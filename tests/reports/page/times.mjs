@@ -1,4 +1,4 @@
-// Tests times of impact: their error against run time, their table, histograms and pictures; and separations.
+// Tests times of impact (error against run time, table, histograms, pictures) and separations.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -7,12 +7,13 @@ import { count, folder, jsonOf, makeReport, nearmiss, open, pageOf, run } from "
 const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
 const texts = (page, selector) => page.locator(selector).allTextContents();
 
-/** A mark for each subject that gives times, with its name; a cross for the one that is late. */
+/** Each subject that gives times has a mark with its name; the late one has a cross, too. */
 async function checkEarliness(page, { error_against_time }) {
   assert.deepEqual(error_against_time.front_by_earliness, ["exact"]);
   assert.equal(await count(page, "#earliness .mark-symbol.role-mark path"), 3 + 1);
   assert.equal(await count(page, "#earliness .mark-symbol.role-mark path[fill='#b3261e']"), 1);
-  assert.equal(await count(page, "#earliness .mark-rect.role-mark path"), 2 * 3); // ticks for the 99 % quantile and the largest
+  // Two ticks for each subject: the 99 % quantile and the largest error.
+  assert.equal(await count(page, "#earliness .mark-rect.role-mark path"), 2 * 3);
   const dashed = await page.locator("#earliness .mark-rule.role-mark line").evaluateAll((all) =>
     all.filter((each) => each.getAttribute("stroke-dasharray") === "4,3").length);
   assert.equal(dashed, 1); // the estimate
@@ -46,7 +47,7 @@ async function checkTable(page, { subjects }) {
   assert.deepEqual(new Set(cells), new Set(counts.map((each) => (each.times_promised > 0 ? each.late.toLocaleString("en-US") : "–"))));
 }
 
-/** A strip for each subject and kind: early times left of the middle, times after t* right of it. */
+/** Each subject and kind has a strip, with early times left of the middle, and times after t* right of it. */
 async function checkHistograms(page, { subjects }) {
   const sum = (list) => list.reduce((a, b) => a + b, 0);
   for (const [subject, ofKind] of Object.entries(subjects))
@@ -59,8 +60,9 @@ async function checkHistograms(page, { subjects }) {
     }
   assert.equal(await count(page, "#time-errors .mark-area path"), 3 * 2);
   assert.equal(await count(page, "#time-errors .mark-rule.role-mark line"), 3 * 2);
+  // The row headers, left of the charts of the first kind.
   assert.deepEqual((await texts(page, "#time-errors .role-row-header text")).filter((text) => text.includes("(")),
-    ["always (lower bound)", "exact (lower bound)", "sampling (estimate)"]); // left of the first kind
+    ["always (lower bound)", "exact (lower bound)", "sampling (estimate)"]);
   const ticks = await texts(page, "#time-errors .role-axis-label text");
   for (const tick of ["−1e-4", "−1e-12", "0", "1e-12", "1e-4"]) assert.ok(ticks.includes(tick), tick);
 }
@@ -105,7 +107,8 @@ export async function showsSeparations(browser) {
   const page = await open(browser, makeReport("apart",
     ["--family", "uniform", "--separation", "0.25", "--cases", "400", "--subject", `exact,${plugin("promises")}`]));
   assert.match(await page.textContent("#runs"), /, separation 0\.25, /);
-  const ofFinding = jsonOf("apart").findings[0].shrunk[24];  // simplified with the coordinates
+  // The separation is simplified together with the coordinates.
+  const ofFinding = jsonOf("apart").findings[0].shrunk[24];
   for (const [section, h] of [["findings", ofFinding], ["farthest", 0.25], ["extreme-times", 0.25]]) {
     assert.ok((await page.locator(`#${section} figcaption`).first().textContent()).startsWith(`h = ${h}`), section);
     assert.ok((await page.locator(`#${section} pre`).first().textContent()).endsWith(`\nh  ${h}`), section);
@@ -120,7 +123,10 @@ export async function showsSeparations(browser) {
   await page.close();
 }
 
-/** A lower bound after t* is not called late where the distance only touches h: first such a query, then one whose time is late. */
+/**
+ * A lower bound after t* is not late if the distance only touches h. The first query is such a case; the
+ * second has a late time.
+ */
 export async function showsWhichTimesAreLate(browser) {
   const [end, triangle] = ["0.25 0.25", "0 0 0  1 0 0  0 1 0"];
   const query = (from, to) => `${end} ${from}  ${triangle}   ${end} ${to}  ${triangle}  0.5\n`;
