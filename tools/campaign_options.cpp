@@ -61,7 +61,7 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
-  // "all" includes the families with separations of their own only if separations are to be drawn.
+  // Only with --separation drawn does "all" include the families that have separations of their own.
   const std::string separation = options.separation.of_families();
   const bool is_drawn = separation == drawn_separation;
   const auto all = std::span(known).first(is_drawn ? known.size() : contact);

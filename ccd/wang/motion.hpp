@@ -181,8 +181,8 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Verte
 }
 
 /// Whether B³, B⁴ε and N·N stay in the range of the scalar without scaling. For double with B in [2^-100,
-/// 2^100], nothing can overflow, and a result that underflows is below 2^-1074, while B⁴ε >= 2^-452. So
-/// scaling would change no digit there. For a narrower scalar the same argument holds with a smaller range.
+/// 2^100], nothing can overflow, and underflow adds an error below 2^-1074 to a result, far less than B⁴ε >=
+/// 2^-452. So scaling would not help there. For a narrower scalar the same argument holds with a smaller range.
 template <class T>
 auto in_range(T B) {
   using Number = ScalarOf<T>;

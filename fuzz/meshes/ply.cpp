@@ -114,7 +114,7 @@ void expect_finite(const std::vector<Vector3<double>>& points, std::string_view 
         throw Error(fmt::format("{}: found {} in vertex {}, expected a finite number", name, c, i + 1));
 }
 
-/// Throws Error unless a polygon has at least three vertices, all of which exist among `points` points.
+/// Throws Error unless the polygon has at least three vertices, each an index from 0 to `points` - 1.
 void expect_polygon(std::span<const long> polygon, std::size_t points, std::size_t number,
                     std::string_view name) {
   if (polygon.size() < 3)

@@ -113,7 +113,7 @@ void Marks::merge(const Marks& other) {
   for (const auto& [point, mark] : other.points_) points_[point] |= mark;
 }
 
-/// The primitives of a mesh with a mark, and those without a mark.
+/// The marked primitives of a mesh, and its other primitives.
 struct Marks::Primitives {
   std::vector<Marked> marked, others;
 

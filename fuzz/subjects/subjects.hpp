@@ -27,7 +27,8 @@ std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});
 
-/// As make_any_subject, but makes all detectors of a shared object if the text has no NAME and no detector.
+/// As make_any_subject, but if the text has no NAME= and names no detector of a shared object, makes a subject
+/// of each detector.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});

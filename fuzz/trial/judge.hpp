@@ -49,7 +49,8 @@ class Judge {
   [[nodiscard]] std::optional<Failure> failure(const Query& query, const Verdict& verdict) const;
 
  private:
-  /// The outcome of an answer, without distances. For a false positive whose distance counts, also the unit.
+  /// The outcome of an answer, without its distance; and the unit of that distance, if the answer is a false
+  /// positive other than "cannot tell", and the subject gives a finite unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
                                                                      Truth& truth) const;
   /// The error of the time of a true positive; nothing if the subject gives none.

@@ -184,7 +184,8 @@ class FindingShrinker::OfSubject {
   }
 
  private:
-  /// The simplest query that fails in the same way, and of class `of` if that is given.
+  /// The simplest query that fails as the finding does. If `of` is given, the query also has this class; if
+  /// `before` is not null, that version answers the query rightly.
   [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of, const OfSubject* before,
                                 const std::function<void()>& check) const {
     const Limited limited = limited_subject();

@@ -20,7 +20,7 @@ inline constexpr double time_rounding = 0x1p-53;
 /// at some time. It gives up early, because DistanceSearch decides what remains.
 class QuickSearch {
  public:
-  /// The bounds are those of first_time_below().
+  /// `low` and `required` are as for first_time_below() (approach.hpp).
   QuickSearch(const VertexDifferences& differences, double low, double required)
       : differences_(differences), low_(low), required_(required) {}
 

@@ -5,8 +5,8 @@
 
 namespace nearmiss::exact {
 
-/// Whether two polynomials that are not zero certainly have no common root; false if the residues of their
-/// coefficients do not show it. The test takes far less time than a remainder sequence of polynomials with
+/// Whether the residues of their coefficients prove that two nonzero polynomials have no common root; false
+/// proves nothing. The test takes far less time than a remainder sequence of polynomials with
 /// long coefficients.
 ///
 /// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest

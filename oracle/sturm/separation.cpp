@@ -1,7 +1,7 @@
 // A pair of features, such as a vertex and an edge, is described by polynomials in t: `excess`, a positive
-// multiple of distance² - h² of the lines or planes through them; `inside`, none of which is negative where
-// the closest points of these lie in the features; and `extent`, which is positive unless the features are
-// degenerate. At every time, the closest points of the primitives are those of such a pair, or of a vertex of
+// multiple of d² - h², where d is the distance of the features after edges are extended to lines, and triangles
+// to planes; `inside`, none of which is negative where the closest points of the extended features lie in the
+// features themselves; and `extent`, which is positive unless the features are degenerate. At every time, the closest points of the primitives are those of such a pair, or of a vertex of
 // each.
 //
 // The distance is at most h at some time iff it is so at t = 0, or at a root of the excess of a pair or, if

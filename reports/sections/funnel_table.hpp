@@ -15,7 +15,7 @@ std::string scene_of(const std::string& step);
 /// without scenes.
 std::string funnel_tables(const Statistics& statistics);
 
-/// An object STEP.KIND whose values are funnel_json (counts_json.hpp).
+/// An object by step, then by kind, whose values are funnel_json (counts_json.hpp).
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -28,7 +28,8 @@ std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics);
 /// row for each class and value; "" without sweeps.
 std::string sweep_tables(const Statistics& statistics);
 
-/// An object FAMILY.SUBJECT with a list in the order of the values; empty without sweeps.
+/// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
+/// increasing order. Empty without sweeps.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 
 /// An object with a list for each pattern, in the order of classes and values; empty without sweeps of

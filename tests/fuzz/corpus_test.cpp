@@ -1,4 +1,5 @@
-// The corpus: every case has a reason, the oracle agrees with its truth, and wang reports every collision.
+// The corpus: every case has a reason, and records a truth with which the oracle agrees; wang reports every
+// collision.
 #include <gtest/gtest.h>
 
 #include <map>

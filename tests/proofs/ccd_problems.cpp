@@ -164,8 +164,8 @@ Pair<kind, Traced> pair_with_bound(Problem& problem) {
   return pair;
 }
 
-/// The slack of `excludes_collision`, and its last comparison, w > N·N + slack. The interval h around the
-/// root, from which both the slack and the brackets are computed, is an input in [0, 1].
+/// The slack of `excludes_collision`, and its last comparison, w > N·N + slack. h, the half width
+/// of the interval around the root, is an input in [0, 1]; both the slack and the brackets are computed from h.
 struct Culling {
   Problem problem;
   Traced slack;

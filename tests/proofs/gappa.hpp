@@ -19,7 +19,8 @@ struct Arithmetic {
   int bits = 53;
   /// If set, each product and quotient has an additional error of up to 2^underflow, for B = 1.
   std::optional<int> underflow{};
-  /// If true, only the vectors are rounded when they are formed, and all computations with them are exact.
+  /// If true, the relative vectors are rounded when they are formed, and all computations with them are
+  /// exact.
   bool vectors_alone = false;
 };
 

@@ -14,7 +14,7 @@ TEST_F(CommandLine, AMissGivesExitCodeOne) {
   EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
 }
 
-/// A subject, and the exit code of every subcommand that shows its results.
+/// A subject, and the exit code of all subcommands that show the results of this subject.
 struct Shown {
   const char* what;
   const char* subject;  ///< a plug-in, with options; or a built-in one

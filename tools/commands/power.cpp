@@ -71,8 +71,8 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Hunts with one libFuzzer target. Runs the command, and reads its last line: "found after S s, N
-/// executions: PATH" or "nothing in ...".
+/// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for "found
+/// after S s, N executions: PATH" or "nothing in ...".
 Hunt hunt_with_target(const Options& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command =
