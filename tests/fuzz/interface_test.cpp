@@ -33,12 +33,14 @@ std::vector<std::unique_ptr<Subject>> both(const std::string& subject) {
 TEST(Interface, ASharedObjectMayHaveSeveralDetectors) {
   std::vector<std::string> names;
   for (const auto& each : make_any_subjects(several(""))) names.push_back(each->name());
-  EXPECT_THAT(names, ElementsAre("told", "edges", "floats", "batches", "narrow-apart"));
+  EXPECT_THAT(names, ElementsAre("told", "edges", "floats", "batches", "wearing", "narrow-apart"));
   EXPECT_EQ(make_any_subjects(several(":floats")).size(), 1);
-  EXPECT_REFUSED(make_any_subject(several("")),
-                 "found several detectors, expected one of told, edges, floats, batches, narrow-apart");
-  EXPECT_REFUSED(make_any_subject(several(":none")),
-                 "found no detector 'none', expected one of told, edges, floats, batches, narrow-apart");
+  EXPECT_REFUSED(
+      make_any_subject(several("")),
+      "found several detectors, expected one of told, edges, floats, batches, wearing, narrow-apart");
+  EXPECT_REFUSED(
+      make_any_subject(several(":none")),
+      "found no detector 'none', expected one of told, edges, floats, batches, wearing, narrow-apart");
 }
 
 TEST(Interface, ASharedObjectMayHave64DetectorsWithNamesOf255Bytes) {

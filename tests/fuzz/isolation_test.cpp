@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -189,6 +190,17 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
               std::string(short_name(queries[i].kind)) + " " + GetParam().signature);
   }
   EXPECT_GE(chosen, 2);
+}
+
+// The plug-in crashes at every 100th query. A call of 40 queries that crashes is repeated query by query, and no
+// query crashes then.
+TEST(Isolation, ACrashThatDoesNotRepeatCounts) {
+  const auto subject = make_isolated_plugin(plugin("several") + ":wearing");
+  std::map<Fault, int> answers;
+  for (int calls = 0; calls < 20; ++calls)
+    for (const Verdict& verdict : answers_of(*subject, one_batch(40))) ++answers[verdict.fault];
+  EXPECT_GE(answers[Fault::crash], 3);
+  EXPECT_EQ(answers[Fault::crash] + answers[Fault::none], 800);
 }
 
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {

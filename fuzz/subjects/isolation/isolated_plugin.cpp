@@ -4,6 +4,7 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "ccd/query/error.hpp"
@@ -159,8 +160,11 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   /// Has a worker perform the request for one batch. A worker that cannot be used any more is replaced by a
-  /// new one, which continues after the query that failed. A call that takes too long as a whole is repeated
-  /// query by query, to find the query that takes so long. `late` counts the queries over the time limit.
+  /// new one, which continues after the query that failed. A call that fails as a whole is repeated query by
+  /// query, to find the query that is to blame. If none of them fails, the last one is to blame: what depends
+  /// on the queries before, such as a crash at every 1000th query, is a fault too. (A call that was late as a
+  /// whole is none, because its queries together may take so long.) `late` counts the queries over the time
+  /// limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -169,6 +173,8 @@ class IsolatedPlugin final : public BatchSubject {
     if (worker) worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
     bool is_split = false;
+    std::optional<WorkerFailure> of_call;  // the failure of a call that is repeated query by query
+    std::uint32_t end_of_call = 0;
     for (std::uint32_t first = 0; first < size;) {
       if (!is_asked || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
@@ -185,11 +191,16 @@ class IsolatedPlugin final : public BatchSubject {
       const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
       code_->expect_unchanged();  // a running process, too, may see what is written to its file
       if (!is_split) adapt(last - first, *worker, failure);
-      is_split = is_split || (failure && failure->of_call);
-      if (!failure || !failure->of_call) {
-        const std::uint32_t end = failure ? failure->query : last;
-        take_part(first, end, failure);
-        first = failure ? end + 1 : end;
+      if (failure && failure->of_call) {
+        is_split = true;
+        if (failure->fault != Fault::time) of_call = failure;
+        end_of_call = last;
+      } else {
+        if (failure) of_call.reset();
+        const bool is_to_blame = of_call && last == end_of_call;
+        const std::uint32_t end = failure ? failure->query : is_to_blame ? first : last;
+        take_part(first, end, is_to_blame ? std::exchange(of_call, {}) : failure);
+        first = failure ? end + 1 : last;
       }
       if (!failure) continue;
       late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
