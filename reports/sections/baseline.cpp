@@ -127,7 +127,7 @@ Changes changes(const Campaign& now, const Campaign& baseline) { return changes(
 
 Changes changes(const Campaign& now, std::span<const Campaign> campaigns) {
   const Campaign baseline = add_up(campaigns);
-  ComparedRates rates = compare_rates(now.statistics, baseline.statistics, false_alarm_risk);
+  ComparedRates rates = compare_rates(now.statistics, campaigns, false_alarm_risk);
   Changes changes{compare_signatures(now, campaigns, baseline.statistics, false_alarm_risk),
                   std::move(rates.changed),
                   rates.compared,

@@ -42,7 +42,7 @@ inline constexpr double false_alarm_risk = 1e-3;
 Campaign add_up(std::span<const Campaign> campaigns);
 
 /// Compares a campaign with earlier ones, given from the oldest. Rates and signatures are compared with the
-/// sum of the baseline (`compare_rates`, `compare_signatures`), run times with each campaign of it
+/// sum of those that are like the last one (`compare_rates`, `compare_signatures`), run times with each campaign
 /// (`compare_times`).
 Changes changes(const Campaign& now, std::span<const Campaign> baseline);
 

@@ -26,18 +26,32 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// All rates that both campaigns have, whether changed or not.
-std::vector<ChangedRate> pairs_of_rates(const Statistics& now, const Statistics& before) {
+/// The sum of the last proportion and of those before it that differ from it only as chance explains.
+Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
+  Proportion sum;
+  for (const Proportion& each : all)
+    if (fisher_test(all.back(), each).either() >= risk / static_cast<double>(all.size())) sum += each;
+  return sum;
+}
+
+/// All rates that a campaign and its baseline have, whether changed or not.
+std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const Campaign> baseline,
+                                        double risk) {
   std::vector<ChangedRate> pairs;
   for (const auto& [key, counts] : now.counts) {
-    const auto earlier = before.counts.find(key);
-    if (earlier == before.counts.end() || !is_random(key.family)) continue;
+    if (!is_random(key.family)) continue;
     const auto rates = rates_of(counts);
-    const auto earlier_rates = rates_of(earlier->second);
+    std::vector<std::vector<Proportion>> earlier(rates.size());
+    for (const Campaign& each : baseline)
+      if (const auto found = each.statistics.counts.find(key); found != each.statistics.counts.end()) {
+        const auto earlier_rates = rates_of(found->second);
+        for (std::size_t i = 0; i < rates.size(); ++i)
+          if (earlier_rates[i].second.total != 0) earlier[i].push_back(earlier_rates[i].second);
+      }
     for (std::size_t i = 0; i < rates.size(); ++i)
-      if (rates[i].second.total != 0 && earlier_rates[i].second.total != 0)
+      if (rates[i].second.total != 0 && !earlier[i].empty())
         pairs.push_back({rates[i].first, key.subject, std::string(short_name(key.kind)), key.family,
-                         earlier_rates[i].second, rates[i].second});
+                         like_the_last(earlier[i], risk), rates[i].second});
   }
   for (ChangedRate& each : pairs) each.p = fisher_test(each.now, each.before).either();
   return pairs;
@@ -51,14 +65,21 @@ constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 using RateName = std::pair<std::string, std::string_view>;
 
 /// The pairs (now, before) that have at least one failure and at most `few` in both campaigns together, by
-/// the rate's name. Selecting pairs by the sum of both counts favours neither campaign, so the later test
-/// stays valid.
+/// the rate's name. Of the steps of a sweep, which share their draws and so are no independent samples, there
+/// is only the one with the most failures. Selecting pairs by the sum of both counts favours neither campaign,
+/// so the later test stays valid.
 std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_few(
     const std::vector<ChangedRate>& pairs, std::uint64_t few) {
+  const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
+  std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;
+  for (const ChangedRate& each : pairs) {
+    if (both(each) == 0 || both(each) > few) continue;
+    const ChangedRate*& place = chosen[{each.subject, each.what}][{each.kind, draws_of(each.family)}];
+    if (place == nullptr || both(each) > both(*place)) place = &each;
+  }
   std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> found;
-  for (const ChangedRate& each : pairs)
-    if (const std::uint64_t both = each.now.count + each.before.count; both != 0 && both <= few)
-      found[{each.subject, each.what}].emplace_back(each.now, each.before);
+  for (const auto& [name, by_draws] : chosen)
+    for (const auto& [draws, rate] : by_draws) found[name].emplace_back(rate->now, rate->before);
   return found;
 }
 
@@ -95,8 +116,8 @@ void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
 
 }  // namespace
 
-ComparedRates compare_rates(const Statistics& now, const Statistics& before, double risk) {
-  ComparedRates rates{pairs_of_rates(now, before), 0};
+ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk) {
+  ComparedRates rates{pairs_of_rates(now, baseline, risk), 0};
   for (ChangedRate& each : rates_where_few(rates.changed)) rates.changed.push_back(std::move(each));
   rates.compared = rates.changed.size();
   const double level = risk / static_cast<double>(std::max<std::size_t>(1, rates.compared));

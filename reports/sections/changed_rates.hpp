@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "reports/campaign/campaign.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/statistics.hpp"
 
@@ -28,13 +30,16 @@ struct ComparedRates {
   std::size_t compared = 0;
 };
 
-/// Compares the rates of all families that both campaigns have, by Fisher's exact test. For each subject it
+/// Compares the rates of all families that a campaign and its baseline have, by Fisher's exact test. The rate
+/// before is that of the last campaign of the baseline, and of those whose rate differs from it only as chance
+/// explains: campaigns in which a fault was absent for some time do not make it new again. For each subject it
 /// also compares the sum over all families and kinds with few failures in both campaigns, to notice a new way
-/// to fail that is spread over many families. Cases and meshes are left out, because they are not random
-/// samples.
+/// to fail that is spread over many families. The steps of a sweep share their
+/// random draws, so of each sweep that sum has only the step with the most failures. Cases and meshes are left
+/// out, because they are not random samples.
 ///
 /// @param risk the probability that a rate is found to have changed although none has; each comparison has an
 ///             equal part of it (Bonferroni)
-ComparedRates compare_rates(const Statistics& now, const Statistics& before, double risk);
+ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
 
 }  // namespace nearmiss

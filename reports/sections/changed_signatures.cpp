@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -102,10 +103,19 @@ struct Chances {
   std::uint64_t before = 0;  ///< number of such random queries in the baseline
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
   double most = 0;           ///< the largest such ratio
+  /// How often one random draw was asked, at most. The steps of a sweep share their draws: a failure that was
+  /// seen 40 times in 20 steps may have been drawn twice. To be safe, the tests count draws and not queries.
+  std::uint64_t repeats = 1;
 
   [[nodiscard]] bool known() const { return before != 0; }
   [[nodiscard]] std::uint64_t now(double ratio) const {
     return static_cast<std::uint64_t>(ratio * static_cast<double>(before));
+  }
+  /// The least number of draws that so many queries may be.
+  [[nodiscard]] std::uint64_t draws(std::uint64_t queries) const { return queries / repeats; }
+  /// The proportion of the draws that fail.
+  [[nodiscard]] Proportion proportion(std::uint64_t failures, std::uint64_t queries) const {
+    return {draws(failures), draws(std::max(failures, queries))};
   }
 };
 
@@ -122,6 +132,7 @@ class AllChances {
 
  private:
   void count(const Sort& sort, Chances& sum) const {
+    sum.repeats = std::max(most_repeats(now_, sort.second), most_repeats(before_, sort.second));
     for (const auto& [key, counts] : before_.counts) {
       const std::uint64_t earlier = chances(counts, sort.first);
       if (key.subject != sort.second || !is_random(key.family) || earlier == 0) continue;
@@ -151,24 +162,83 @@ std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
 /// changed.
 double chance_of_more(std::uint64_t now, std::uint64_t before, const Chances& chances) {
   if (!chances.known()) return 1;
-  return fisher_test({now, std::max(now, chances.now(chances.most))},
-                     {before, std::max(before, chances.before)})
+  return fisher_test(chances.proportion(now, chances.now(chances.most)),
+                     chances.proportion(before, chances.before))
       .more;
 }
 
 /// The probability that a failure which was seen `before` times is not seen now.
 double chance_of_none(std::uint64_t before, const Chances& chances) {
   if (!chances.known()) return 1;
-  return fisher_test({0, chances.now(chances.least)}, {before, std::max(before, chances.before)}).less;
+  return fisher_test(chances.proportion(0, chances.now(chances.least)),
+                     chances.proportion(before, chances.before))
+      .less;
 }
 
-/// Finds out which of the signatures that were seen now are new.
-void find_new(const Statistics& now, const Statistics& before, double risk, AllChances& all_chances,
-              ChangedSignatures& changes) {
-  // The numbers of times that signatures were seen before, by sort of failure.
-  std::map<Sort, std::vector<std::uint64_t>> seen_before;
-  for (const auto& [signature, count] : before.seen)
-    seen_before[{signature.what, signature.subject}].push_back(count);
+/// How often signatures were seen, by sort of failure.
+std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statistics) {
+  std::map<Sort, std::vector<std::uint64_t>> seen;
+  for (const auto& [signature, count] : statistics.seen)
+    seen[{signature.what, signature.subject}].push_back(count);
+  return seen;
+}
+
+/// Compares how often a signature is seen with the campaigns of a baseline, given from the oldest.
+class Frequency {
+ public:
+  Frequency(const Statistics& now, std::span<const Campaign> baseline, double risk)
+      : now_(now), baseline_(baseline), level_(level_of(risk, baseline.size())) {
+    for (const Campaign& each : baseline) since_.emplace_back(baseline.back().statistics, each.statistics);
+  }
+
+  /// The probability that a signature is seen as often as now, or more often, if nothing has changed since the
+  /// last campaign. Campaigns in which it was rarer than in the last one, by more than chance explains, do not
+  /// count: those in which a fault was absent for some time do not make it new again.
+  [[nodiscard]] double chance_of_more(const Signature& signature) {
+    const Sort sort{signature.what, signature.subject};
+    const std::uint64_t last = baseline_.back().statistics.times_seen(signature);
+    std::vector<bool> counts;
+    std::uint64_t before = 0;
+    for (std::size_t i = 0; i < baseline_.size(); ++i) {
+      const std::uint64_t then = baseline_[i].statistics.times_seen(signature);
+      const bool is_last = i + 1 == baseline_.size();
+      counts.push_back(is_last || nearmiss::chance_of_more(last, then, since_[i].of(sort)) >= level_);
+      if (counts.back()) before += then;
+    }
+    return nearmiss::chance_of_more(now_.times_seen(signature), before, sum_of(counts).chances.of(sort));
+  }
+
+ private:
+  /// Some campaigns together, and the chances now, compared with them.
+  struct Sum {
+    Sum(const Statistics& now, Statistics&& all) : before(std::move(all)), chances(now, before) {}
+    Statistics before;
+    AllChances chances;
+  };
+
+  Sum& sum_of(const std::vector<bool>& counts) {
+    auto& place = sums_[counts];
+    if (place == nullptr) {
+      Statistics all;
+      for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i]) all.merge(baseline_[i].statistics);
+      place = std::make_unique<Sum>(now_, std::move(all));
+    }
+    return *place;
+  }
+
+  const Statistics& now_;
+  std::span<const Campaign> baseline_;
+  double level_;
+  std::vector<AllChances> since_;  // of the last campaign, compared with each
+  std::map<std::vector<bool>, std::unique_ptr<Sum>> sums_;
+};
+
+/// Finds out which of the signatures that are seen now are new.
+void find_new(const Statistics& now, std::span<const Campaign> baseline, const Statistics& before,
+              double risk, ChangedSignatures& changes) {
+  Frequency frequency(now, baseline, risk);
+  const auto seen_before = seen_by_sort(before);
   const auto is_only_before = [&](const auto& each) { return now.times_seen(each.first) == 0; };
   const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
   const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
@@ -178,11 +248,7 @@ void find_new(const Statistics& now, const Statistics& before, double risk, AllC
     const bool is_unseen = before.times_seen(signature) == 0;
     const bool fails_anyway =
         !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
-    const bool is_new = fails_anyway
-                            ? chance_of_more(count, before.times_seen(signature),
-                                             all_chances.of({signature.what, signature.subject})) < level
-                            : is_unseen;
-    if (is_new)
+    if (fails_anyway ? frequency.chance_of_more(signature) < level : is_unseen)
       changes.new_signatures.push_back(signature);
     else if (is_unseen)
       changes.unseen_signatures.push_back(signature);
@@ -254,7 +320,7 @@ ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campai
   ChangedSignatures changes{.sightings = sightings_in(baseline),
                             .absent_subjects = absent_subjects(now.statistics, before)};
   AllChances all_chances(now.statistics, before);
-  find_new(now.statistics, before, risk, all_chances, changes);
+  find_new(now.statistics, baseline, before, risk, changes);
   find_gone(now.statistics, before, risk, all_chances, changes);
   for (const Signature& each : changes.gone_signatures)
     if (const std::string text = fixed_text(changes.sightings.at(each).last_code, code_of(now, each.subject));

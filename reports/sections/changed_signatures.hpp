@@ -65,6 +65,12 @@ struct ChangedSignatures {
 /// gone if the same test finds it less frequent, or if the subject has no failure of that sort any more and
 /// the test finds all failures of the sort together less frequent.
 ///
+/// A campaign of the baseline in which a signature was rarer than in the last one, by more than chance explains,
+/// does not count for that signature: campaigns in which a fault was absent do not make it new again.
+///
+/// The steps of a sweep share their random draws, so that the queries of a campaign with sweeps are no
+/// independent samples. The test counts draws, as few as the queries may be.
+///
 /// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
 /// different ratios for different families, and the families in which a signature was seen are not recorded.
 /// Therefore the test takes the ratio that makes its result least certain: the largest one for a signature

@@ -1,6 +1,8 @@
 #include "reports/statistics/family.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace nearmiss {
 
@@ -15,6 +17,21 @@ std::string shown_family(std::string_view family) {
 
 std::string_view origin(std::string_view family) {
   return FamilyName(family).search.empty() ? family : "directed search";
+}
+
+std::string draws_of(std::string_view family) {
+  const FamilyName name(family);
+  if (name.value.empty()) return std::string(family);
+  std::string draws = std::string(name.base) + "@";
+  return name.separation.empty() ? draws : draws.append("~").append(name.separation);
+}
+
+std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject) {
+  std::map<std::pair<Kind, std::string>, std::uint64_t> steps;
+  std::uint64_t most = 1;
+  for (const auto& [key, counts] : statistics.counts)
+    if (key.subject == subject) most = std::max(most, ++steps[{key.kind, draws_of(key.family)}]);
+  return most;
 }
 
 Statistics by_shown_family(const Statistics& statistics) {

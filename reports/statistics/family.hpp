@@ -1,6 +1,7 @@
 // Families in reports: which are random samples, and which are shown together as one family.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,13 @@ std::string shown_family(std::string_view family);
 
 /// The origin of queries: "directed search", or their family.
 std::string_view origin(std::string_view family);
+
+/// The name that the steps of a sweep share: all of them make the same random draws, and differ only in the
+/// value of the parameter. For any other family, its own name.
+std::string draws_of(std::string_view family);
+
+/// How often a campaign asks a subject about one random draw, at most: the number of steps of the longest sweep.
+std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject);
 
 /// Statistics in which families that are shown as one are added up.
 Statistics by_shown_family(const Statistics& statistics);

@@ -3,8 +3,9 @@ Reads the stores themselves."""
 
 import json
 import math
+import re
 import sqlite3
-from collections import defaultdict
+from collections import Counter, defaultdict
 from dataclasses import dataclass, field
 from statistics import mean, variance
 
@@ -173,6 +174,14 @@ def _check_times(comparison, where, found, now, nights):
         comparison.entries('changes', f'{where} {key}', row, expected)
 
 
+def _most_steps(keys):
+    """The number of steps of the longest sweep: its families NAME@VALUE share their draws."""
+    steps = Counter(
+        (kind, re.sub('@[^~]*', '@', family)) for _, kind, family in keys if '@' in family
+    )
+    return max(steps.values(), default=1)
+
+
 def _gone(now, nights):
     """Two sets of signatures that only the baseline has: those that are gone, and those that
     chance may hide. Assumes that subjects have no faults, and are asked only random queries."""
@@ -188,12 +197,16 @@ def _gone(now, nights):
 
     def chance_of_none(subject, times):
         asked = {key: number for key, number in before.items() if key[0] == subject}
+        steps = max(
+            _most_steps(asked), _most_steps([key for key in now.counts if key[0] == subject])
+        )
         least = min(
             now.counts[key]['queries'] / number if key in now.counts else 0
             for key, number in asked.items()
         )
-        again = int(least * sum(asked.values()))
-        return hypergeom.cdf(0, again + sum(asked.values()), times, again)
+        again = int(least * sum(asked.values())) // steps
+        total = sum(asked.values()) // steps
+        return hypergeom.cdf(0, again + total, times // steps, again)
 
     still = {signature[:2] for signature in now.seen}
     gone = {

@@ -235,6 +235,45 @@ TEST(Baseline, IsTheSumOfItsCampaigns) {
 }
 
 // In a comparison with 1,500, chance can explain 1,690. In one with three times 1,500, it cannot.
+// Six nights have the failure equally often, but one in the middle does not have it at all.
+TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
+  const auto misses = [](std::uint64_t times) {
+    Campaign made = campaign(std::to_string(times), {{key, counts(200000, 100000, times, 0)}});
+    made.statistics.seen = {{on_edge, 1}};
+    if (times != 0) made.statistics.seen[inside] = times;
+    return made;
+  };
+  std::vector<Campaign> nights{misses(1001), misses(1002), misses(0), misses(1003), misses(1004)};
+  const Changes found = changes(misses(1005), nights);
+  EXPECT_THAT(found.new_signatures, IsEmpty());
+  EXPECT_THAT(found.rates, IsEmpty());
+  EXPECT_THAT(changes(misses(1300), nights).new_signatures, ElementsAre(inside));
+  EXPECT_THAT(changes(misses(1300), nights).rates, SizeIs(1));
+  // Until it comes back, it is absent.
+  nights.resize(3);
+  nights.push_back(misses(1));
+  EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
+}
+
+// One of 1,000 draws fails before, and five now. All steps of a sweep fail with these draws.
+TEST(Changes, StepsOfASweepShareTheirDraws) {
+  const auto with = [](const std::string& family, std::uint64_t draws) {
+    constexpr std::uint64_t steps = 12;
+    std::map<CountsKey, Counts> all;
+    for (std::uint64_t i = 0; i < steps; ++i)
+      all[{"basic", Kind::edge_edge, family + std::to_string(i)}] = counts(10000, 1000, draws, 0);
+    Campaign made = campaign(std::to_string(draws), std::move(all));
+    made.statistics.seen[{missed, "basic", "ee inside"}] = steps * draws;
+    return made;
+  };
+  const Changes sweep = changes(with("scale@", 5), with("scale@", 1));
+  EXPECT_THAT(sweep.new_signatures, IsEmpty());
+  EXPECT_THAT(sweep.rates, IsEmpty());
+  const Changes families = changes(with("scale", 5), with("scale", 1));
+  EXPECT_THAT(families.new_signatures, SizeIs(1));
+  EXPECT_THAT(families.rates, SizeIs(1));
+}
+
 TEST(Baseline, RatesAreComparedWithTheSum) {
   const auto with = [](const std::string& seed, std::uint64_t false_positives) {
     return campaign(seed, {{key, counts(200000, 100000, 0, false_positives)}});
