@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -183,61 +182,55 @@ std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statis
   return seen;
 }
 
-/// Compares how often a signature is seen with the campaigns of a baseline, given from the oldest.
+/// Compares how often a signature is seen with a baseline, whose campaigns are given from the oldest.
 class Frequency {
  public:
-  Frequency(const Statistics& now, std::span<const Campaign> baseline, double risk)
-      : now_(now), baseline_(baseline), level_(level_of(risk, baseline.size())) {
+  /// @param before the sum of the baseline's statistics
+  Frequency(const Statistics& now, std::span<const Campaign> baseline, const Statistics& before, double risk)
+      : now_(now),
+        baseline_(baseline),
+        before_(before),
+        chances_(now, before),
+        level_(level_of(risk, baseline.size())) {
     for (const Campaign& each : baseline) since_.emplace_back(baseline.back().statistics, each.statistics);
   }
 
-  /// The probability that a signature is seen as often as now, or more often, if nothing has changed since the
-  /// last campaign. Campaigns in which it was rarer than in the last one, by more than chance explains, do not
-  /// count: those in which a fault was absent for some time do not make it new again.
-  [[nodiscard]] double chance_of_more(const Signature& signature) {
+  /// Whether a signature is seen more often than before, by a test at a level. Campaigns in which it was rarer
+  /// than in the last one, by more than chance explains, are no reason: those in which a fault was absent for
+  /// some time do not make it new again.
+  [[nodiscard]] bool is_higher(const Signature& signature, double level) {
     const Sort sort{signature.what, signature.subject};
-    const std::uint64_t last = baseline_.back().statistics.times_seen(signature);
-    std::vector<bool> counts;
-    std::uint64_t before = 0;
-    for (std::size_t i = 0; i < baseline_.size(); ++i) {
-      const std::uint64_t then = baseline_[i].statistics.times_seen(signature);
-      const bool is_last = i + 1 == baseline_.size();
-      counts.push_back(is_last || nearmiss::chance_of_more(last, then, since_[i].of(sort)) >= level_);
-      if (counts.back()) before += then;
-    }
-    return nearmiss::chance_of_more(now_.times_seen(signature), before, sum_of(counts).chances.of(sort));
+    const std::uint64_t times = now_.times_seen(signature);
+    if (chance_of_more(times, before_.times_seen(signature), chances_.of(sort)) >= level) return false;
+    const Statistics like_the_last = without_rarer(signature);
+    AllChances chances(now_, like_the_last);
+    return chance_of_more(times, like_the_last.times_seen(signature), chances.of(sort)) < level;
   }
 
  private:
-  /// Some campaigns together, and the chances now, compared with them.
-  struct Sum {
-    Sum(const Statistics& now, Statistics&& all) : before(std::move(all)), chances(now, before) {}
-    Statistics before;
-    AllChances chances;
-  };
-
-  Sum& sum_of(const std::vector<bool>& counts) {
-    auto& place = sums_[counts];
-    if (place == nullptr) {
-      Statistics all;
-      for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i]) all.merge(baseline_[i].statistics);
-      place = std::make_unique<Sum>(now_, std::move(all));
-    }
-    return *place;
+  /// The sum of the campaigns in which a signature was not rarer than in the last one.
+  [[nodiscard]] Statistics without_rarer(const Signature& signature) {
+    const Sort sort{signature.what, signature.subject};
+    const std::uint64_t last = baseline_.back().statistics.times_seen(signature);
+    Statistics sum;
+    for (std::size_t i = 0; i < baseline_.size(); ++i)
+      if (chance_of_more(last, baseline_[i].statistics.times_seen(signature), since_[i].of(sort)) >= level_)
+        sum.merge(baseline_[i].statistics);
+    return sum;
   }
 
   const Statistics& now_;
   std::span<const Campaign> baseline_;
+  const Statistics& before_;
+  AllChances chances_;
   double level_;
   std::vector<AllChances> since_;  // of the last campaign, compared with each
-  std::map<std::vector<bool>, std::unique_ptr<Sum>> sums_;
 };
 
 /// Finds out which of the signatures that are seen now are new.
 void find_new(const Statistics& now, std::span<const Campaign> baseline, const Statistics& before,
               double risk, ChangedSignatures& changes) {
-  Frequency frequency(now, baseline, risk);
+  Frequency frequency(now, baseline, before, risk);
   const auto seen_before = seen_by_sort(before);
   const auto is_only_before = [&](const auto& each) { return now.times_seen(each.first) == 0; };
   const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
@@ -248,7 +241,7 @@ void find_new(const Statistics& now, std::span<const Campaign> baseline, const S
     const bool is_unseen = before.times_seen(signature) == 0;
     const bool fails_anyway =
         !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
-    if (fails_anyway ? frequency.chance_of_more(signature) < level : is_unseen)
+    if (fails_anyway ? frequency.is_higher(signature, level) : is_unseen)
       changes.new_signatures.push_back(signature);
     else if (is_unseen)
       changes.unseen_signatures.push_back(signature);

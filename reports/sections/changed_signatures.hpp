@@ -65,8 +65,8 @@ struct ChangedSignatures {
 /// gone if the same test finds it less frequent, or if the subject has no failure of that sort any more and
 /// the test finds all failures of the sort together less frequent.
 ///
-/// A campaign of the baseline in which a signature was rarer than in the last one, by more than chance explains,
-/// does not count for that signature: campaigns in which a fault was absent do not make it new again.
+/// A new signature must also be more frequent than in those campaigns in which it was not rarer than in the
+/// last one by more than chance explains: campaigns in which a fault was absent do not make it new again.
 ///
 /// The steps of a sweep share their random draws, so that the queries of a campaign with sweeps are no
 /// independent samples. The test counts draws, as few as the queries may be.
