@@ -56,7 +56,7 @@ typedef struct {
    * NULL. */
   void* (*open)(const char* options, char* message, size_t size);
   /* Closes a state; may be NULL. It has a tenth of a second, after which the process ends. It is not called
-   * if a query ended the process, or took too long. */
+   * if a query ended the process, or took too long. A crash in it goes unnoticed. */
   void (*close)(void* state);
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at

@@ -105,12 +105,11 @@ struct Asked {
 };
 
 /// Whether the subject reported a collision with an invalid time.
-bool is_of_invalid_time(const Finding& finding, TimeSort sort) {
-  return finding.what == Finding::What::fault && sort != TimeSort::none &&
-         is_of_invalid_answer(finding.signature);
+bool gives_invalid_time(const Finding& finding) {
+  return finding.what == Finding::What::fault && is_of_invalid_time(finding.signature);
 }
 
-std::vector<Asked> functions(const Finding& finding, TimeSort sort) {
+std::vector<Asked> functions(const Finding& finding) {
   if (finding.what == Finding::What::late)
     return {{"time_of_impact", "the time before which nothing happens, by your detector", "double"}};
   const bool is_contact = finding.shrunk.separation == 0;
@@ -119,13 +118,13 @@ std::vector<Asked> functions(const Finding& finding, TimeSort sort) {
        is_contact ? "whether your detector reports a collision"
                   : "whether your detector reports that the primitives come within the separation",
        "bool"}};
-  if (is_of_invalid_time(finding, sort))
+  if (gives_invalid_time(finding))
     all.push_back({"time_of_impact", "the time that your detector gives with this answer", "double"});
   return all;
 }
 
 /// The condition that the test asserts; `arguments` are the arguments of every call.
-std::string expectation(const Finding& finding, TimeSort sort, const std::string& arguments, Form language) {
+std::string expectation(const Finding& finding, const std::string& arguments, Form language) {
   const bool python = language == Form::python;
   const std::string time = "time_of_impact" + arguments;
   if (finding.what == Finding::What::late)
@@ -134,7 +133,7 @@ std::string expectation(const Finding& finding, TimeSort sort, const std::string
   const bool collision = collides(finding.shrunk);
   const std::string is_right =
       python ? (collision ? "" : "not ") + detects : fmt::format("{} == {}", detects, collision);
-  if (!is_of_invalid_time(finding, sort)) return is_right;
+  if (!gives_invalid_time(finding)) return is_right;
   // A report of no collision needs no time; a false positive needs one.
   if (python) return fmt::format("{} {} 0 <= {} <= 1", is_right, collision ? "and" : "or", time);
   return collision ? fmt::format("{0} && {1} >= 0 && {1} <= 1", is_right, time)
@@ -166,7 +165,7 @@ Form parse_form(std::string_view text, std::string_view option) {
   throw Error(fmt::format("{}: found '{}', expected case, c++ or python", option, printable(text)));
 }
 
-std::string pasted_test(const Finding& finding, TimeSort sort, Form language) {
+std::string pasted_test(const Finding& finding, Form language) {
   const Query& query = finding.shrunk;
   const bool has_separation = query.separation != 0;
   const std::string arguments =
@@ -177,9 +176,9 @@ std::string pasted_test(const Finding& finding, TimeSort sort, Form language) {
                             "    assert {}\n"
                           : "{}{}bool test_{}() {{\n  const double start[4][3] = {{\n{}  }};\n"
                             "  const double end[4][3] = {{\n{}  }};\n  return {};\n}}\n"),
-      comment(finding, python ? "#" : "//"), request(functions(finding, sort), has_separation, language),
+      comment(finding, python ? "#" : "//"), request(functions(finding), has_separation, language),
       topology(query.kind).name, vertices(query, 0, language), vertices(query, 1, language),
-      expectation(finding, sort, arguments, language));
+      expectation(finding, arguments, language));
 }
 
 }  // namespace nearmiss::tools

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/subjects/subject.hpp"
 #include "reports/statistics/finding.hpp"
 
 namespace nearmiss::tools {
@@ -17,7 +16,7 @@ enum class Form : std::uint8_t { case_file, cpp, python };
 Form parse_form(std::string_view text, std::string_view option);
 
 /// A test of one finding, as source code that needs nothing but a function `detects` of the maintainer.
-/// `sort` is the sort of the subject's times. A comment says what the subject answered and what is true. The
+/// A comment says what the subject answered and what is true. The
 /// 24 numbers are exact. In C++17:
 ///
 ///     bool detects(const double (&start)[4][3], const double (&end)[4][3]);  // adapt this
@@ -26,10 +25,10 @@ Form parse_form(std::string_view text, std::string_view option);
 /// In Python, the test is `test_vertex_triangle()`, which asserts that the answer is right, and the points
 /// are lists. For a pair of edges, the name is test_edge_edge. A query with a separation adds `double
 /// separation` to the arguments. For a late time, the maintainer's function is `double time_of_impact` with
-/// the same arguments, and must not return a time after t*. For an invalid answer of a subject that gives
-/// times, both functions are needed, and a collision must have a time in [0, 1]. `language` must not be
+/// the same arguments, and must not return a time after t*. For an invalid time, both functions are
+/// needed, and a collision must have a time in [0, 1]. `language` must not be
 /// case_file. Throws Error for a finding of the oracle, for which the truth is not known, and for a late time
 /// if the distance first touches the separation without falling below it.
-std::string pasted_test(const Finding& finding, TimeSort sort, Form language);
+std::string pasted_test(const Finding& finding, Form language);
 
 }  // namespace nearmiss::tools

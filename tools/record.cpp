@@ -41,8 +41,9 @@ std::string cpu_model() {
 
 /// Prints what failed, the simplest query that fails in the same way, and an explanation of this query.
 void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
-  fmt::print(text, "  {} {} {} ({} query; {}, {} in all)\n", name(finding.what), finding.subject,
-             finding.provenance, name(finding.query_class), finding.signature, seen_text(seen));
+  fmt::print(text, "  {} {} {} ({} query{}; {}, {} in all)\n", name(finding.what), finding.subject,
+             finding.provenance, name(finding.query_class), finding.is_shrunk ? "" : ", not shrunk",
+             finding.signature, seen_text(seen));
   std::istringstream lines(to_readable(finding.shrunk));
   for (std::string line; std::getline(lines, line);) fmt::print(text, "    {}\n", line);
   fmt::print(text, "    {}\n", to_text(explain(finding.shrunk)));

@@ -129,13 +129,32 @@ std::string shrinking_line(std::size_t left) {
 
 namespace {
 
-/// The text that denotes a plug-in, with the whole path of its file. The command of a program stays as it is.
+std::string absolute_path(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+/// A program's command with the whole paths of the files that it names. A command that a shell would expand
+/// stays as it is.
+std::string absolute_command(const std::string& command) {
+  if (command.find_first_of("$`*?[~") != std::string::npos) return command;
+  std::vector<std::string> words = shell_words(command);
+  for (std::string& word : words) {
+    const bool is_searched = &word == &words.front() && word.find('/') == std::string::npos;  // in $PATH
+    std::error_code unknown;
+    if (!is_searched && std::filesystem::is_regular_file(word, unknown)) word = absolute_path(word);
+    word = shell_quoted(word);
+  }
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+/// The text that denotes a plug-in, with the whole paths of its files.
 std::string absolute_text(const Subject& subject) {
   const auto [name, plugin] = SubjectText::parse(text_of(subject));
   const std::string given = name.empty() ? "" : name + "=";
-  if (is_program(plugin)) return given + plugin;
+  if (is_program(plugin))
+    return given + std::string(program_prefix) + absolute_command(plugin.substr(program_prefix.size()));
   const std::string path = PluginName::parse(plugin).path;
-  return given + std::filesystem::absolute(path).lexically_normal().string() + plugin.substr(path.size());
+  return given + absolute_path(path) + plugin.substr(path.size());
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ Query rounded_for(const DetectorInfo& info, const Query& query) {
 
 Verdict verdict_of(const DetectorInfo& info, int answer, double time) {
   if (answer < 0) return {.fault = Fault::error, .fault_code = answer};
-  const Verdict invalid{.fault = Fault::invalid, .fault_code = answer};
+  const Verdict invalid{.time = time, .fault = Fault::invalid, .fault_code = answer};
   switch (answer) {
     case NEARMISS_NO_COLLISION:
       return {};

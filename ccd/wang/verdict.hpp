@@ -76,10 +76,11 @@ inline constexpr std::array<std::string_view, fault_count> fault_names{
 struct Verdict {
   bool hit = false;
   Stage stage = Stage::none;
-  double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] for a hit; NaN if unknown
-  Fault fault = Fault::none;                               ///< if not `none`, there is no answer
+  /// In [0, 1] for a hit; NaN if unknown. If the answer is invalid, the time as the subject gave it.
+  double time = std::numeric_limits<double>::quiet_NaN();
+  Fault fault = Fault::none;  ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  /// The return value of an error; the signal or negated exit code of a crash; a number that
+  /// The return value of an error, and of an invalid answer; the signal or negated exit code of a crash; a number that
   /// Subject::fault_text knows for an exception and a failure to load.
   std::int32_t fault_code = 0;
 

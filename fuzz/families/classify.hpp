@@ -12,4 +12,15 @@ namespace nearmiss {
 /// query, also in a tie. A query with a coordinate that is not finite is extreme.
 QueryClass classify(const Query& query);
 
+/// The queries of a class that are at most as exotic as one of them: some degenerate queries have coincident
+/// vertices, others have not.
+struct NoMoreExotic {
+  QueryClass of;
+  int exoticness;
+
+  bool operator()(const Query& query) const {
+    return classify(query) == of && nearmiss::exoticness(query, of) <= exoticness;
+  }
+};
+
 }  // namespace nearmiss

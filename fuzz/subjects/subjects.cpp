@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -12,6 +13,7 @@
 #include "ccd/subjects/plugin.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/peers.hpp"
+#include "reports/text/shell.hpp"
 
 namespace nearmiss {
 
@@ -32,18 +34,36 @@ std::unique_ptr<Subject> make_built_in_or_refuse(std::string_view name, std::opt
   refuse_subject(name, known);
 }
 
+/// The file's name without its extension: "v2" for "lib/v2.py", "v2.so" and "v2.so.1".
+std::string stem_of(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  const std::size_t shared_object = name.find(".so.");
+  return shared_object == std::string::npos ? file.stem().string() : name.substr(0, shared_object);
+}
+
+/// The last word of a program's command that is a file; "" if none is.
+std::string file_of_program(std::string_view program) {
+  const auto words = shell_words(program.substr(program_prefix.size()));
+  const auto is_file = [](const std::string& word) { return std::filesystem::is_regular_file(word); };
+  const auto last = std::find_if(words.rbegin(), words.rend(), is_file);
+  return last == words.rend() ? "" : *last;
+}
+
 /// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if the file's
 /// name cannot begin a name. "" if there is no file, or no such name.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
-  if (!plugin || is_program(plugin->path)) return "";
-  const PluginName parsed = PluginName::parse(plugin->path);
-  const std::string stem = std::filesystem::path(parsed.path).stem().string();
+  if (!plugin) return "";
+  const bool of_program = is_program(plugin->path);
+  const PluginName parsed =
+      of_program ? PluginName{file_of_program(plugin->path), "", ""} : PluginName::parse(plugin->path);
+  const std::string stem = stem_of(parsed.path);
   const std::string own = innermost(subject).name();
   const std::string detector = own.substr(0, own.find(':'));
   const std::string chosen = parsed.subject.empty() ? "" : "." + detector;
-  for (const std::string& name : {stem + chosen, detector + "-" + stem})
-    if (is_given_name(name)) return name;
+  if (!stem.empty())
+    for (const std::string& name : {stem + chosen, detector + "-" + stem})
+      if (is_given_name(name)) return name;
   return "";
 }
 
@@ -81,8 +101,8 @@ void tell_apart(Subjects& subjects) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < subjects.size(); ++i)
     if (!seen.insert(subjects[i]->name()).second)
-      throw Error(fmt::format("found two subjects named '{}', expected different names, such as NAME={}",
-                              names[i], SubjectText::parse(text_of(*subjects[i])).subject));
+      throw Error(fmt::format("found two subjects named '{}', expected different names, such as {}", names[i],
+                              shell_quoted("NAME=" + SubjectText::parse(text_of(*subjects[i])).subject)));
 }
 
 std::string text_of(const Subject& subject) {

@@ -116,8 +116,8 @@ class SameFailure {
   SameFailure(Failure failure, const Subject& subject, std::function<void()> check)
       : failure_(std::move(failure)), subject_(subject), judge_(subject), check_(std::move(check)) {}
 
-  /// From now on, only queries of this class count as failing.
-  void only(QueryClass of) { only_ = of; }
+  /// From now on, only these queries count as failing.
+  void only(const NoMoreExotic& queries) { only_ = queries; }
 
   /// From now on, only queries that `before` answers rightly count as failing. It must outlive this object.
   void only_since(const Subject& before) { before_.emplace(before); }
@@ -149,15 +149,14 @@ class SameFailure {
 
   [[nodiscard]] bool fails(const Query& query, const Verdict& verdict) const {
     return can_be(failure_.what, verdict) && judge_.failure(query, verdict) == failure_ &&
-           (!only_ || classify(subject_.rounded(query)) == *only_) &&
-           (!before_ || (*before_)(subject_.rounded(query)));
+           (!only_ || (*only_)(subject_.rounded(query))) && (!before_ || (*before_)(subject_.rounded(query)));
   }
 
   Failure failure_;
   const Subject& subject_;
   Judge judge_;
   std::function<void()> check_;
-  std::optional<QueryClass> only_;
+  std::optional<NoMoreExotic> only_;
   std::optional<AnswersRightly> before_;
 };
 
@@ -173,31 +172,30 @@ class FindingShrinker::OfSubject {
   /// `before` is the version of the CCD that does not fail; null if there is none.
   void shrink(Finding& finding, const OfSubject* before, const std::function<void()>& check) const {
     const Query simplest = shrunk_of(finding, std::nullopt, before, check);
-    const QueryClass of_simplest = classify(simplest);
-    const bool has_lost_class =
-        finding.query_class != QueryClass::unclassified && of_simplest != finding.query_class;
-    finding.shrunk = has_lost_class ? shrunk_of(finding, finding.query_class, before, check) : simplest;
+    const NoMoreExotic queries{finding.query_class, exoticness(finding.query, finding.query_class)};
+    const bool is_exotic = finding.query_class != QueryClass::unclassified && !queries(simplest);
+    finding.shrunk = is_exotic ? shrunk_of(finding, queries, before, check) : simplest;
     const bool is_simpler = complexity(finding.shrunk) < complexity(simplest);
     finding.simplest = is_simpler ? finding.shrunk : simplest;
-    finding.simplest_class = is_simpler ? finding.query_class : of_simplest;
+    finding.simplest_class = is_simpler ? finding.query_class : classify(simplest);
     if (finding.what == Finding::What::late) finding.time = time_of(finding);
   }
 
  private:
-  /// The simplest query that fails as the finding does. If `of` is given, the query also has this class; if
-  /// `before` is not null, that version answers the query rightly.
-  [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of, const OfSubject* before,
-                                const std::function<void()>& check) const {
+  /// The simplest query that fails as the finding does, and is one of `among` if given. If `before` is not
+  /// null, that version answers the query rightly.
+  [[nodiscard]] Query shrunk_of(const Finding& finding, const std::optional<NoMoreExotic>& among,
+                                const OfSubject* before, const std::function<void()>& check) const {
     const Limited limited = limited_subject();
     const Limited limited_before = before == nullptr ? limited_subject() : before->limited_subject();
     SameFailure same({finding.what, finding.signature}, limited, check);
-    if (of) same.only(*of);
+    if (among) same.only(*among);
     if (before != nullptr) same.only_since(limited_before);
     const bool every_query_is_slow = failure_of(signature_of(finding)) == FailureKind::slow;
     const auto small =
         every_query_is_slow
             ? std::nullopt
-            : small_failures(finding.query, check).simplest({finding.what, finding.signature}, of);
+            : small_failures(finding.query, check).simplest({finding.what, finding.signature}, among);
     const bool begins_small = small && small->complexity < complexity(finding.query) &&
                               (before == nullptr || same(std::span(&small->query, 1)));
     return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));

@@ -44,7 +44,8 @@ class FindingShrinker {
   FindingShrinker& operator=(const FindingShrinker&) = delete;
   ~FindingShrinker();
 
-  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class. If
+  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class that
+  /// is no more exotic: vertices come to coincide only if two of the finding's vertices do. If
   /// the finding is `broken_since` an earlier version of the CCD, both are queries that the earlier version
   /// answers rightly. The result depends only on the finding and the subjects, unless the time limit ends a
   /// search. A query that the subject refuses does not fail. A contradiction to a recorded truth is not

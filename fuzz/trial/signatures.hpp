@@ -20,13 +20,12 @@ std::string contact_signature(const Query& query);
 std::string report_signature(Kind kind, Stage stage);
 
 /// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7", "vt
-/// time" or "vt exception no root in [#, #]". `text` is what an exception said; its numbers become #, so that
-/// exceptions that differ only in numbers have one signature.
+/// time", "vt invalid time NaN" or "vt exception no root in [#, #]". `text` is what an exception said; its
+/// numbers become #, so that exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
 
-/// Whether the signature is that of an invalid answer: no known value, or a collision without a promised
-/// time.
-bool is_of_invalid_answer(std::string_view signature);
+/// Whether the signature is that of a collision with a time that is not in [0, 1], or is NaN.
+bool is_of_invalid_time(std::string_view signature);
 
 /// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists
 /// the answers (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if

@@ -218,17 +218,18 @@ SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
                             std::isnan(verdicts[i].time);
       if (is_right) continue;
       if (auto failure = judge.failure(asked[i].query, verdicts[i]))
-        simplest_.try_emplace({std::move(*failure), classify(asked[i].query)}, asked[i]);
+        simplest_.try_emplace({std::move(*failure), exoticness(asked[i].query, classify(asked[i].query))},
+                              asked[i]);
     }
   }
 }
 
 std::optional<SmallQuery> SmallFailures::simplest(const Failure& failure,
-                                                  std::optional<QueryClass> of) const {
+                                                  const std::optional<NoMoreExotic>& among) const {
   std::optional<SmallQuery> best;
-  for (auto each = simplest_.lower_bound({failure, QueryClass::ordinary});
+  for (auto each = simplest_.lower_bound({failure, 0});
        each != simplest_.end() && each->first.first == failure; ++each)
-    if ((!of || each->first.second == *of) && (!best || each->second.complexity < best->complexity))
+    if ((!among || (*among)(each->second.query)) && (!best || each->second.complexity < best->complexity))
       best = each->second;
   return best;
 }

@@ -9,9 +9,9 @@
 
 #include "ccd/query/query.hpp"
 #include "ccd/subjects/subject.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "reports/campaign/complexity.hpp"
-#include "reports/statistics/query_class.hpp"
 
 namespace nearmiss {
 
@@ -36,13 +36,12 @@ class SmallFailures {
   /// batches, and throws what that throws. The queries have a separation if they are to be `apart`.
   SmallFailures(const Subject& subject, Kind kind, bool apart, const std::function<void()>& check);
 
-  /// The simplest query that fails in this way, and is of this class if one is given; nothing if there is
-  /// none.
+  /// The simplest query that fails in this way, and is one of `among` if given; nothing if there is none.
   [[nodiscard]] std::optional<SmallQuery> simplest(const Failure& failure,
-                                                   std::optional<QueryClass> of = {}) const;
+                                                   const std::optional<NoMoreExotic>& among = {}) const;
 
  private:
-  std::map<std::pair<Failure, QueryClass>, SmallQuery> simplest_;
+  std::map<std::pair<Failure, int>, SmallQuery> simplest_;  // by exoticness
 };
 
 }  // namespace nearmiss

@@ -65,7 +65,7 @@ void VersionComparison::finish_query(std::vector<Finding>& findings) {
 
 void VersionComparison::add_to(VersionTable& table, Kind kind, const std::string& family) const {
   for (std::size_t s = 0; s < subjects_.size(); ++s)
-    if (counts_[s].queries() != 0)
+    if (before_[s])
       table[{subjects_[*before_[s]]->name(), subjects_[s]->name(), kind, family}].merge(counts_[s]);
 }
 

@@ -29,7 +29,8 @@ class VersionComparison {
   /// finding (`broken_since`). Then goes on to the next query.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries, which are of this kind and family.
+  /// Adds the counters of all queries, which are of this kind and family. Versions that were not asked the same
+  /// queries get counters of 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 
  private:

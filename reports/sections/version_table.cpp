@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -54,20 +54,27 @@ std::string in_words(const VersionCounts& counts, bool shows_zeros) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+/// Whether a subject was asked queries of a kind that its contract allows.
+bool was_asked(const std::string& subject, Kind kind, const Statistics& statistics) {
+  return std::any_of(statistics.counts.begin(), statistics.counts.end(), [&](const auto& each) {
+    const auto& [key, counts] = each;
+    return key.subject == subject && key.kind == kind &&
+           counts.queries > counts.without_answer(Fault::contract) + counts.without_answer(Fault::not_asked);
+  });
+}
+
 /// "; ee not compared, because old was not asked about it", for each kind that only one of two versions was
 /// asked about.
 std::string not_compared(const Versions& versions, const Parts& parts, const Statistics& statistics) {
-  const auto [before, after] = versions;
-  std::set<Kind> compared;
-  for (const auto& [part, counts] : parts) compared.insert(part.second);
-  std::map<Kind, std::set<std::string>> asked;
-  for (const auto& [key, counts] : statistics.counts)
-    if (key.subject == before || key.subject == after) asked[key.kind].insert(key.subject);
+  std::map<Kind, std::uint64_t> compared;
+  for (const auto& [part, counts] : parts) compared[part.second] += counts.queries();
   std::string text;
-  for (const auto& [kind, by] : asked)
-    if (!compared.contains(kind) && by.size() == 1)
-      text += fmt::format("; {} not compared, because {} was not asked about it", short_name(kind),
-                          by.contains(before) ? after : before);
+  for (const auto& [kind, queries] : compared) {
+    if (queries != 0) continue;
+    for (const std::string& each : {versions.first, versions.second})
+      if (!was_asked(each, kind, statistics))
+        text += fmt::format("; {} not compared, because {} was not asked about it", short_name(kind), each);
+  }
   return text;
 }
 
@@ -83,6 +90,11 @@ std::string version_lines(const Statistics& statistics) {
       if (const std::string own = in_words(counts, false); !own.empty())
         words.push_back(fmt::format("{} {} {}", name(part.first), short_name(part.second), own));
     }
+    if (sum.queries() == 0) {
+      lines += fmt::format("{} against {}: no query was asked of both{}\n", versions.second, versions.first,
+                           not_compared(versions, parts, statistics));
+      continue;
+    }
     lines += fmt::format("{} against {}: {}, of {}{}{}\n", versions.second, versions.first,
                          in_words(sum, true), counted(sum.queries(), "query", "queries"),
                          words.empty() ? "" : fmt::format(" ({})", fmt::join(words, "; ")),
@@ -95,6 +107,7 @@ nlohmann::ordered_json versions_json(const Statistics& statistics) {
   auto json = nlohmann::ordered_json::array();
   for (const auto& [versions, parts] : by_class_and_kind(statistics.versions))
     for (const auto& [part, counts] : parts) {
+      if (counts.queries() == 0) continue;
       json.push_back({{"before", versions.first},
                       {"after", versions.second},
                       {"kind", short_name(part.second)},

@@ -1,9 +1,11 @@
 // What a plug-in can state through ccd/nearmiss_subject.h, in its own process and in this one.
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <string>
 
 #include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "tests/plugins.hpp"
 #include "tests/refused.hpp"
@@ -98,8 +100,13 @@ TEST(Interface, APromisedTimeMustBeATime) {
       EXPECT_TRUE(subject->decide(query_at(time)).hit);
       EXPECT_EQ(subject->decide(query_at(time)).time, time);
     }
-    for (const double time : {-1e-300, 1.0000000001, 1e300})
-      EXPECT_EQ(subject->decide(query_at(time)).fault, Fault::invalid) << time;
+    for (const double time : {-1e-300, 1.0000000001, 1e300}) {
+      Verdict verdict = subject->decide(query_at(time));
+      EXPECT_EQ(verdict.fault, Fault::invalid) << time;
+      EXPECT_EQ(fault_signature(Kind::edge_edge, verdict), "ee invalid time");
+      verdict.time = std::numeric_limits<double>::quiet_NaN();
+      EXPECT_EQ(fault_signature(Kind::edge_edge, verdict), "ee invalid time NaN");
+    }
   }
 }
 

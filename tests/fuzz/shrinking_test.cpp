@@ -47,7 +47,7 @@ std::size_t shrunk_among(const std::vector<Finding>& findings) {
       std::count_if(findings.begin(), findings.end(), [](const Finding& each) { return each.is_shrunk; }));
 }
 
-TEST(Shrinking, KeepsTheFailureAndTheClass) {
+TEST(Shrinking, KeepsTheFailureAndIsNoMoreExotic) {
   const Subjects subjects = one(make_subject("basic"));
   const std::vector<Finding> before = missed(subjects);
   FirstFindings first;
@@ -57,8 +57,12 @@ TEST(Shrinking, KeepsTheFailureAndTheClass) {
   EXPECT_EQ(shrunk_among(findings), kept);
   EXPECT_LT(kept, findings.size());
   const Judge judge(*subjects.front());
+  std::size_t more_exotic = 0;  // of the simplest queries, if a more exotic one may be simpler
   for (const Finding& finding : findings) {
     if (!finding.is_shrunk) continue;
+    const int own = exoticness(finding.query, finding.query_class);
+    EXPECT_LE(exoticness(finding.shrunk, finding.query_class), own);
+    more_exotic += exoticness(finding.simplest, finding.simplest_class) > own ? 1 : 0;
     EXPECT_NE(finding.shrunk, finding.query);
     for (const Query& query : {finding.shrunk, finding.simplest})
       EXPECT_EQ(judge.failure(query), (Failure{finding.what, finding.signature}));
@@ -66,6 +70,7 @@ TEST(Shrinking, KeepsTheFailureAndTheClass) {
     EXPECT_EQ(name(classify(finding.simplest)), name(finding.simplest_class));
     EXPECT_FALSE(complexity(finding.shrunk) < complexity(finding.simplest));
   }
+  EXPECT_GT(more_exotic, 0);
 }
 
 TEST(Shrinking, LeavesFindingsAsTheyAreIfToldSo) {

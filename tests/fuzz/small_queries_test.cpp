@@ -149,7 +149,7 @@ TEST(SmallQueries, GiveTheSimplestFailureOfEachKindAndClass) {
       });
       ASSERT_NE(first, list.end());
       const auto failure = judge.failure(first->query);
-      const auto found = failures.simplest(*failure, of);
+      const auto found = failures.simplest(*failure, NoMoreExotic{of, 3});
       ASSERT_TRUE(found);
       EXPECT_EQ(judge.failure(found->query), failure);
       EXPECT_EQ(name(classify(found->query)), name(of));

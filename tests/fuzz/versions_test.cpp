@@ -61,6 +61,8 @@ TEST_F(SubjectFiles, OfSeveralDetectorsGiveNamesWithTheDetector) {
 
 TEST_F(SubjectFiles, WhoseNamesAreNoneFollowThatOfTheDetector) {
   EXPECT_THAT(names_of({copied("v1", "81c6614.so"), plugin("v2")}), ElementsAre("always-81c6614", "v2"));
+  EXPECT_THAT(names_of({copied("v1", "lib.so.1"), copied("v2", "lib.old.so")}),
+              ElementsAre("lib", "lib.old"));
 }
 
 TEST_F(SubjectFiles, WithEqualNamesAreRefusedUnlessTheyAreRenamed) {

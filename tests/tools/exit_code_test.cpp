@@ -87,6 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CommandLine, FailOnTakesNamesOfFailures) {
   write("q.vt", hit);
   expect_refused("replay q.vt --fail-on unknown,speed --db new.db", {"--fail-on: found 'speed'", "slow"});
+  expect_refused("replay q.vt --fail-on miss --db new.db", {"found 'miss', which always gives exit code 1"});
 }
 
 TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {

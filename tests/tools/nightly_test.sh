@@ -80,8 +80,10 @@ night 0 --subject wang --keep 2
 expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2*Z" | wc -l)" = 2
 expect "expected that only nights are removed" test -d "$folder/the" -a -d "$folder/the nights/2nd Zoo"
 expect "expected the latest night" test -s "$folder/the nights/last/all.db"
-night 2 --subject none
-expect_said 'there is nothing to report'
+before=$(ls "$folder/the nights")
+night 2 --subject wang,./none.so
+expect_said "found --subject 'wang,./none.so', expected CCDs; paths are relative to $PWD"
+expect "expected no night of a CCD that is none" test "$(ls "$folder/the nights")" = "$before"
 # libFuzzer hunts equally long for each way to break a promise.
 printf '#!/bin/sh\necho "$*" >>%s/hunts\n' "$folder" >tools/libfuzzer
 night 0 --subject wang,wang-time --time 100s

@@ -149,7 +149,7 @@ TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
 TEST_F(PastedTest, ExpectsATimeInTheStepWithACollision) {
   write("q.vt", hit);
   const Tests tests = tests_of("q.vt --subject " + plugin("invalid_time"));
-  EXPECT_THAT(tests.python, HasSubstr("# always gave no answer (vt invalid).\n"));
+  EXPECT_THAT(tests.python, HasSubstr("# always gave no answer (vt invalid time).\n"));
   EXPECT_THAT(tests.python, HasSubstr("# Write a function detects(start, end) that returns "));
   EXPECT_THAT(tests.python, HasSubstr("# Write a function time_of_impact(start, end) that returns "));
   for (const char* time : {"0", "1"}) expect_both(true, tests, "test_vertex_triangle", true, time);
@@ -170,7 +170,7 @@ TEST_F(PastedTest, ExpectsATimeInTheStepWithAFalsePositive) {
 TEST_F(PastedTest, AsksForNoTimeOfASubjectThatGivesNone) {
   write("q.vt", hit);
   const std::string python = tests_of("q.vt --subject " + plugin("several") + ":told:answer=3").python;
-  EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid).\n"));
+  EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid answer).\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
 }
 

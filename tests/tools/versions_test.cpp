@@ -43,6 +43,30 @@ TEST_F(VersionsOfACcd, AreNamedAsTheirFilesAndCompared) {
   EXPECT_GT(sum(versions, "broken"), 0);
 }
 
+TEST_F(VersionsOfACcd, ThatShareNoKindSaySo) {
+  const std::string several = plugin("several");
+  const Output output = run("fuzz --subject " + several + ":edges,wang,never=" + plugin("never_asked") +
+                            " --versions wang,never --family uniform --cases 20");
+  EXPECT_THAT(output.out,
+              HasSubstr("never against wang: no query was asked of both; vt not compared, because "
+                        "never was not asked about it; ee not compared, because never was not"));
+}
+
+TEST_F(VersionsOfACcd, ThatAreProgramsAreNamedAndReplayedByTheirFiles) {
+  std::string program = read(NEARMISS_EXAMPLES "/example.py");
+  program.replace(program.find("~apart.any(1)"), 1, "");  // misses all collisions
+  for (const char* version : {"one.py", "two.py"}) write(version, program);
+  const std::string python = "pipe:" NEARMISS_PYTHON " ";
+  const Output output = run("fuzz --subject '" + python + "one.py," + python +
+                            "two.py' --family small-integer --cases 40 --db a.db");
+  EXPECT_THAT(output.out, HasSubstr("two against one: "));
+  const auto findings = report_of("a.db", output.code)["findings"];
+  ASSERT_FALSE(findings.empty());
+  EXPECT_THAT(std::string(findings.front()["again"]), HasSubstr(" " + file("one.py").string()));
+  expect_refused("bench --subject '" + python + "one.py," + python + "one.py'",
+                 {"such as 'NAME=pipe:" NEARMISS_PYTHON " one.py'"});
+}
+
 TEST_F(VersionsOfACcd, AreReplayedUnderTheirNames) {
   EXPECT_EQ(run("fuzz --subject old=./v1.so,new=./v2.so --family uniform --cases 400 --db a.db").code, 1);
   const auto findings = report_of("a.db", 1)["findings"];

@@ -97,8 +97,7 @@ void run(const Options& options) {
   const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
                                          before.distinct, after.distinct, before.bits, after.bits);
   const bool is_case = form == Form::case_file;
-  write(is_case ? to_text(shrunk_case(finding, became)) : pasted_test(finding, subject->time_sort(), form),
-        options, became);
+  write(is_case ? to_text(shrunk_case(finding, became)) : pasted_test(finding, form), options, became);
 }
 
 }  // namespace
