@@ -11,7 +11,7 @@ options '' "$@"
 CXXFLAGS="${CXXFLAGS//-stdlib=libc++/} -w"
 
 build=$WORK/build
-cmake -G Ninja -B "$build" -DNEARMISS_LIBFUZZER=ON -DNEARMISS_FUZZING_ENGINE="$LIB_FUZZING_ENGINE" \
+cmake -G Ninja -B "$build" -DCMAKE_BUILD_TYPE=None -DNEARMISS_LIBFUZZER=ON -DNEARMISS_FUZZING_ENGINE="$LIB_FUZZING_ENGINE" \
   -DCMAKE_C_FLAGS="$CFLAGS" -DCMAKE_CXX_FLAGS="$CXXFLAGS" -DCMAKE_BUILD_RPATH='$ORIGIN/lib'
 cmake --build "$build" --target fuzz_seeds
 rm -rf "$WORK/seeds"

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 class Resume : public CommandLine {
  protected:
-  static constexpr const char* campaign = "fuzz --cases 20000 --seed 9 --subject basic,wang";
+  static constexpr const char* campaign = "fuzz --cases 10000 --seed 9 --subject basic,wang";
 
   /// The report of a store, without its times.
   [[nodiscard]] json timeless_report(const std::string& store) const {
@@ -63,10 +63,10 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(later, report);
 
   std::string shards;
-  for (const int shard : {4, 0, 6, 2, 5, 1, 3}) {
+  for (const int shard : {2, 0, 1}) {
     const std::string number = std::to_string(shard);
     std::string command = campaign;
-    command.append(" --shard ").append(number).append("/7 --db ").append(number).append(".db");
+    command.append(" --shard ").append(number).append("/3 --db ").append(number).append(".db");
     EXPECT_LE(run(command).code, 1);
     shards.append(" ").append(number).append(".db");
   }

@@ -46,6 +46,9 @@ function(nearmiss_precompile target)
     # g++ 12 gives false warnings about the code of std::string, and shows them if its header is precompiled
     # (bug 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+    # The precompiled headers alone fill g++'s heap, so that it would look for garbage at every step: a sixth of
+    # the time.
+    target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=400000")
   endif()
 endfunction()
 
