@@ -2,6 +2,8 @@
 """Tests that the operators make the right edits, that a seed always gives the same draw, and that
 the lists of named edits and of equivalent mutants are checked against the sources."""
 
+import json
+import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +16,7 @@ from mutation import applied
 from named_survey import contradictions
 from schemata import by_itself, with_switches
 from sites import mutants_of
-from sources import read
+from sources import Compiled, read
 from syntax import parse
 
 HERE = Path(__file__).resolve().parent
@@ -231,6 +233,16 @@ class Named(unittest.TestCase):
                 ' the condition and the arguments are wrong',
             ],
         )
+
+
+class CompileCommands(unittest.TestCase):
+    def test_arguments_with_blanks_stay_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command = 'g++ -DNAME="\\"GNU 12\\"" -o a.o -c /copy/ccd/a.cpp'
+            entry = {'file': '/copy/ccd/a.cpp', 'command': command}
+            (Path(folder) / 'compile_commands.json').write_text(json.dumps([entry]))
+            compiled = Compiled(Path(folder), '/copy')
+        self.assertEqual(compiled.arguments('ccd/a.cpp', '/copy'), ['-xc++', '-DNAME="GNU 12"'])
 
 
 ENTRY = f'{FILE}\n- return lo;\n+ return hi;\n= for the test\n'

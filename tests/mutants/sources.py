@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+import shlex
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -88,7 +89,7 @@ class Compiled:
     def arguments(self, unit, copy, root=ROOT):
         """The arguments with which the compiler parses a compiled file of the tree."""
         entry = self.commands[unit]
-        words = entry['command'].replace('\\"', '"').split()
+        words = shlex.split(entry['command'])
         kept = []
         skip = False
         for word in words[1:]:

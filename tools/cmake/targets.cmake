@@ -48,7 +48,7 @@ function(nearmiss_precompile target)
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
     # The precompiled headers alone fill g++'s heap, so that it would look for garbage at every step: a sixth of
     # the time.
-    target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=400000")
+    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=400000)
   endif()
 endfunction()
 
