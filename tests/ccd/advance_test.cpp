@@ -50,7 +50,10 @@ TEST(Advance, IsZeroForPrimitivesThatStartWithinTheSeparation) {
   EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
   EXPECT_EQ(decide(with_separation(falling_vertex(0.25, 0.25, 0.5, 1), 0.75)).time, 0);
   EXPECT_EQ(decide(with_separation(falling_edge(1, 2), 1e300)).time, 0);
-  for (const Kind kind : kinds) EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
+  for (const Kind kind : kinds) {
+    EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
+    EXPECT_EQ(decide(Query{.kind = kind}).stage, Stage::proximity);
+  }
 }
 
 TEST(Advance, DoesNotReportWhatStaysFartherAway) {
@@ -69,6 +72,12 @@ TEST(Advance, MeasuresTheDistanceOfEveryFeatureOfEdges) {
   expect_distance(edges_at(3, 0.5, 4), 5);     // an end and the other edge
   expect_distance(edges_at(2, 4, 6), 7);       // two ends
   expect_distance(edges_at(-3, 0.5, 1.5), 2.5);
+}
+
+// The vertex flies towards a corner at a right angle to one of the corner's edges.
+TEST(Advance, FindsACornerAtARightAngleToItsEdge) {
+  const Vector3<double> a(0, 0, 0), b(0, 1, 0), c(-1, 0, 0);
+  expect_just_before(make_query(Kind::vertex_triangle, {{1, 0, 0}, a, b, c}, {{-1, 0, 0}, a, b, c}), 0, 0.5);
 }
 
 TEST(Advance, ReportsNothingBeyondItsBound) {

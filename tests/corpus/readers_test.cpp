@@ -1,13 +1,17 @@
 // What is written in each file format is read back exactly, and each error gives one clear line.
 #include "corpus/readers.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <vector>
 
+#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "tests/queries.hpp"
 #include "tests/refused.hpp"
@@ -167,7 +171,7 @@ TEST_F(Files, AByteOrderMarkIsSkipped) {
 
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
-  for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1,1\r\n\r\n";
+  for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1, 1\r\n \r\n";
   const auto cases = read_all(write("vertex-face/data.csv", rows));
   ASSERT_EQ(cases.size(), 1U);
   EXPECT_EQ(cases[0].query.kind, Kind::vertex_triangle);
@@ -186,6 +190,7 @@ TEST_F(Files, NamesTheLineOfABadSampleQuery) {
                "c.csv:1: found 1/3, expected a number that is a double");
   expect_error(write("edge-edge/d.csv", "1,0,1,2,1,2,0\n"), "d.csv:1: found '1,0'");
   expect_error(write("edge-edge/e.csv", "1,2\n"), "e.csv:1: found 2 columns");
+  expect_error(write("edge-edge/g.csv", "x\n"), "g.csv:1: found 1 columns");
   expect_error(write("elsewhere/f.csv", seven + row), "expected vertex-face or edge-edge");
 }
 
@@ -203,10 +208,38 @@ TEST_F(Files, ReadsAFolderInOrderAndIgnoresOtherFiles) {
   write("b/second.ee", line);
   write("a/first.vt", line);
   write("a/README.md", "text");
+  fs::create_directories(file("c.vt"));
   const auto cases = read_all(file(""));
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_THAT(cases[0].name, HasSubstr("first.vt:1"));
   EXPECT_THAT(cases[1].name, HasSubstr("second.ee:1"));
+}
+
+/// An open file.
+class Open {
+ public:
+  explicit Open(const fs::path& path) : number(open(path.c_str(), O_RDWR | O_CLOEXEC)) {}
+  Open(const Open&) = delete;
+  Open& operator=(const Open&) = delete;
+  ~Open() { close(number); }
+  const int number;
+};
+
+TEST_F(Files, AnOpenFileIsWrittenAndNotReplaced) {
+  const Open open_file(write("a", "before"));
+  replace_file(fs::path("/proc/self/fd") / std::to_string(open_file.number), "after!");
+  std::array<char, 6> text{};
+  ASSERT_EQ(pread(open_file.number, text.data(), text.size(), 0), 6);
+  EXPECT_EQ(std::string(text.begin(), text.end()), "after!");
+}
+
+TEST_F(Files, AreReplacedWithoutAStandardInput) {
+  const int input = dup(STDIN_FILENO);
+  close(STDIN_FILENO);
+  EXPECT_NO_THROW(replace_file(file("a"), "text"));
+  dup2(input, STDIN_FILENO);
+  close(input);
+  EXPECT_EQ(read("a"), "text");
 }
 
 }  // namespace

@@ -75,6 +75,16 @@ TEST(CellTree, ChoosesNewGroupsWhenTheOldOnesAreLoose) {
   EXPECT_LT(anew.typical_group(), 1000);
 }
 
+TEST(CellTree, TheOnlyGroupIsTypical) {
+  const auto boxes = random_boxes(1, 2, 50);
+  CellBox all{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    all.lo[k] = std::min(boxes[0].lo[k], boxes[1].lo[k]);
+    all.hi[k] = std::max(boxes[0].hi[k], boxes[1].hi[k]);
+  }
+  EXPECT_EQ(CellTree(PrimitiveBoxes(boxes), 1, never_over).typical_group(), all.size());
+}
+
 TEST(CellTree, IsTheSameWithAnyNumberOfThreads) {
   const auto boxes = random_boxes(1, 200'000, 50);
   const CellTree one(PrimitiveBoxes(boxes), 1, never_over);

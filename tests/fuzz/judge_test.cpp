@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "ccd/query/error.hpp"
@@ -121,7 +122,22 @@ TEST(Judge, ATimeIsPromisedByASubjectThatGivesLowerBounds) {
     EXPECT_EQ(bound->late, time > 0.5) << time;
     EXPECT_EQ(bound->stuck, time == 0) << time;
     EXPECT_NEAR(bound->after - bound->early, time - 0.5, 1e-3) << time;
+    EXPECT_NEAR(bound->travelled, bound->early * 2 / 3, 1e-3) << time;  // it falls by 2, and B is 1 + 2
   }
+}
+
+TEST(Judge, TheFirstDoubleAfterTheTimeOfContactIsAfterIt) {
+  const Query query = falling_vertex(0.25, 0.25, 1, -2);  // touches at t = 1/3
+  const double after = std::nextafter(1.0 / 3, 1);
+  const MadeUpSubject subject("timed",
+                              [=](const Query&) {
+                                return Verdict{true, Stage::vv, after};
+                              },
+                              {.bound = infinity, .time_sort = TimeSort::estimate});
+  Truth truth(query);
+  const auto error = Judge(subject).judge(subject.decide(query), truth).time;
+  EXPECT_GT(error->after, 0);
+  EXPECT_EQ(error->early, 0);
 }
 
 TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <link.h>
+#include <unistd.h>
 
 #include <cstring>
 
@@ -118,6 +119,15 @@ TEST_F(PluginFileTest, LoadsLibrariesBesideIt) {
 TEST_F(PluginFileTest, MustBeARegularFile) {
   fs::create_directory(file("p.so"));
   EXPECT_REFUSED(make(), "p.so: cannot load the plug-in: found no regular file");
+}
+
+TEST_F(PluginFileTest, IsReadWithoutAStandardInput) {
+  replace("example");
+  const int input = dup(STDIN_FILENO);
+  close(STDIN_FILENO);
+  EXPECT_NO_THROW(isolation::PluginFile(file("p.so").string()));
+  dup2(input, STDIN_FILENO);
+  close(input);
 }
 
 TEST_F(PluginFileTest, HasAtMostTwoGibibytes) {

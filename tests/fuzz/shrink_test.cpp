@@ -17,6 +17,7 @@
 
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/neighbourhoods.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "reports/campaign/complexity.hpp"
 #include "tests/bit_hash.hpp"
@@ -269,8 +270,22 @@ TEST(Shrink, AsksOnlyAboutFiniteQueriesAndNotForEver) {
   EXPECT_LT(asked, 200000);
 }
 
+TEST(Neighbourhoods, MovedAxesKeepTheSeparation) {
+  Numbers x;
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + static_cast<double>(i) / 8;
+  const auto move_axes = neighbourhoods(Kind::edge_edge).at(2);
+  for (const Alternatives& alternatives : move_axes(x))
+    for (const Change& change : alternatives) {
+      Numbers changed = x;
+      change(changed);
+      EXPECT_EQ(changed.back(), x.back());
+    }
+}
+
 TEST(Complexity, CountsWhatThereIsToSay) {
   EXPECT_EQ(complexity(Query{}), Complexity{});
+  EXPECT_EQ(complexity(with_separation(Query{}, 99)).awkward, 1);
+  EXPECT_EQ(complexity(with_separation(Query{}, 100)).awkward, 2);
   const Complexity falling = complexity(falling_vertex(0.25, 0.375, 1, -1));
   // The vertex moves only in z, from 1 to -1, and the triangle has two ones.
   EXPECT_EQ(

@@ -4,6 +4,7 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "oracle/distance.hpp"
 #include "oracle/distance/approach.hpp"
@@ -163,6 +164,14 @@ TEST(EarliestTime, IsTheFirstOfSeveral) {
   ASSERT_TRUE(time);
   EXPECT_EQ(time->enclosure().lo, 0.25);
   EXPECT_EQ(time->rational(), "1/4");
+}
+
+// A vertex is at rest in the plane of its triangle, so near an edge that only exact arithmetic sees the gap.
+TEST(EarliestTime, IsRefusedIfExactArithmeticFindsNoCollision) {
+  constexpr double p = 8944394323791464, q = 5527939700884757, r = 3416454622906707;  // p r = q² - 1
+  const testing::Points points{{q, r, 0}, {0, 0, 0}, {p, q, 0}, {0, p, 0}};
+  EarliestTime time(make_query(Kind::vertex_triangle, points, points));
+  EXPECT_THROW((void)time.enclosure(0), std::invalid_argument);
 }
 
 TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }

@@ -238,6 +238,25 @@ TEST(Interface, RefusesArgumentsAndWritesNothing) {
   EXPECT_EQ(number, 7);
 }
 
+TEST(Interface, RefusesALayoutThatIsMissing) {
+  std::int8_t answer = 7;
+  double number = 7;
+  EXPECT_EQ(nearmiss_collides(nullptr, &answer, nullptr), NEARMISS_BAD_ARGUMENT);
+  EXPECT_EQ(nearmiss_wang_bound(nullptr, &number), NEARMISS_BAD_ARGUMENT);
+  EXPECT_EQ(nearmiss_earliest_time(nullptr, 0, &number, nullptr), NEARMISS_BAD_ARGUMENT);
+  EXPECT_EQ(answer, 7);
+  EXPECT_EQ(number, 7);
+}
+
+TEST(Interface, EarliestTimesLieBetweenTheirSpans) {
+  std::array<double, 24> x = falling;
+  x[14] = -2;  // it falls through the triangle at t = 1/3
+  std::array<double, 1> lo{}, hi{};
+  EXPECT_EQ(earliest_times(Queries::packed(Kind::vertex_triangle, x), lo, hi), Status::ok);
+  EXPECT_EQ(lo[0], 1. / 3);  // rounded down
+  EXPECT_EQ(hi[0], std::nextafter(1. / 3, 1));
+}
+
 TEST(Interface, AnswersNoQueriesAtAll) {
   const Queries none = Queries::packed(Kind::edge_edge, std::span<const double>());
   EXPECT_EQ(none.size(), 0);

@@ -99,8 +99,9 @@ TEST(OnInterval, GuessesWhereAClusterIs) {
   };
   EXPECT_EQ(guess(squared(-3, 4)), Number(0.75));
   EXPECT_EQ(guess(squared(-1, 0x1p300)), Number(0));
-  EXPECT_EQ(guess(squared(-5, 4)), std::nullopt);  // 5/4
-  EXPECT_EQ(guess(squared(1, 8)), std::nullopt);   // -1/8
+  EXPECT_EQ(guess(squared(-5, 4)), std::nullopt);                     // 5/4
+  EXPECT_EQ(guess(squared(1, 8)), std::nullopt);                      // -1/8
+  EXPECT_EQ(guess(polynomial({2, -2, 1, -100, 120})), std::nullopt);  // f'² = f f'' at 0
 }
 
 TEST(Root, PartsClustersOfRoots) {

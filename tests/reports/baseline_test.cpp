@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "reports/sections/scorecard.hpp"
 #include "tests/refused.hpp"
 #include "tests/reports/campaigns.hpp"
 
@@ -47,6 +48,9 @@ TEST(Changes, ARateThatDiffersByMoreIsBetterOrWorse) {
   ASSERT_THAT(better.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(better), IsEmpty());
   EXPECT_THAT(describe(better), HasSubstr("better: "));
+  const auto since = scorecard_json(few.statistics, {}, better)[0]["since"];
+  EXPECT_EQ(since["worse"], 0);
+  EXPECT_EQ(since["better"], 1);
 }
 
 TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {

@@ -109,6 +109,9 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
     EXPECT_EQ(found[0].subject, "mine");
     EXPECT_NEAR(found[0].ratio() / factor, 1, 0.05);
   }
+  // Four families of two kinds are enough to be compared with each other.
+  const std::vector<std::string> subjects{"mine", "wang"};
+  EXPECT_THAT(changed(night("2", slow(3), subjects, 4), {night("1", usual, subjects, 4)}), SizeIs(1));
   const auto alone = changed(night("2", slow(118), {"mine"}), {night("1", usual, {"mine"})});
   ASSERT_THAT(alone, SizeIs(1));
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
@@ -123,6 +126,15 @@ TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   const auto other =
       changed(night("now", [](const CountsKey& key) { return key.family == "f3" ? 1.5 : 1.0; }), nights);
   EXPECT_THAT(other, SizeIs(4));  // for both subjects and kinds
+}
+
+TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
+  Campaign before = night("1", usual);
+  SubjectTimes& times = before.statistics.counts[one].times;
+  times = {};
+  for (std::uint64_t batch = 0; batch < 10; ++batch)  // now, they take 800 ns
+    for (const std::uint64_t ns : {160, 1600}) times.add(one.kind, one.family, {1000, ns * (1000 + batch)});
+  EXPECT_THAT(changed(night("2", usual), {before}), IsEmpty());
 }
 
 // With a single family, the spread between families is not known.

@@ -54,6 +54,13 @@ TEST(CommonFactors, AValueThatFewMissesHaveIsNot) {
   EXPECT_EQ(common_factors(counted_for(basic, missed)).front().key.values, "a=1");
 }
 
+TEST(CommonFactors, OfEqualValuesTheFirstIsNamed) {
+  FactorTable table;
+  for (const bool missed : {false, true})
+    count_collision(table, basic, Values{missed ? "a=1" : "a=0", missed ? "b=1" : "b=0", "c=0"}, missed);
+  EXPECT_EQ(common_factors(table).front().key.values, "a=1");
+}
+
 TEST(CommonFactors, EachSubjectKindAndFamilyHasItsOwn) {
   Statistics statistics;
   statistics.factors = counted_for(basic, [](int a, int, int) { return a == 0; });

@@ -91,6 +91,20 @@ TEST(Gone, DoesNotCountFailuresInCases) {
   EXPECT_THAT(changes(night("2", {}), before).gone_signatures, IsEmpty());
 }
 
+TEST(Gone, DoesNotCountLateTimesAndFaultsInCases) {
+  const Signature late{Finding::What::late, "mine", "ee inside"};
+  const Signature crash{Finding::What::fault, "mine", "ee crash"};
+  Campaign before = night("1", {{late, 40}, {crash, 40}});
+  Counts& cases = before.statistics.counts[{"mine", Kind::edge_edge, "planar/"}];
+  cases = counts(50, 50, 0, 0);
+  cases.late = 38;
+  cases.faults[static_cast<std::size_t>(Fault::crash)] = 38;
+  EXPECT_THAT(changes(night("2", {}), before).gone_signatures, IsEmpty());
+  cases.faults = {};
+  cases.faults[static_cast<std::size_t>(Fault::not_asked)] = 40;
+  EXPECT_THAT(changes(night("2", {}), before).gone_signatures, ElementsAre(crash));
+}
+
 TEST(Gone, IsFixedIfTheCodeHasChanged) {
   const std::vector before{night("1", {{inside, 40}}, "1", "a"), night("2", {{inside, 30}}, "2", "b")};
   const auto text = [&](const std::string& version, const std::string& sha256) {

@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
+#include "reports/csv.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "tests/queries.hpp"
 
@@ -68,6 +70,26 @@ TEST(Times, TheSlowestAreKept) {
   a.merge(b);
   ASSERT_EQ(a.slowest.size(), SubjectTimes::slow_cases);
   for (std::size_t i = 0; i < SubjectTimes::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
+}
+
+/// The value in the first row of a CSV file below a heading.
+std::string first_value(const std::string& csv, const std::string& heading) {
+  std::istringstream lines(csv);
+  std::string headings, values;
+  std::getline(lines, headings);
+  std::getline(lines, values);
+  std::istringstream names(headings), row(values);
+  for (std::string name, value; std::getline(names, name, ',') && std::getline(row, value, ',');)
+    if (name == heading) return value;
+  return "";
+}
+
+TEST(Times, HaveTheirMedianInTheTable) {
+  Statistics statistics;
+  Counts& counts = statistics.counts[{"wang", Kind::edge_edge, "uniform"}];
+  for (const std::uint64_t time : {10, 10, 100, 1000, 1000})
+    counts.times.add(time, Query{}, [] { return ""; });
+  EXPECT_NEAR(std::stod(first_value(statistics_csv(statistics), "median_ns")), 100, 10);
 }
 
 // Six cases are equally slow. The first five by provenance are kept, in whatever order they come.
