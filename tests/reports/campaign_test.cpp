@@ -51,6 +51,23 @@ Campaign merged(const std::vector<std::uint64_t>& shards) {
   return merge_campaigns(campaigns, names);
 }
 
+// The query of the finding that is not shrunk has no coincident vertices.
+TEST(Campaign, ShowsShrunkFindingsOfAClassFirst) {
+  Campaign campaign{{{info, {{}}, {}}}, {}};
+  for (const bool is_shrunk : {false, true}) {
+    Finding each = finding(0, is_shrunk ? "shrunk" : "whole", 0, "s");
+    if (is_shrunk) each.shrunk = Query{.kind = Kind::edge_edge};
+    each.query_class = QueryClass::degenerate;
+    each.is_shrunk = is_shrunk;
+    campaign.runs.front().findings.push_back(each);
+  }
+  const std::vector<Finding> shown = campaign.findings();
+  ASSERT_EQ(shown.size(), 2);
+  EXPECT_LT(exoticness(shown[1].shrunk, QueryClass::degenerate),
+            exoticness(shown[0].shrunk, QueryClass::degenerate));
+  EXPECT_EQ(shown.front().provenance, "shrunk");
+}
+
 TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
   const Campaign whole = merged({0, 1, 2});
   ASSERT_EQ(whole.runs.size(), 1);
