@@ -15,29 +15,22 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The kinds of failure that give exit code 1 only on request.
-Failures on_request() {
-  Failures found;
-  for (const FailureKind kind : all_failures())
-    if (failure_info(kind).on_request) found.insert(kind);
-  return found;
-}
-
 /// "unknown, contract, slow"
 std::string names_on_request() {
   std::vector<std::string_view> names;
-  for (const FailureKind kind : on_request()) names.push_back(name(kind));
+  for (const FailureKind kind : all_failures())
+    if (failure_info(kind).on_request) names.push_back(name(kind));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 FailureKind find_failure(const std::string& text) {
-  const auto has_name = [&](FailureKind kind) { return name(kind) == text; };
-  const Failures selectable = on_request();
-  const auto found = std::find_if(selectable.begin(), selectable.end(), has_name);
-  if (found != selectable.end()) return *found;
-  const bool is_usual = std::any_of(usual_failures().begin(), usual_failures().end(), has_name);
+  const Failures& all = all_failures();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](FailureKind kind) { return name(kind) == text; });
+  const bool is_known = found != all.end();
+  if (is_known && failure_info(*found).on_request) return *found;
   throw Error(fmt::format("--fail-on: found '{}'{}, expected some of {}", excerpt(text),
-                          is_usual ? ", which always gives exit code 1" : "", names_on_request()));
+                          is_known ? ", which always gives exit code 1" : "", names_on_request()));
 }
 
 }  // namespace

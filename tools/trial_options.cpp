@@ -140,8 +140,7 @@ std::string absolute_command(const std::string& command) {
   std::vector<std::string> words = shell_words(command);
   for (std::string& word : words) {
     const bool is_searched = &word == &words.front() && word.find('/') == std::string::npos;  // in $PATH
-    std::error_code unknown;
-    if (!is_searched && std::filesystem::is_regular_file(word, unknown)) word = absolute_path(word);
+    if (!is_searched && is_file(word)) word = absolute_path(word);
     word = shell_quoted(word);
   }
   return fmt::format("{}", fmt::join(words, " "));

@@ -9,12 +9,12 @@
 
 namespace nearmiss {
 
-namespace {
-
 bool is_file(std::string_view path) {
   std::error_code unknown;
   return std::filesystem::is_regular_file(path, unknown);
 }
+
+namespace {
 
 /// The path at the start of a plug-in's name: the shortest prefix that has a '/', is a file, and ends at a
 /// ':' or at the end of the name. If no prefix is a file, the path ends at the first ':' after the last '/'

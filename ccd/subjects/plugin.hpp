@@ -17,6 +17,9 @@ inline constexpr std::string_view program_prefix = "pipe:";
 
 inline bool is_program(std::string_view name) { return name.starts_with(program_prefix); }
 
+/// Whether a path leads to a regular file; false if that is unknown, as for a name that is too long.
+bool is_file(std::string_view path);
+
 /// Whether a subject's name is that of a plug-in: a program, or a shared object whose path has a '/'.
 bool is_plugin(std::string_view name);
 

@@ -80,8 +80,8 @@ struct Verdict {
   double time = std::numeric_limits<double>::quiet_NaN();
   Fault fault = Fault::none;  ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  /// The return value of an error, and of an invalid answer; the signal or negated exit code of a crash; a number that
-  /// Subject::fault_text knows for an exception and a failure to load.
+  /// The return value of an error, and of an invalid answer; the signal or negated exit code of a crash; a
+  /// number that Subject::fault_text knows for an exception and a failure to load.
   std::int32_t fault_code = 0;
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }

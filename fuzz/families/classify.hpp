@@ -16,11 +16,9 @@ QueryClass classify(const Query& query);
 /// vertices, others have not.
 struct NoMoreExotic {
   QueryClass of;
-  int exoticness;
+  int most;  ///< exoticness
 
-  bool operator()(const Query& query) const {
-    return classify(query) == of && nearmiss::exoticness(query, of) <= exoticness;
-  }
+  bool operator()(const Query& query) const { return classify(query) == of && exoticness(query, of) <= most; }
 };
 
 }  // namespace nearmiss

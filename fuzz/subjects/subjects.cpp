@@ -44,7 +44,6 @@ std::string stem_of(const std::filesystem::path& file) {
 /// The last word of a program's command that is a file; "" if none is.
 std::string file_of_program(std::string_view program) {
   const auto words = shell_words(program.substr(program_prefix.size()));
-  const auto is_file = [](const std::string& word) { return std::filesystem::is_regular_file(word); };
   const auto last = std::find_if(words.rbegin(), words.rend(), is_file);
   return last == words.rend() ? "" : *last;
 }

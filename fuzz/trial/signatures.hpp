@@ -24,8 +24,8 @@ std::string report_signature(Kind kind, Stage stage);
 /// numbers become #, so that exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
 
-/// Whether the signature is that of a collision with a time that is not in [0, 1], or is NaN.
-bool is_of_invalid_time(std::string_view signature);
+/// Whether a signature is that of a collision with a time that is not in [0, 1], or is NaN.
+bool is_of_invalid_time(std::string_view text);
 
 /// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists
 /// the answers (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if

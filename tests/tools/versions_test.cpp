@@ -65,6 +65,9 @@ TEST_F(VersionsOfACcd, ThatAreProgramsAreNamedAndReplayedByTheirFiles) {
   EXPECT_THAT(std::string(findings.front()["again"]), HasSubstr(" " + file("one.py").string()));
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py'",
                  {"such as 'NAME=pipe:" NEARMISS_PYTHON " one.py'"});
+  // A word that is too long for the name of a file is none.
+  expect_refused("bench --subject '" + python + "one.py," + python + "one.py " + std::string(300, 'x') + "'",
+                 {"two subjects named"});
 }
 
 TEST_F(VersionsOfACcd, AreReplayedUnderTheirNames) {

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -15,17 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_file(const fs::path& path) {
-  std::error_code unknown;
-  return fs::is_regular_file(path, unknown);
-}
-
 /// The file that a shell runs for a command without '/'; "" if there is none.
 std::string file_of_command(const std::string& command) {
   const char* const folders = std::getenv("PATH");
   std::istringstream each(folders == nullptr ? "" : folders);
   for (std::string folder; std::getline(each, folder, ':');)
-    if (const fs::path path = fs::path(folder) / command; is_file(path)) return path.string();
+    if (std::string path = fs::path(folder) / command; is_file(path)) return path;
   return "";
 }
 
@@ -34,7 +30,7 @@ std::vector<std::string> files_of_program(const std::string& command) {
   if (files.empty())
     throw Error(std::string(program_prefix) + " found no command, expected one behind the colon");
   if (files.front().find('/') == std::string::npos) files.front() = file_of_command(files.front());
-  std::erase_if(files, [](const std::string& word) { return !is_file(word); });
+  std::erase_if(files, std::not_fn(is_file));
   return files;
 }
 
