@@ -57,6 +57,7 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
                     {"kind", short_name(finding.query.kind)},
                     {"family", finding.family},
                     {"provenance", finding.provenance},
+                    {"is_shrunk", finding.is_shrunk},
                     {"ratio", finding.what == Finding::What::late ? 0 : finding.ratio},
                     {"class", name(finding.query_class)},
                     {"shrunk", numbers_json(finding.shrunk)},

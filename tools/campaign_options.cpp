@@ -126,7 +126,7 @@ int record_campaign(const CampaignOptions& options) {
   plan.first = options.first;
   plan.comparison = options.trial.comparison;
   plan.jobs = options.trial.jobs;
-  plan.shrink = options.trial.shrink;
+  plan.shrink = !options.trial.no_shrink;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
 
   Record record(options.record, info_of(options, plan, subjects),

@@ -23,14 +23,22 @@ std::string names_on_request() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Whether this is the name of a fault that needs no request.
+bool is_fault(const std::string& text) {
+  const auto found = std::find(fault_names.begin(), fault_names.end(), text);
+  return found != fault_names.end() &&
+         failure_of({.verdict = {.fault = static_cast<Fault>(found - fault_names.begin())}}) ==
+             FailureKind::fault;
+}
+
 FailureKind find_failure(const std::string& text) {
   const Failures& all = all_failures();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](FailureKind kind) { return name(kind) == text; });
-  const bool is_known = found != all.end();
-  if (is_known && failure_info(*found).on_request) return *found;
+  if (found != all.end() && failure_info(*found).on_request) return *found;
+  const bool fails = found != all.end() || is_fault(text);
   throw Error(fmt::format("--fail-on: found '{}'{}, expected some of {}", excerpt(text),
-                          is_known ? ", which always gives exit code 1" : "", names_on_request()));
+                          fails ? ", which always gives exit code 1" : "", names_on_request()));
 }
 
 }  // namespace

@@ -25,9 +25,7 @@ void TrialOptions::add_to(CLI::App& command) {
                    "Also ask subjects queries beyond their contracts, and count these apart");
   limits.add_to(command);
   add_comparison_options(command, comparison);
-  add_count_option(
-      command, "--shrink", shrink, 0, findings_kept,
-      "Number of findings of each kind of failure and class of queries to simplify; 0 keeps all as they are");
+  command.add_flag("--no-shrink", no_shrink, "Keep findings as they are, instead of simplifying them");
   command
       .add_option("--versions", comparison.versions,
                   "Names of two subjects: compare the second with the first query by query, as is done for "
@@ -90,7 +88,7 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
   std::string& again = info["again"];
   again = fmt::format("nearmiss {} --subject {} --compare {}", what, shell_quoted(names), comparison.one_in);
   if (comparison.near_bounds) again += " --compare-near-bounds";
-  if (shrink != findings_kept) again += fmt::format(" --shrink {}", shrink);
+  if (no_shrink) again += " --no-shrink";
   if (beyond_contract) {
     info["beyond contract"] = "asked, and counted apart";
     again += " --beyond-contract";
@@ -133,20 +131,19 @@ std::string absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// A program's command with the whole paths of the files that it names. A command that a shell would expand
-/// stays as it is.
+/// A program's command that does the same in every folder.
 std::string absolute_command(const std::string& command) {
-  if (command.find_first_of("$`*?[~") != std::string::npos) return command;
-  std::vector<std::string> words = shell_words(command);
-  for (std::string& word : words) {
+  const std::vector<std::string> words = shell_words(command);
+  const bool is_absolute = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
     const bool is_searched = &word == &words.front() && word.find('/') == std::string::npos;  // in $PATH
-    if (!is_searched && is_file(word)) word = absolute_path(word);
-    word = shell_quoted(word);
-  }
-  return fmt::format("{}", fmt::join(words, " "));
+    return is_searched || word.starts_with('/');
+  });
+  if (is_absolute || command.starts_with("cd /")) return command;
+  return fmt::format("cd {} && {}{}", shell_quoted(std::filesystem::current_path().string()),
+                     command.starts_with("cd ") ? "" : "exec ", command);
 }
 
-/// The text that denotes a plug-in, with the whole paths of its files.
+/// The text that denotes a plug-in in every folder.
 std::string absolute_text(const Subject& subject) {
   const auto [name, plugin] = SubjectText::parse(text_of(subject));
   const std::string given = name.empty() ? "" : name + "=";

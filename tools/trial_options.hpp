@@ -11,14 +11,14 @@
 
 namespace nearmiss::tools {
 
-/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --shrink,
+/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --no-shrink,
 /// --jobs
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
   bool beyond_contract = false;
   PluginLimitOptions limits = {};
   Comparison comparison = {};
-  std::size_t shrink = findings_kept;  ///< number of findings of each signature and class that are shrunk
+  bool no_shrink = false;
   int jobs = 1;
 
   void add_to(CLI::App& command);

@@ -12,6 +12,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/subjects/plugin.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
+#include "fuzz/subjects/isolation/plugin_code.hpp"
 #include "fuzz/subjects/peers.hpp"
 #include "reports/text/shell.hpp"
 
@@ -41,11 +42,10 @@ std::string stem_of(const std::filesystem::path& file) {
   return shared_object == std::string::npos ? file.stem().string() : name.substr(0, shared_object);
 }
 
-/// The last word of a program's command that is a file; "" if none is.
+/// The last file that a program's command names; "" if it names none.
 std::string file_of_program(std::string_view program) {
-  const auto words = shell_words(program.substr(program_prefix.size()));
-  const auto last = std::find_if(words.rbegin(), words.rend(), is_file);
-  return last == words.rend() ? "" : *last;
+  const auto files = isolation::files_of_program(program.substr(program_prefix.size()));
+  return files.empty() ? "" : files.back();
 }
 
 /// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if the file's

@@ -23,7 +23,7 @@ struct CampaignPlan {
   std::uint64_t first =
       0;  ///< if there is no end: the number of cases of the shard to decide, in order; 0 is no limit
   Comparison comparison;
-  std::size_t shrink = findings_kept;  ///< number of findings of each signature and class that are shrunk
+  bool shrink = true;  ///< whether the findings that are kept are shrunk
   int jobs = 1;
   std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
   std::uint64_t shards = 1;

@@ -14,11 +14,11 @@ constexpr double share = 0.1;
 
 }  // namespace
 
-Shrinking::Shrinking(const Subjects& subjects, int jobs, const Stop& stop, std::size_t of_each)
+Shrinking::Shrinking(const Subjects& subjects, int jobs, const Stop& stop, bool enabled)
     : shrinker_(pointers_to(subjects), stop, limits_in_campaign),
       jobs_(jobs),
       stop_(stop),
-      of_each_(of_each) {}
+      enabled_(enabled) {}
 
 Shrinking::~Shrinking() {
   {
@@ -40,7 +40,7 @@ void Shrinking::sift(TrialResult& result) {
 
 void Shrinking::add(const Finding& finding, std::size_t nth) {
   const std::size_t number = count_++;
-  if (finding.is_shrunk || nth > of_each_) return;
+  if (!enabled_ || finding.is_shrunk || nth > findings_kept) return;
   {
     const std::lock_guard lock(mutex_);
     waiting_.emplace(Priority{finding.query_class, nth, number}, Task{number, finding});

@@ -25,8 +25,9 @@ namespace nearmiss {
 /// The order does not change what findings are shrunk to. Its functions are called by one thread at a time.
 class Shrinking {
  public:
-  /// Shrinks the first `of_each` findings of each signature and class. Subjects and `stop` must outlive it.
-  Shrinking(const Subjects& subjects, int jobs, const Stop& stop, std::size_t of_each);
+  /// Shrinks the findings that are kept (FirstFindings) unless `enabled` is false. Subjects and `stop` must
+  /// outlive it.
+  Shrinking(const Subjects& subjects, int jobs, const Stop& stop, bool enabled);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
   ~Shrinking();
@@ -71,7 +72,7 @@ class Shrinking {
   FindingShrinker shrinker_;
   int jobs_;
   const Stop& stop_;
-  std::size_t of_each_;
+  bool enabled_;
   FirstFindings first_;
   std::size_t count_ = 0;
 

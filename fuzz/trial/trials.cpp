@@ -54,8 +54,8 @@ struct Trials::OnItsWay {
   Clock::time_point since = {};  ///< the end of the last trial
 };
 
-Trials::Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop,
-               std::size_t shrink, TrialSink sink)
+Trials::Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, bool shrink,
+               TrialSink sink)
     : subjects_(subjects),
       comparison_(std::move(comparison)),
       jobs_(jobs),

@@ -30,10 +30,10 @@ struct Work {
 /// Runs many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
 class Trials {
  public:
-  /// Shrinks the first `shrink` findings of each signature and class. The sink receives results several times
-  /// a second, in order, with the first findings of each signature and class (FirstFindings), and those that
-  /// have been shrunk meanwhile. The subjects and `stop` must outlive this object.
-  Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, std::size_t shrink,
+  /// The sink receives results several times a second, in order, with the first findings of each signature and
+  /// class (FirstFindings), and if `shrink` is true, those that have been shrunk meanwhile. The subjects and
+  /// `stop` must outlive this object.
+  Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, bool shrink,
          TrialSink sink);
 
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }

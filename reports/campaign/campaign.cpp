@@ -74,8 +74,7 @@ namespace {
 auto place_of(const Finding& finding, const Statistics& statistics) {
   const bool is_of_oracle = finding.subject.empty();
   const auto times_seen = statistics.times_seen(signature_of(finding));
-  return std::tuple(!is_of_oracle, finding.query_class, !finding.is_shrunk,
-                    exoticness(finding.shrunk, finding.query_class),
+  return std::tuple(!is_of_oracle, least_exotic_first(finding),
                     std::numeric_limits<std::uint64_t>::max() - times_seen, signature_of(finding),
                     complexity(finding.shrunk));
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "reports/campaign/scene_picture.hpp"
@@ -15,12 +16,18 @@
 
 namespace nearmiss {
 
+/// The first of the keys by which findings are sorted for display: those of the least exotic class come first,
+/// and of these the shrunk ones.
+inline auto least_exotic_first(const Finding& finding) {
+  return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
+}
+
 /// Facts by name.
 using RunInfo = std::map<std::string, std::string>;
 
 /// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256" and "plug-in NAME
-/// version". The environment of a shard has "plug-in NAME", which is how the command line names the plug-in,
-/// with its whole path, and "plug-in NAME build id".
+/// version". The environment of a shard has "plug-in NAME", which is how the command line names the plug-in
+/// in every folder, and "plug-in NAME build id".
 inline constexpr std::string_view about_plugin = "plug-in ";
 /// Beginning of the name of a run's fact about a renamed built-in subject: "subject NAME" is "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";

@@ -21,7 +21,7 @@ Finding of_shrunk(const Finding& finding) {
   Finding shrunk = finding;
   shrunk.query = finding.shrunk;
   shrunk.ratio = 0;
-  shrunk.provenance = "shrunk from " + finding.provenance;
+  if (finding.is_shrunk) shrunk.provenance = "shrunk from " + finding.provenance;
   return shrunk;
 }
 

@@ -20,11 +20,11 @@ const fold = (title, query, file) => made("details", [made("summary", title), ..
 const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi), [
   ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
   made("h3", failureTitle(finding)),
-  made("div", `${finding.class} query; ${finding.signature}, ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times in all classes`}`),
+  made("div", `${finding.class} query${finding.is_shrunk ? "" : ", not shrunk"}; ${finding.signature}, ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times in all classes`}`),
   made("div", finding.explanation),
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
   command(finding.again),
-  fold("the shrunk query", finding.shrunk, finding.file), fold("the original query", finding.original, finding.original_file),
+  ...(finding.is_shrunk ? [fold("the shrunk query", finding.shrunk, finding.file)] : []), fold("the original query", finding.original, finding.original_file),
   ...(String(finding.simplest) === String(finding.shrunk) ? [] : [fold(`the simplest query of any class (${finding.simplest_class})`, finding.simplest)]),
 ], { id: `finding-${index}`, tabindex: -1 });
 

@@ -51,12 +51,10 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of the failure with the least exotic query; of several, a miss if there is one, else a late
-/// time.
+/// The index of the failure with the least exotic query; of several, the gravest.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings) {
   const auto rank = [](const Finding& finding) {
-    return std::tuple(exoticness(finding.shrunk, finding.query_class),
-                      finding.what != Finding::What::false_negative, finding.what != Finding::What::late,
+    return std::tuple(least_exotic_first(finding), failure_of(signature_of(finding)),
                       complexity(finding.shrunk));
   };
   std::optional<std::size_t> simplest;

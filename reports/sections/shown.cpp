@@ -45,7 +45,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
     return result;
   };
   ShownFinding result{finding, seen, exported(of_shrunk(finding), ""), exported(finding, "-original")};
-  result.original.content.why += "; before it was shrunk";
+  if (finding.is_shrunk) result.original.content.why += "; before it was shrunk";
   return result;
 }
 

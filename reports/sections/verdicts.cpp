@@ -60,23 +60,6 @@ std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   return fmt::format("{}", fmt::join(classes, "; "));
 }
 
-/// "missed 53 of 504 ordinary vt collisions": how often a subject failed in a class, for each kind with
-/// failures.
-std::string said_of(const FailureInfo& failure, QueryClass in, const std::map<Kind, Counts>& by_kind) {
-  std::vector<std::string> kinds_text;
-  std::uint64_t total = 0;
-  for (const auto& [kind, counts] : by_kind) {
-    if (failure.count(counts) == 0) continue;
-    total = failure.total(counts);
-    kinds_text.push_back(
-        fmt::format("{} of {} {}{}", with_separators(failure.count(counts)), with_separators(total),
-                    in == QueryClass::unclassified ? "" : fmt::format("{} ", name(in)), short_name(kind)));
-  }
-  const bool is_one = kinds_text.size() == 1 && total == 1;
-  return fmt::format("{} {} {}", failure.verb, fmt::join(kinds_text, " and "),
-                     is_one ? failure.one : failure.many);
-}
-
 /// The least exotic class of families in which a subject failed in this way.
 Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& failure) {
   const auto has_failed = [&](const auto& of_kind) { return failure.count(of_kind.second) > 0; };
@@ -85,70 +68,109 @@ Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& f
   });
 }
 
-/// The least exotic class of the queries that a subject missed, if it is less exotic than the class of every
-/// family with a miss; nothing otherwise.
-std::optional<QueryClass> class_of_missed(const OfSubject& subject) {
-  const auto& missed = subject.all.missed_by_class;
-  const auto in = least_exotic_part(subject.parts, failure_info(FailureKind::miss));
-  for (std::size_t i = 0; i < missed.size(); ++i)
-    if (missed[i] > 0 && static_cast<QueryClass>(i) < in->first) return static_cast<QueryClass>(i);
+/// How often a subject failed in this way on queries of a class; 0 if that is not counted.
+std::uint64_t count_of(const Counts& counts, const FailureInfo& failure, QueryClass of) {
+  return failure.by_class == nullptr ? 0 : (counts.*failure.by_class)[static_cast<std::size_t>(of)];
+}
+
+/// The least exotic class of the queries on which a subject failed in this way, if it is less exotic than the
+/// class of every family in which it did; nothing otherwise.
+std::optional<QueryClass> class_of_queries(const OfSubject& subject, const FailureInfo& failure) {
+  const auto in = least_exotic_part(subject.parts, failure);
+  if (in == subject.parts.end()) return std::nullopt;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(in->first); ++i)
+    if (const auto of = static_cast<QueryClass>(i); count_of(subject.all, failure, of) > 0) return of;
   return std::nullopt;
 }
 
-/// "missed 12 ordinary vt collisions in degenerate families": what a subject missed among the queries of a
-/// class.
-std::string said_of_queries(const Parts& parts, QueryClass of) {
+/// "ordinary vt", or only the kind if the class is unknown.
+std::string class_and_kind(QueryClass of, Kind kind) {
+  return of == QueryClass::unclassified ? std::string(short_name(kind))
+                                        : fmt::format("{} {}", name(of), short_name(kind));
+}
+
+/// "53 of 504 ordinary vt collisions": how often a subject failed in families of a class, for each kind with
+/// failures; "" if there are none. Adds these kinds to `said`.
+std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in,
+                             std::set<Kind>& said) {
+  const auto part = parts.find(in);
+  if (part == parts.end()) return "";
+  std::vector<std::string> of_kinds;
+  std::uint64_t total = 0;
+  for (const auto& [kind, counts] : part->second) {
+    if (failure.count(counts) == 0) continue;
+    said.insert(kind);
+    total = failure.total(counts);
+    of_kinds.push_back(fmt::format("{} of {} {}", with_separators(failure.count(counts)),
+                                   with_separators(total), class_and_kind(in, kind)));
+  }
+  if (of_kinds.empty()) return "";
+  const bool is_one = of_kinds.size() == 1 && total == 1;
+  return fmt::format("{} {}", fmt::join(of_kinds, " and "), is_one ? failure.one : failure.many);
+}
+
+/// "12 ordinary vt collisions in degenerate families": on how many queries of a class a subject failed, for
+/// each kind that was not said; "" if there are none.
+std::string said_of_queries(const Parts& parts, const FailureInfo& failure, QueryClass of,
+                            const std::set<Kind>& said) {
   std::map<Kind, std::uint64_t> by_kind;
   std::set<QueryClass> families;
   for (const auto& [in, kinds] : parts)
     for (const auto& [kind, counts] : kinds)
-      if (const auto count = counts.missed_by_class[static_cast<std::size_t>(of)]; count > 0) {
+      if (const auto count = count_of(counts, failure, of); count > 0 && !said.contains(kind)) {
         by_kind[kind] += count;
         families.insert(in);
       }
+  if (by_kind.empty()) return "";
   families.erase(QueryClass::unclassified);
-  std::vector<std::string> kinds_text;
+  std::vector<std::string> of_kinds;
   for (const auto& [kind, count] : by_kind)
-    kinds_text.push_back(fmt::format("{} {} {}", with_separators(count), name(of), short_name(kind)));
+    of_kinds.push_back(fmt::format("{} {}", with_separators(count), class_and_kind(of, kind)));
   std::vector<std::string_view> names;
   for (const QueryClass each : families) names.push_back(name(each));
   const bool is_one = by_kind.size() == 1 && by_kind.begin()->second == 1;
-  return fmt::format("missed {} {}{}", fmt::join(kinds_text, " and "), is_one ? "collision" : "collisions",
+  return fmt::format("{} {}{}", fmt::join(of_kinds, " and "), is_one ? failure.one : failure.many,
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
+/// "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate families"
+std::string said_of(const Parts& parts, const FailureInfo& failure, QueryClass of) {
+  std::set<Kind> said;
+  const std::string in_families = said_of_families(parts, failure, of, said);
+  const std::string elsewhere = said_of_queries(parts, failure, of, said);
+  const bool both = !in_families.empty() && !elsewhere.empty();
+  return fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere);
+}
+
 /// Puts the failures that count into words, each for the least exotic class in which it was seen: the class
-/// of the families, or that of the missed queries if it is less exotic.
+/// of the families, or that of the queries if it is less exotic.
 void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
+    const FailureInfo& failure = failure_info(kind);
     if (kind == FailureKind::not_asked) {
-      verdict.said[kind] = verdict.first = failure_info(kind).verb;
+      verdict.said[kind] = verdict.first = failure.verb;
       continue;
     }
-    const auto in = least_exotic_part(subject.parts, failure_info(kind));
+    const auto in = least_exotic_part(subject.parts, failure);
     if (in == subject.parts.end()) continue;
-    const auto missed = kind == FailureKind::miss ? class_of_missed(subject) : std::nullopt;
-    verdict.said[kind] =
-        missed ? said_of_queries(subject.parts, *missed) : said_of(failure_info(kind), in->first, in->second);
-    const QueryClass least_exotic = missed.value_or(in->first);
+    const QueryClass least_exotic = class_of_queries(subject, failure).value_or(in->first);
+    verdict.said[kind] = said_of(subject.parts, failure, least_exotic);
     if (!verdict.first.empty() && least_exotic >= verdict.least_exotic) continue;
     verdict.first = verdict.said[kind];
     verdict.least_exotic = least_exotic;
   }
 }
 
-/// "NO ANSWER to 3 queries (2 crash, 1 exception)"
-std::string fault_text(const Counts& counts) {
+/// "NO ANSWER (2 crash, 1 exception)"
+std::string no_answer(const Counts& counts) {
   std::vector<std::string> reasons;
   for (const Fault each : {Fault::error, Fault::crash, Fault::memory, Fault::exception, Fault::protocol,
                            Fault::invalid, Fault::load})
     if (counts.without_answer(each) > 0)
       reasons.push_back(fmt::format("{} {}", with_separators(counts.without_answer(each)),
                                     fault_names[static_cast<std::size_t>(each)]));
-  return fmt::format("NO ANSWER to {} ({})",
-                     counted(failure_info(FailureKind::fault).count(counts), "query", "queries"),
-                     fmt::join(reasons, ", "));
+  return fmt::format("NO ANSWER ({})", fmt::join(reasons, ", "));
 }
 
 /// "SLOW in 7 queries (3 over the time limit, 4 not asked after that)"
@@ -184,22 +206,24 @@ std::string not_asked_text(const Counts& counts) {
 /// The parts of a verdict, the gravest failure first.
 std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject& subject) {
   const Counts& counts = subject.all;
-  const auto by_classes = [&](std::string_view word, FailureKind kind) {
-    return fmt::format("{} {}", word, class_by_class(subject.parts, failure_info(kind)));
+  std::vector<std::string> parts;
+  const auto add_by_class = [&](FailureKind kind, std::string_view words, std::string_view participle) {
+    if (!failures.contains(kind)) return;
+    const FailureInfo& failure = failure_info(kind);
+    parts.push_back(fmt::format("{} {}", words, class_by_class(subject.parts, failure)));
+    if (const auto of = class_of_queries(subject, failure)) {
+      const auto count = count_of(counts, failure, *of);
+      parts.push_back(fmt::format("{} of the {} queries {} {}", with_separators(count), participle,
+                                  count == 1 ? "is" : "are", name(*of)));
+    }
   };
-  std::vector<std::string> parts{
-      failures.contains(FailureKind::miss)
-          ? by_classes("MISSED", FailureKind::miss)
-          : fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions"))};
-  if (const auto missed = class_of_missed(subject)) {
-    const auto count = counts.missed_by_class[static_cast<std::size_t>(*missed)];
-    parts.push_back(fmt::format("{} of the missed queries {} {}", with_separators(count),
-                                count == 1 ? "is" : "are", name(*missed)));
-  }
-  if (failures.contains(FailureKind::late)) parts.push_back(by_classes("LATE", FailureKind::late));
+  if (!failures.contains(FailureKind::miss))
+    parts.push_back(fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions")));
+  add_by_class(FailureKind::miss, "MISSED", "missed");
+  add_by_class(FailureKind::late, "LATE", "late");
   if (failures.contains(FailureKind::beyond_bound))
     parts.push_back(fmt::format("{} BEYOND ITS BOUND", with_separators(counts.refuted_bounds)));
-  if (failures.contains(FailureKind::fault)) parts.push_back(fault_text(counts));
+  add_by_class(FailureKind::fault, no_answer(counts), "unanswered");
   if (failures.contains(FailureKind::slow)) parts.push_back(slow_text(counts));
   if (failures.contains(FailureKind::unknown))
     parts.push_back(fmt::format("UNKNOWN in {} of {}", with_separators(counts.unknown()),
@@ -211,7 +235,8 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
 /// The text of a verdict on a subject that answered. Its parts are separated by commas, or by semicolons if
 /// one of them is a list of classes, which has semicolons itself.
 std::string answered_text(const Failures& failures, const OfSubject& subject) {
-  const bool has_list = failures.contains(FailureKind::miss) || failures.contains(FailureKind::late);
+  const bool has_list =
+      !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::fault}).empty();
   std::string text = fmt::format("{}", fmt::join(verdict_parts(failures, subject), has_list ? "; " : ", "));
   if (failures.contains(FailureKind::contract))
     text += fmt::format("; {} not asked, beyond its contract",

@@ -105,15 +105,18 @@ std::string version_lines(const Statistics& statistics) {
 
 nlohmann::ordered_json versions_json(const Statistics& statistics) {
   auto json = nlohmann::ordered_json::array();
-  for (const auto& [versions, parts] : by_class_and_kind(statistics.versions))
+  for (const auto& [versions, parts] : by_class_and_kind(statistics.versions)) {
+    const bool compares =
+        std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.second.queries() != 0; });
     for (const auto& [part, counts] : parts) {
-      if (counts.queries() == 0) continue;
+      if (compares && counts.queries() == 0) continue;
       json.push_back({{"before", versions.first},
                       {"after", versions.second},
                       {"kind", short_name(part.second)},
                       {"class", name(part.first)}});
       for (const VersionMeasure& each : measures) json.back()[std::string(each.key)] = each.value(counts);
     }
+  }
   return json;
 }
 

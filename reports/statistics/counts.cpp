@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "reports/statistics/failure.hpp"
+
 namespace nearmiss {
 
 namespace {
@@ -26,9 +28,11 @@ void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other) {
 void Counts::add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance) {
   const bool hit = outcome.verdict.hit;
   const auto stage = static_cast<std::size_t>(outcome.verdict.stage);
+  const auto of = static_cast<std::size_t>(outcome.query_class);
   ++queries;
   if (outcome.verdict.fault != Fault::none) {
     ++faults[static_cast<std::size_t>(outcome.verdict.fault)];
+    if (failure_of(outcome) == FailureKind::fault) ++faults_by_class[of];
     return;
   }
   collisions += outcome.collision ? 1 : 0;
@@ -39,9 +43,12 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
       ++true_by_stage[stage];
     } else {
       ++false_negatives;
-      ++missed_by_class[static_cast<std::size_t>(outcome.query_class)];
+      ++missed_by_class[of];
     }
-    if (outcome.time) add_time(*outcome.time, query, provenance);
+    if (outcome.time) {
+      add_time(*outcome.time, query, provenance);
+      late_by_class[of] += outcome.time->late ? 1 : 0;
+    }
   } else if (hit) {
     ++false_positives;
     ++false_by_stage[stage];

@@ -64,23 +64,27 @@ struct Outcome {
   QueryClass query_class = QueryClass::unclassified;  ///< set only if the subject failed on the query
 };
 
+/// Counts by the class of the query.
+using QueryClassCounts = std::array<std::uint64_t, class_names.size()>;
+
 /// Counters of one subject, kind and family.
 struct Counts {
   std::uint64_t queries = 0;     ///< queries that the subject was asked, including `faults`
   std::uint64_t collisions = 0;  ///< collisions, by the oracle, among the queries that the subject answered
   std::uint64_t positives = 0;   ///< queries that the subject reported as collisions
   std::uint64_t false_negatives = 0;
-  std::array<std::uint64_t, class_names.size()>
-      missed_by_class{};  ///< false negatives by the class of the query
+  QueryClassCounts missed_by_class{};  ///< false negatives by the class of the query
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
   std::uint64_t measured_by_wang = 0;               ///< false positives for which the subject claims no bound
   std::uint64_t times_given = 0;                    ///< true positives for which the subject gives a time
   std::uint64_t times_promised = 0;                 ///< given times that are promised to be lower bounds
   std::uint64_t late = 0;                           ///< promised times that are too late
+  QueryClassCounts late_by_class{};                 ///< the same, by the class of the query
   std::uint64_t stuck = 0;                          ///< given times that are 0 although t* is not
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
-  SubjectTimes times;                               ///< run times in ns
+  QueryClassCounts faults_by_class{};  ///< those of FailureKind::fault, by the class of the query
+  SubjectTimes times;                  ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
   std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by reason
@@ -110,6 +114,10 @@ struct Counts {
         Counter{"times", &Counts::times},
         NamedCounts<Counts, class_names.size()>{"missed_by_class", &Counts::missed_by_class, class_names,
                                                 "false_negatives_by_class", "missed"},
+        NamedCounts<Counts, class_names.size()>{"late_by_class", &Counts::late_by_class, class_names,
+                                                "late_by_class", "late"},
+        NamedCounts<Counts, class_names.size()>{"faults_by_class", &Counts::faults_by_class, class_names,
+                                                "faults_by_class", "fault_in"},
         NamedCounts<Counts, stage_count>{"true_by_stage", &Counts::true_by_stage, stage_names,
                                          "true_positives_by_stage", "true_by"},
         NamedCounts<Counts, stage_count>{"false_by_stage", &Counts::false_by_stage, stage_names,

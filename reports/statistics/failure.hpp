@@ -38,6 +38,7 @@ struct FailureInfo {
   std::string_view verb, one, many;
   std::uint64_t (*count)(const Counts&);  ///< how often a subject failed in this way, out of `total`
   std::uint64_t (*total)(const Counts&);
+  QueryClassCounts Counts::*by_class = nullptr;  ///< how often by the class of the query, if that is counted
 };
 
 /// The row of a kind of failure.

@@ -29,18 +29,19 @@ bool coincide(Iterator first) {
 
 int exoticness(const Query& query, QueryClass of) {
   const auto all = points(query);
+  const int of_coincident = coincide(all.begin()) || coincide(all.begin() + 4) ? 1 : 0;
   switch (of) {
     case QueryClass::ordinary:
       return 0;
     case QueryClass::degenerate:
       if (std::count(all.begin(), all.end(), all[0]) == 8) return 3;
-      return coincide(all.begin()) || coincide(all.begin() + 4) ? 2 : 1;
+      return 1 + of_coincident;
     case QueryClass::extreme:
-      return 4;
+      return 4 + of_coincident;
     case QueryClass::unclassified:
       break;
   }
-  return 5;
+  return 6;
 }
 
 }  // namespace nearmiss

@@ -27,8 +27,8 @@ constexpr std::string_view name(QueryClass of) { return class_names[static_cast<
 
 /// A rank by which failures are shown, the lowest first: 0 for ordinary queries; 1 for degenerate ones in
 /// which no two vertices coincide at t = 0 or at t = 1; 2 for other degenerate ones; 3 for those with all
-/// vertices at one point for the whole step, such as 24 zeros; 4 for extreme queries; 5 for unclassified
-/// ones.
+/// vertices at one point for the whole step, such as 24 zeros; 4 for extreme queries in which no two vertices
+/// coincide at an end; 5 for other extreme ones; 6 for unclassified ones.
 int exoticness(const Query& query, QueryClass of);
 
 }  // namespace nearmiss

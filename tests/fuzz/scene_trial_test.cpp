@@ -23,7 +23,7 @@ Held hold(const MovingMesh& mesh, int jobs) {
   const Subjects subjects = testing::subjects_named({"basic", "wang", "defect:lambda2*0.1"});
   Held held;
   const Scene scene = scene_of(mesh);
-  Trials trials(subjects, {.one_in = 16}, jobs, Stop::never(), findings_kept,
+  Trials trials(subjects, {.one_in = 16}, jobs, Stop::never(), true,
                 [&](TrialResult&& result) { held.result.merge(std::move(result)); });
   SceneTrial trial(scene, LeaveOut::all, trials);
   double done = 0;

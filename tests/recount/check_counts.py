@@ -39,6 +39,8 @@ def _check_sum(comparison, where, found, answers, subject, kind, families):
         'positives': tally.positives,
         'faults': {},
         'false_negatives_by_class': tally.missed_by_class,
+        'late_by_class': tally.late_by_class,
+        'faults_by_class': {},
     }
     comparison.entries('counters', where, found, expected)
     for name, by_stage in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):

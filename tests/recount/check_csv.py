@@ -8,8 +8,10 @@ from check_findings import check_findings
 
 # The columns with a count for each name: their prefix, and the object in report.json.
 NAMED = {
+    'fault_in_': 'faults_by_class',
     'fault_': 'faults',
     'missed_': 'false_negatives_by_class',
+    'late_': 'late_by_class',
     'true_by_': 'true_positives_by_stage',
     'false_by_': 'false_positives_by_stage',
     'rejected_by_': 'rejected_by',

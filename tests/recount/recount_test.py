@@ -46,7 +46,7 @@ UNCHECKED = [
     r'\.time_over\b',
     r'^runs',
     r'^oracle.*\.(near_bounds|compared.*|missed_by_parity)$',
-    r'^findings.*\.(new|shrunk.*|simplest.*|explanation|again|.*file)$',
+    r'^findings.*\.(new|is_shrunk|shrunk.*|simplest.*|explanation|again|.*file)$',
     r'^farthest.*\.file$',
     r'^oracle\.complaint$',
     r'^headline\b|^verdicts.*\.text$',

@@ -1,6 +1,7 @@
 """Recomputes counters, histograms and confidence intervals from single answers."""
 
 import functools
+import itertools
 from collections import Counter
 from dataclasses import dataclass
 
@@ -25,6 +26,7 @@ class Tally:
     positives: int
     false_negatives: int
     missed_by_class: dict  # false negatives, by the class of the query
+    late_by_class: dict  # late times, by the class of the query
     false_positives: int
     claims: bool
     true_by_stage: dict
@@ -49,18 +51,19 @@ class Tally:
             for name in ('hit', 'collision', 'stage')
         )
         false = hit & ~collision
-        missed = [
-            each
-            for kind, (asked, own) in zip(kinds, parts)
-            for each in _classes_of_missed(answers, kind, asked, own)
-        ]
+
+        def by_class(failed):
+            each = (_classes(answers, kind, *part, failed) for kind, part in zip(kinds, parts))
+            return dict(Counter(itertools.chain(*each)))
+
         return cls(
             subject,
             len(hit),
             int(collision.sum()),
             int(hit.sum()),
             int((collision & ~hit).sum()),
-            dict(Counter(missed)),
+            by_class(lambda asked: asked.false_negative),
+            by_class(lambda asked: asked.impact.late),
             int(false.sum()),
             answers.asked[subject, kinds[0]].claims,
             _by_name(stage[hit & collision]),
@@ -101,11 +104,11 @@ def _part(answers, subject, kind, family):
     return answers.asked[subject, kind], own
 
 
-def _classes_of_missed(answers, kind, asked, own):
-    """The classes of the queries among `own` that a subject missed."""
-    missed = np.zeros(len(asked.hit), dtype=bool)
-    missed[own] = asked.false_negative[own]
-    return answers.classes(kind, [asked.judged[i] for i in np.flatnonzero(missed)])
+def _classes(answers, kind, asked, own, failed):
+    """The classes of the queries among `own` for which `failed` of the answers is true."""
+    some = np.zeros(len(asked.hit), dtype=bool)
+    some[own] = failed(asked)[own]
+    return answers.classes(kind, [asked.judged[i] for i in np.flatnonzero(some)])
 
 
 def classes_of(class_of):

@@ -4,10 +4,11 @@ from asking import KINDS
 from enclosed import BORDERS, LARGEST
 from tally import CLASSES
 
-# The failures that count, the gravest first: the counter, its total, the verb, and the noun.
-MISS = 'false_negatives', 'collisions', 'missed', 'collision'
-LATE = 'late', 'times_promised', 'was late in', 'time'
-BEYOND = 'refuted_bounds', 'false_positives', 'exceeded its bound in', 'false positive'
+# The failures that count, the gravest first: the counter, its total, its counter by the class of
+# the query, the verb, and the noun.
+MISS = 'false_negatives', 'collisions', 'false_negatives_by_class', 'missed', 'collision'
+LATE = 'late', 'times_promised', 'late_by_class', 'was late in', 'time'
+BEYOND = 'refuted_bounds', 'false_positives', None, 'exceeded its bound in', 'false positive'
 
 
 def counted(count, one, many=None):
@@ -47,15 +48,18 @@ def verdict(row, kinds):
     """The text of a subject's verdict. `row` is its row in the section verdicts, and `kinds` has
     its counters of each kind. A campaign that is recomputed has no faults."""
     counts = row['counts']
-    if counts['false_negatives']:
-        parts = [f'MISSED {_class_by_class(kinds, MISS)}']
-    else:
+    parts = []
+    if not counts['false_negatives']:
         parts = [f'no miss in {counted(counts["collisions"], "collision")}']
-    if nearer := _class_of_missed(kinds):
-        count = sum(_missed(of, nearer) for of in kinds.values())
-        parts.append(f'{count:,} of the missed queries {"is" if count == 1 else "are"} {nearer}')
-    if counts['late']:
-        parts.append(f'LATE {_class_by_class(kinds, LATE)}')
+    for failure, name in (MISS, 'missed'), (LATE, 'late'):
+        if not counts[failure[0]]:
+            continue
+        parts.append(f'{name.upper()} {_class_by_class(kinds, failure)}')
+        if nearer := _class_of_queries(kinds, failure):
+            count = sum(_of_class(of, failure, nearer) for of in kinds.values())
+            parts.append(
+                f'{count:,} of the {name} queries {"is" if count == 1 else "are"} {nearer}'
+            )
     if counts['refuted_bounds']:
         parts.append(f'{counts["refuted_bounds"]:,} BEYOND ITS BOUND')
     if counts['unknown']:
@@ -111,54 +115,68 @@ def _class_by_class(kinds, failure):
     return '; '.join(parts)
 
 
-def _missed(counts, name):
-    """How many queries of a class a subject missed."""
-    return counts['false_negatives_by_class'].get(name, 0)
+def _of_class(counts, failure, name):
+    """On how many queries of a class a subject failed in this way."""
+    return counts[failure[2]].get(name, 0) if failure[2] else 0
 
 
-def _class_of_missed(kinds):
-    """The least exotic class of the queries that a subject missed. None if a family of this
-    class, or of a less exotic one, has a miss."""
+def _class_of_queries(kinds, failure):
+    """The least exotic class of the queries on which a subject failed in this way. None if it did
+    so in a family of this class, or of a less exotic one."""
     for name in CLASSES:
         own = [of['classes'][name] for of in kinds.values() if name in of['classes']]
-        if any(of['false_negatives'] for of in own):
+        if any(of[failure[0]] for of in own):
             return None
-        if any(_missed(of, name) for of in kinds.values()):
+        if any(_of_class(of, failure, name) for of in kinds.values()):
             return name
     return None
 
 
-def _queries_said(kinds, name):
-    """Such as "missed 12 ordinary vt collisions in degenerate families"."""
-    missed = {kind: _missed(of, name) for kind, of in kinds.items() if _missed(of, name)}
-    families = [
-        each
-        for each in CLASSES[:3]
-        if any(
-            _missed(of['classes'][each], name) for of in kinds.values() if each in of['classes']
-        )
-    ]
-    some = ' and '.join(f'{n:,} {name} {kind}' for kind, n in missed.items())
-    noun = 'collision' if sum(missed.values()) == 1 else 'collisions'
-    return f'missed {some} {noun} in {" and ".join(families)} families'
+def _said(kinds, failure, name):
+    """Such as "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in
+    degenerate families"."""
+    *_, verb, noun = failure
+    own = '' if name == 'unclassified' else f'{name} '
+    failed = {
+        kind: each for kind, each in _by_class(kinds, failure).get(name, {}).items() if each[0]
+    }
+    parts = []
+    if failed:
+        some = [f'{n:,} of {whole:,} {own}{kind}' for kind, (n, whole) in failed.items()]
+        is_one = [whole for _, whole in failed.values()] == [1]
+        parts.append(f'{" and ".join(some)} {noun}{"" if is_one else "s"}')
+    others = {
+        kind: count
+        for kind, of in kinds.items()
+        if kind not in failed and (count := _of_class(of, failure, name))
+    }
+    if others:
+        families = [
+            each
+            for each in CLASSES[:3]
+            if any(
+                _of_class(kinds[kind]['classes'][each], failure, name)
+                for kind in others
+                if each in kinds[kind]['classes']
+            )
+        ]
+        some = ' and '.join(f'{n:,} {own}{kind}' for kind, n in others.items())
+        inside = f' in {" and ".join(families)} families' if families else ''
+        parts.append(f'{some} {noun}{"" if sum(others.values()) == 1 else "s"}{inside}')
+    return f'{verb} {", and ".join(parts)}'
 
 
 def _failures_said(kinds):
     """For each failure of a subject, the gravest first: the least exotic class in which it was
     seen, and the words for it."""
-    nearer = _class_of_missed(kinds)
-    if nearer:
-        yield nearer, _queries_said(kinds, nearer)
-    for failure in (LATE, BEYOND) if nearer else (MISS, LATE, BEYOND):
-        *_, verb, noun = failure
-        for name, of_kinds in _by_class(kinds, failure).items():
-            failed = {kind: each for kind, each in of_kinds.items() if each[0]}
-            if failed:
-                own = '' if name == 'unclassified' else f'{name} '
-                some = [f'{n:,} of {whole:,} {own}{kind}' for kind, (n, whole) in failed.items()]
-                is_one = [whole for _, whole in failed.values()] == [1]
-                yield name, f'{verb} {" and ".join(some)} {noun}{"" if is_one else "s"}'
-                break
+    for failure in (MISS, LATE, BEYOND):
+        of_families = (
+            name
+            for name, of_kinds in _by_class(kinds, failure).items()
+            if any(count for count, _ in of_kinds.values())
+        )
+        if name := _class_of_queries(kinds, failure) or next(of_families, None):
+            yield name, _said(kinds, failure, name)
 
 
 def alarms(report):

@@ -20,7 +20,8 @@ TEST(Exoticness, OrdersClassesAndDegenerateQueriesWithinTheirs) {
   EXPECT_EQ(exoticness(zeros, QueryClass::degenerate), 3);
   EXPECT_EQ(exoticness(testing::moved(zeros, 1), QueryClass::degenerate), 3);
   EXPECT_EQ(exoticness(query, QueryClass::extreme), 4);
-  EXPECT_EQ(exoticness(query, QueryClass::unclassified), 5);
+  EXPECT_EQ(exoticness(zeros, QueryClass::extreme), 5);
+  EXPECT_EQ(exoticness(query, QueryClass::unclassified), 6);
 }
 
 TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {

@@ -14,6 +14,7 @@
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/counts_json.hpp"
+#include "reports/sections/shown.hpp"
 #include "reports/sections/summary.hpp"
 #include "tests/reports/some_campaign.hpp"
 #include "tests/temporary_folder.hpp"
@@ -219,6 +220,17 @@ TEST_F(ReportTest, ShowsAFewFindingsOfEachSignature) {
   EXPECT_EQ(json["findings"][0]["seen"], 1234);  // the most frequent signature
   EXPECT_EQ(json["findings"][6]["file"], "cases/false-negative-wang-007.case");
   EXPECT_EQ(json["findings"][6]["original_file"], "cases/false-negative-wang-007-original.case");
+}
+
+TEST_F(ReportTest, SaysOfAFindingWhetherItIsShrunk) {
+  Campaign campaign = some_campaign("wang");
+  for (const bool is_shrunk : {false, true}) {
+    campaign.runs.front().findings.front().is_shrunk = is_shrunk;
+    EXPECT_EQ(report_json(campaign)["findings"][0]["is_shrunk"], is_shrunk);
+    const ShownFinding shown = shown_findings(campaign).front();
+    EXPECT_EQ(shown.shrunk.content.provenance.starts_with("shrunk from "), is_shrunk);
+    EXPECT_EQ(shown.original.content.why.ends_with("; before it was shrunk"), is_shrunk);
+  }
 }
 
 TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {

@@ -163,6 +163,7 @@ TEST(Faults, AreNeitherMissesNorAnswers) {
   counts.add({.verdict = {.fault = Fault::time}}, Query{}, [] { return ""; });
   Counts expected;
   expected.queries = 2;
+  expected.faults_by_class[static_cast<std::size_t>(QueryClass::unclassified)] = 1;  // the crash
   expected.faults[static_cast<std::size_t>(Fault::crash)] = 1;
   expected.faults[static_cast<std::size_t>(Fault::time)] = 1;
   EXPECT_EQ(counts, expected);  // nothing else is counted

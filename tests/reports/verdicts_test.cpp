@@ -66,6 +66,37 @@ TEST(Verdicts, TellMissedQueriesThatAreLessExoticThanTheirFamilies) {
   EXPECT_EQ(subject_verdicts(statistics).front().first, "missed 1 of 504 ordinary vt collisions");
 }
 
+TEST(Verdicts, TellTheClassOfUnansweredAndLateQueriesToo) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}] = counts(2000, 504, 0, 0);
+  Counts& planar = statistics.counts[{"mine", Kind::vertex_triangle, "planar"}];
+  planar = with(counts(1377, 500, 0, 0), Fault::invalid, 20);
+  planar.faults_by_class = {7, 13};
+  EXPECT_EQ(
+      verdict_lines(statistics, usual_failures()),
+      "FAIL mine: no miss in 1,004 collisions; NO ANSWER (20 invalid) ordinary vt 0 of 2,000; degenerate "
+      "20 of 1,377; 7 of the unanswered queries are ordinary; no false positive\n");
+  EXPECT_EQ(subject_verdicts(statistics).front().first,
+            "failed to answer 7 ordinary vt queries in degenerate families");
+  EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::ordinary);
+  planar = counts(1377, 500, 0, 0);
+  planar.times_promised = 500;
+  planar.late = 2;
+  planar.late_by_class = {1, 1};
+  EXPECT_EQ(subject_verdicts(statistics).front().first,
+            "was late in 1 ordinary vt time in degenerate families");
+}
+
+TEST(Verdicts, NameEveryKindThatFailedInTheLeastExoticClass) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}] =
+      missing(counts(2000, 504, 5, 0), QueryClass::ordinary, 5);
+  for (const Kind kind : kinds)
+    statistics.counts[{"mine", kind, "planar"}] = missing(counts(2000, 504, 9, 0), QueryClass::ordinary, 3);
+  EXPECT_EQ(subject_verdicts(statistics).front().first,
+            "missed 5 of 504 ordinary vt collisions, and 3 ordinary ee collisions in degenerate families");
+}
+
 TEST(Verdicts, GiveTheClassOfMissedQueriesOfFamiliesWithoutOne) {
   Statistics statistics;
   statistics.counts[{"mine", Kind::edge_edge, "cases/"}] =
@@ -77,7 +108,7 @@ TEST(Verdicts, NameEachFailure) {
   EXPECT_EQ(line_of(counts(9, 5, 0, 0)), " ok  mine: no miss in 5 collisions, no false positive\n");
   EXPECT_EQ(line_of(counts(9, 5, 2, 0)), "FAIL mine: MISSED ee 2 of 5; no false positive\n");
   EXPECT_EQ(line_of(with(with(counts(9, 5, 0, 0), Fault::crash, 1), Fault::load, 2)),
-            "FAIL mine: no miss in 5 collisions, NO ANSWER to 3 queries (1 crash, 2 load), no false "
+            "FAIL mine: no miss in 5 collisions; NO ANSWER (1 crash, 2 load) ee 3 of 9; no false "
             "positive\n");
   EXPECT_EQ(
       line_of(with(counts(9, 5, 0, 0), Fault::contract, 2)),

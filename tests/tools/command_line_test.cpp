@@ -67,7 +67,7 @@ TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
     const Output output =
         expect_code(code, "fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " + way +
                               ".db --subject " + plugin(way));
-    EXPECT_THAT(output.out, HasSubstr(way == "hang" ? "SLOW in " : "NO ANSWER to "));
+    EXPECT_THAT(output.out, HasSubstr(way == "hang" ? "SLOW in " : "NO ANSWER ("));
     const json counts = read_json("new.json")["subjects"]["misbehaving"]["ee"];
     EXPECT_EQ(counts["queries"], 500);
     const int faults = counts["faults"][way == "hang" ? "time" : way];

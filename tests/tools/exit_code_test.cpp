@@ -42,7 +42,7 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
                                     : NEARMISS_PLUGINS "/" + std::string(shown.subject);
     const std::string environment =
         std::string(shown.environment) + " NEARMISS_MARK=" + file("mark").string();
-    const std::string trial = command + " -q --shrink 0 --subject '" + subject + "' " + shown.options;
+    const std::string trial = command + " -q --no-shrink --subject '" + subject + "' " + shown.options;
     const Output output = run(trial + " --db a.db", environment);
     EXPECT_EQ(output.code, shown.code) << trial << output.out << output.error;
     EXPECT_EQ(output.out.find("FAIL") == std::string::npos, shown.code == 0) << output.out;
@@ -87,7 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CommandLine, FailOnTakesNamesOfFailures) {
   write("q.vt", hit);
   expect_refused("replay q.vt --fail-on unknown,speed --db new.db", {"--fail-on: found 'speed'", "slow"});
-  expect_refused("replay q.vt --fail-on miss --db new.db", {"found 'miss', which always gives exit code 1"});
+  for (const std::string always : {"miss", "crash"})
+    expect_refused("replay q.vt --fail-on " + always + " --db new.db",
+                   {"found '" + always + "', which always gives exit code 1"});
 }
 
 TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {

@@ -54,12 +54,12 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_GT(report["findings"].size(), 10);
   EXPECT_EQ(timeless_report("two.db"), report);
 
-  EXPECT_EQ(run(std::string(campaign) + " --shrink 0 --db plain.db").code, 1);
+  EXPECT_EQ(run(std::string(campaign) + " --no-shrink --db plain.db").code, 1);
   for (const json& finding : timeless_report("plain.db")["findings"])
     EXPECT_EQ(finding["shrunk"], finding["original"]);
   EXPECT_EQ(run(std::string(campaign) + " --resume --db plain.db").code, 1);
   json later = timeless_report("plain.db");
-  later["runs"] = report["runs"];  // its command has the option --shrink
+  later["runs"] = report["runs"];  // its command has the option --no-shrink
   EXPECT_EQ(later, report);
 
   std::string shards;
@@ -124,7 +124,7 @@ TEST_F(Resume, AMergeNamesMissingShardsAndRefusesAShardTwice) {
 
 TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   const int code =
-      run("fuzz --time 1s --shrink 0 --seed 9 --subject basic,wang --sweep needle --steps 3 --db timed.db")
+      run("fuzz --time 1s --no-shrink --seed 9 --subject basic,wang --sweep needle --steps 3 --db timed.db")
           .code;
   const json report = timeless_report("timed.db");
   const std::string again = report["runs"][0]["again"];

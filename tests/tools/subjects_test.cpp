@@ -36,6 +36,7 @@ TEST_F(CommandLine, SubjectsHaveALibFuzzerTargetForEachPromise) {
   write("program.sh", R"(printf 'nearmiss 2\nname p\nkinds vt ee\n\n'; exec cat >/dev/null)");
   EXPECT_EQ(run("subjects --targets basic 'pipe:sh program.sh'").out, "false_negative basic\n");
   expect_refused("subjects --targets none", {"'none'"});
+  expect_refused("subjects --targets wang wang", {"found two subjects named 'wang'"});
 }
 
 TEST_F(CommandLine, PublishedCcdsAreListedWithWhatTheyAre) {

@@ -46,23 +46,31 @@ TEST_F(VersionsOfACcd, AreNamedAsTheirFilesAndCompared) {
 TEST_F(VersionsOfACcd, ThatShareNoKindSaySo) {
   const std::string several = plugin("several");
   const Output output = run("fuzz --subject " + several + ":edges,wang,never=" + plugin("never_asked") +
-                            " --versions wang,never --family uniform --cases 20");
+                            " --versions wang,never --family uniform --cases 20 --db a.db");
   EXPECT_THAT(output.out,
               HasSubstr("never against wang: no query was asked of both; vt not compared, because "
                         "never was not asked about it; ee not compared, because never was not"));
+  const auto versions = report_of("a.db", output.code)["versions"];
+  EXPECT_FALSE(versions.empty());
+  EXPECT_EQ(sum(versions, "queries"), 0);
 }
 
 TEST_F(VersionsOfACcd, ThatAreProgramsAreNamedAndReplayedByTheirFiles) {
   std::string program = read(NEARMISS_EXAMPLES "/example.py");
   program.replace(program.find("~apart.any(1)"), 1, "");  // misses all collisions
-  for (const char* version : {"one.py", "two.py"}) write(version, program);
+  for (const char* folder : {"lib", "elsewhere"}) std::filesystem::create_directory(file(folder));
+  for (const char* version : {"one.py", "lib/two.py"}) write(version, program);
   const std::string python = "pipe:" NEARMISS_PYTHON " ";
   const Output output = run("fuzz --subject '" + python + "one.py," + python +
-                            "two.py' --family small-integer --cases 40 --db a.db");
+                            "lib/two.py 2>/dev/null # *' --family small-integer --cases 40 --db a.db");
   EXPECT_THAT(output.out, HasSubstr("two against one: "));
   const auto findings = report_of("a.db", output.code)["findings"];
   ASSERT_FALSE(findings.empty());
-  EXPECT_THAT(std::string(findings.front()["again"]), HasSubstr(" " + file("one.py").string()));
+  for (const auto& finding : findings) {
+    const std::string again = std::string(finding["again"]).substr(std::string("nearmiss replay ").size());
+    EXPECT_EQ(run("replay ../report/" + again, "cd elsewhere &&").code, 1) << again;
+    EXPECT_EQ(run("replay report/" + again).code, 1) << again;
+  }
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py'",
                  {"such as 'NAME=pipe:" NEARMISS_PYTHON " one.py'"});
   // A word that is too long for the name of a file is none.

@@ -58,7 +58,7 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
     std::move(separated.begin(), separated.end(), std::back_inserter(plan.families));
   }
   plan.seed = options.seed;
-  plan.shrink = 0;
+  plan.shrink = false;
   plan.jobs = options.jobs;
   stop.limit(parse_duration(options.time, "--time"));
   Hunt result{.subject = subject, .way = way};

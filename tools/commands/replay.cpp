@@ -49,7 +49,7 @@ int run(const Options& options) {
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
-    Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink,
+    Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
                   [&](TrialResult&& result) { record.add(std::move(result)); });
     TrialStream stream(trials);
     const auto add = [&](const Case& each) {

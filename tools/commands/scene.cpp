@@ -165,7 +165,7 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
   Export exported(options.export_to);
   Verified verified;
   SceneProgress progress(options, scene.steps(), record);
-  Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink,
+  Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
                 [&](TrialResult&& result) { record.add(std::move(result)); });
   SceneTrial trial(scene, leave_out, trials);
   const auto is_over = [&] { return stop.is_due(); };

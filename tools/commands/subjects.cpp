@@ -51,12 +51,17 @@ void describe(const std::string& name) {
 
 /// Prints each libFuzzer target that fits a subject, with the subject's name as the target takes it; the name
 /// of a published CCD is its path. Prints nothing for a program, because libFuzzer sees no coverage of
-/// another process.
-void print_targets(const std::string& text) {
-  const auto subject = make_any_subject(text);
-  if (is_program(SubjectText::parse(text).subject)) return;
-  for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*subject))
-    fmt::print("{} {}\n", target.name, text_of(*subject));
+/// another process. Throws Error if two subjects have one name.
+void print_targets(const std::vector<std::string>& texts) {
+  std::vector<std::unique_ptr<Subject>> subjects;
+  for (const std::string& text : texts) subjects.push_back(make_any_subject(text));
+  tell_apart(subjects);
+  for (const auto& subject : subjects) {
+    const std::string text = text_of(*subject);
+    if (is_program(SubjectText::parse(text).subject)) continue;
+    for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*subject))
+      fmt::print("{} {}\n", target.name, text);
+  }
 }
 
 /// What a published CCD is, or why it cannot be put on trial.
@@ -107,8 +112,10 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "'pipe:COMMAND' "
       "(fuzz/subjects/PROGRAMS.md). NAME=SUBJECT gives any subject another name: new=./plugin.so.");
   command->callback([options] {
-    const auto print_about = options->targets ? print_targets : describe;
-    for (const std::string& name : options->plugins) print_about(name);
+    if (options->targets)
+      print_targets(options->plugins);
+    else
+      for (const std::string& name : options->plugins) describe(name);
     if (options->peers)
       for (const Peer& peer : peers())
         if (is_built(peer)) fmt::print("{}\n", peer.name);

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -25,16 +24,23 @@ std::string file_of_command(const std::string& command) {
   return "";
 }
 
-std::vector<std::string> files_of_program(const std::string& command) {
-  std::vector<std::string> files = shell_words(command);
-  if (files.empty())
-    throw Error(std::string(program_prefix) + " found no command, expected one behind the colon");
-  if (files.front().find('/') == std::string::npos) files.front() = file_of_command(files.front());
-  std::erase_if(files, std::not_fn(is_file));
+}  // namespace
+
+std::vector<std::string> files_of_program(std::string_view command) {
+  std::vector<std::string> words = shell_words(command);
+  fs::path folder;
+  if (words.size() > 3 && words[0] == "cd") {  // cd FOLDER && exec ...
+    folder = words[1];
+    words.erase(words.begin(), words.begin() + (words[3] == "exec" ? 4 : 3));
+  }
+  std::vector<std::string> files;
+  for (const std::string& word : words) {
+    const bool is_searched = &word == &words.front() && word.find('/') == std::string::npos;
+    if (std::string file = is_searched ? file_of_command(word) : (folder / word).string(); is_file(file))
+      files.push_back(std::move(file));
+  }
   return files;
 }
-
-}  // namespace
 
 PluginCode::PluginCode(std::string name) : name_(std::move(name)) {
   if (!is_program(name_)) {
@@ -44,7 +50,9 @@ PluginCode::PluginCode(std::string name) : name_(std::move(name)) {
     return;
   }
   std::string digests;
-  for (const std::string& file : files_of_program(name_.substr(program_prefix.size()))) {
+  const std::string command = name_.substr(program_prefix.size());
+  if (shell_words(command).empty()) throw Error(name_ + " found no command, expected one behind the colon");
+  for (const std::string& file : files_of_program(command)) {
     files_.push_back(std::make_unique<PluginFile>(file));
     digests += files_.back()->sha256() + "\n";
   }

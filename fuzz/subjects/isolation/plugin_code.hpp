@@ -3,11 +3,16 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 
 namespace nearmiss::isolation {
+
+/// The files that the command of a program names, the program's first. A command may begin with
+/// "cd FOLDER && exec".
+std::vector<std::string> files_of_program(std::string_view command);
 
 /// The files of a plug-in, as they were when this object was made: the shared object, or all files that the
 /// command of a program names, the program included. Files that these load are not included. Many threads use

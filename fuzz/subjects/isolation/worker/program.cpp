@@ -44,7 +44,8 @@ struct Pipe {
   closefrom(STDERR_FILENO + 1);
   std::signal(SIGPIPE, SIG_DFL);
   // The shell itself is replaced, so that the limits and the computing time are those of the program.
-  execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
+  // A command that first changes the folder says `exec` itself.
+  execl("/bin/sh", "sh", "-c", ((command.starts_with("cd ") ? "" : "exec ") + command).c_str(), nullptr);
   _exit(127);
 }
 
