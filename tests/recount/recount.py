@@ -38,18 +38,17 @@ def counts_of(report):
     }
 
 
-def check_report(comparison, report, answers, units):
-    """Checks everything in report.json that can be recomputed."""
-    schema = Path(__file__).parents[2] / 'reports' / 'report.schema.json'
-    version = json.loads(schema.read_text())['properties']['schema_version']['const']
-    comparison.same('names', 'schema_version', report['schema_version'], version)
-    comparison.section(check_statistics, 'report.json', report, answers)
-    comparison.section(check_borders, 'report.json', report)
-    trade_offs = report['error_against_time']
-    comparison.section(check_trade_offs, 'error_against_time', trade_offs, answers, units)
-    comparison.section(check_ladder, 'ladder', report, answers, units)
-    findings = report['findings']
-    comparison.section(check_findings, 'findings', findings, 'original', report, answers)
+def report_checks(report, answers, units):
+    """The checks of report.json: the sections whose values each checks, the check, and its
+    arguments."""
+    trade_offs, findings = report['error_against_time'], report['findings']
+    yield ('oracle', 'signatures', 'subjects'), check_statistics, 'report.json', report, answers
+    yield ('histogram_borders',), check_borders, 'report.json', report
+    yield (
+        'error_against_time',
+    ), check_trade_offs, 'error_against_time', trade_offs, answers, units
+    yield ('ladder',), check_ladder, 'ladder', report, answers, units
+    yield ('findings',), check_findings, 'findings', findings, 'original', report, answers
     for name, check in (
         ('verdicts', check_scorecard),
         ('deciders', check_deciders),
@@ -58,7 +57,17 @@ def check_report(comparison, report, answers, units):
         ('common_factors', check_common_factors),
         ('versions', check_versions),
     ):
-        comparison.section(check, name, report, answers)
+        yield (name,), check, name, report, answers
+
+
+def check_report(comparison, report, answers, units, first=''):
+    """Checks everything in report.json that can be recomputed, the section `first` first."""
+    schema = Path(__file__).parents[2] / 'reports' / 'report.schema.json'
+    version = json.loads(schema.read_text())['properties']['schema_version']['const']
+    comparison.same('names', 'schema_version', report['schema_version'], version)
+    checks = report_checks(report, answers, units)
+    for _, check, *arguments in sorted(checks, key=lambda each: first not in each[0]):
+        comparison.section(check, *arguments)
 
 
 def check_all(comparison, report, answers, units):

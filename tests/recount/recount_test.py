@@ -93,7 +93,9 @@ class Recount(unittest.TestCase):
         """Whether a check finds a difference if report.json has this value at the path."""
         with put(self.json, path, value):
             return found(
-                lambda comparison: check_report(comparison, self.json, self.answers, self.units)
+                lambda comparison: check_report(
+                    comparison, self.json, self.answers, self.units, first=path[0]
+                )
             )
 
     def one_leaf_of_each_pattern(self, value):
