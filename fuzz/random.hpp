@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// A stream of random numbers that is a pure function of (seed, stream, index): Philox4x64-10 with the key
+/// A sequence of random numbers that depends only on (seed, stream, index): Philox4x64-10 with the key
 /// (seed, stream) and the counter (index, number of the draw / 4). Vector registers do not make it faster,
 /// since they lack its multiplication of 64 bits: eight streams side by side took 1.6 times as long.
 class Random {

@@ -44,7 +44,7 @@ class Narrowing {
 
   /// Compares the distance with one more number; false if no double is left between the ends. Most distances
   /// are just below the upper end, so the first numbers are near it; later ones are in the middle between the
-  /// ends, counted from the base.
+  /// ends, whose distances from the base are halved in magnitude.
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);

@@ -24,7 +24,7 @@ namespace {
 /// The time limit of a campaign.
 using TimeLimit = std::optional<std::chrono::duration<double>>;
 
-/// The finished fraction of the campaign's cases, or of its time if that is larger.
+/// The finished fraction of the campaign's cases or that of its time, whichever is larger.
 std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);

@@ -10,7 +10,7 @@ namespace nearmiss::tools {
 /// Which failures count: the usual ones, and those that the user names.
 class FailOnOption {
  public:
-  /// Adds --fail-on. The option throws Error for a name that is not that of a failure.
+  /// Adds --fail-on. The option throws Error for a name that no failure has.
   void add_to(CLI::App& command);
 
   [[nodiscard]] const Failures& failures() const { return failures_; }

@@ -73,7 +73,7 @@ void expect_subcommand(const CLI::App& app, std::string_view word) {
 
 /// The message of the command line's parser, with the long words of the user cut.
 std::string with_short_words(std::string_view text) {
-  constexpr std::size_t most = 200;  // the longest word of the parser itself is a list of choices
+  constexpr std::size_t most = 200;  // the parser's own longest word, a list of choices, is shorter
   std::string result;
   while (!text.empty()) {
     const std::size_t length = std::min(text.find(' '), text.size());

@@ -84,7 +84,7 @@ auto outside(const Configuration<kind, T>& configuration, T spread, T eps, T B) 
 
 }  // namespace detail
 
-/// Whether no collision can belong to the root t, which proves that this root needs no VE tests.
+/// True only if no collision belongs to the root t. Then this root needs no VE tests.
 ///
 /// Between t and the true root t0 that belongs to it, |F| is at most μ + E + m, since |F̂| <= μ at t
 /// (`solve_cubic`; E is `evaluation_error`, m is `node_error`). If |F̂| exceeds μ + 2E + m at t ± h, then |F|

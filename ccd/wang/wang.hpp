@@ -79,14 +79,15 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 // test is needed.
 //
 // Let s be the sum of all squared components of p, q and r, with the part s_x of the positions and s_v of the
-// velocities. E <= √2 √s_x, since an edge is the difference of at most two vectors. W <= √3 √s_v, since a
-// relative velocity is at most p + r - q. So E + W <= √(5 s) by the Cauchy-Schwarz inequality. μ is
-// proportional to B³; let μ1 be its value at B = 1. Then μ is at most 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2),
-// and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not matter: with all components within √s
-// and errors of 4ε √s in the velocities, the errors of F and its clearance are below 1000 ε s^(3/2) in every
-// mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter
-// either, since it only affects the sign of F*. The code compares squares, (16 μ1)² s³, to avoid a square
-// root. If s is out of range, s³ might overflow or underflow, and the answer is false.
+// velocities. Of the bounds in motion.hpp, E <= √2 √s_x, since an edge is the difference of at most two
+// vectors, and W <= √3 √s_v, since a relative velocity is at most p + r - q. So E + W <= √(5 s) by the
+// Cauchy-Schwarz inequality. μ is proportional to B³; let μ1 be its value at B = 1. Then μ is at most
+// 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not
+// matter: with all components within √s and errors of 4ε √s in the velocities, the errors of F and its
+// clearance are below 1000 ε s^(3/2) in every mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than
+// 6900 ε. The order of end points does not matter either, since it only affects the sign of F*. The code
+// compares squares, (16 μ1)² s³, to avoid a square root. If s is out of range, s³ might overflow or
+// underflow, and the answer is false.
 template <Kind kind, class T, class Rule>
 auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {
   const T s = sum_of_squares(pair);

@@ -138,7 +138,7 @@ struct Graze {
 
 Path at_rest() { return {Vector::Zero(), Vector::Zero()}; }
 
-/// The sides lie in the plane z = 0 at the contact, and leave it with velocities q' and r' along z. The
+/// The sides q and r lie in the plane z = 0 at the contact, and leave it with velocities q' and r'. The
 /// weights change at rates α' and β', so that F = N (δ - (β' r' + sign α' q') (t - time)²), where N is the
 /// normal.
 Graze graze_face(Random& random, Kind kind, double time) {

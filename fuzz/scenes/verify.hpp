@@ -1,4 +1,4 @@
-// Verifies a plan: the oracle decides every pair that it leaves out.
+// Verifies a plan: the oracle decides every pair that the plan leaves out.
 #pragma once
 
 #include <cstdint>

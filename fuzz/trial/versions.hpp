@@ -17,7 +17,7 @@ namespace nearmiss {
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
-/// Compares the outcomes of versions, one query of a batch after the other.
+/// Compares the outcomes of versions of a CCD, one query of a batch after the other.
 class VersionComparison {
  public:
   VersionComparison(const Subjects& subjects, const Comparison& comparison);

@@ -55,9 +55,9 @@ class QuickSearch {
   /// others are dropped. Else the gap is replaced by what the bounds around this time leave of it. Returns
   /// false if they cover nothing, or leave too many gaps.
   bool look_into_first_gap();
-  /// Requires that the distance is low at the end of the first gap. Moves this end to just after the time at
-  /// which the distance falls below `low`, if the distance is certainly low there, and chooses the next time
-  /// to look at.
+  /// Requires that the distance is below `low` at the end of the first gap. Moves this end to just after the
+  /// time at which the distance falls below `low` if it is certainly below `low` at the new end, too. Chooses
+  /// the next time to look at.
   void look_for_crossing();
   /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0
   /// if it may be low from the beginning.

@@ -20,7 +20,7 @@
 #include "ccd/query/kind.hpp"
 #include "oracle/interface/nearmiss.h"
 
-/// The C++ interface, and the header-only CCD.
+/// The namespace of the C++ interface, and of the header-only CCD.
 namespace nearmiss {
 
 /// What a function returns.

@@ -15,8 +15,8 @@ namespace nearmiss {
 struct LadderPlace {
   std::string algorithm, scalar;  ///< the algorithm's name includes a bound that the user gave: "wang@0.5"
   int epsilon_exponent = 0;
-  /// The distance bound that divides the false positives' distances, in units of B; nothing if it is not
-  /// known.
+  /// The bound by which the distances of false positives are divided, itself in units of B; nothing if it is
+  /// not known.
   std::optional<double> unit;
 };
 

@@ -29,7 +29,7 @@ std::atomic<std::uint64_t> allocations = 0;
 namespace nearmiss {
 namespace {
 
-/// The allocations of a campaign of `uniform` on one thread that does not compare the oracle's methods.
+/// The number of allocations of a campaign of `uniform`, on one thread and without comparing methods.
 std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   CampaignPlan plan;
   plan.families = {find_family("uniform")};

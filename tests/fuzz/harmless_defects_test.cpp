@@ -71,8 +71,8 @@ bool stays_within_the_bound(const Tolerances<double>& tol) {
   return true;
 }
 
-/// Whether the only effect of a smaller tolerance is that tests accept more pairs. Nothing else depends on
-/// it: culling in vertex-edge is sound for any values of the other tolerances.
+/// Whether a tolerance that is `factor` times as large can only make tests accept more pairs. Nothing else
+/// depends on it: culling in vertex-edge is sound for any values of the other tolerances.
 bool accepts_more(const NamedTolerance& tolerance, double factor) {
   const std::set<std::string_view> excluding{"lambda2", "tau", "eta"};
   return factor < 1 && excluding.contains(tolerance.name);

@@ -10,7 +10,7 @@ namespace nearmiss::proofs {
 /// come first, and within 2B at all other times. The paper has all vectors within B at all times.
 enum class Reach : std::uint8_t {
   near,  ///< all vectors are within B
-  far,   ///< p (edges), x_0i (vertex against edge) and x_ji (two vertices) are within 2B
+  far,   ///< p of two edges, x_0i in a VE test, and x_ji in a VV test are within 2B
 };
 
 /// Parts of the configuration at a time (proximity.hpp): a component of N, or one or both sides of a

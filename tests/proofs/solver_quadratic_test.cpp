@@ -1,5 +1,5 @@
-// The quadratic solver's computed times are, up to a factor near 1, exact roots of a polynomial with a
-// changed constant c'.
+// The quadratic solver's computed times are, up to a factor near 1, exact roots of the given polynomial
+// with another constant c' in place of c.
 #include <gtest/gtest.h>
 
 #include <array>
