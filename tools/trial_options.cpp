@@ -161,7 +161,9 @@ RunInfo plugin_environment(const Subjects& made) {
     const auto plugin = plugin_identity(*subject);
     if (!plugin) continue;
     const std::string name = plugin_fact(subject->name());
-    environment[name] = absolute_text(*subject);
+    const std::string absolute = absolute_text(*subject);
+    const bool is_divided = absolute.find(',') != std::string::npos;  // a comma separates subjects
+    environment[name] = is_divided ? text_of(*subject) : absolute;
     if (!plugin->build_id.empty()) environment[name + " build id"] = plugin->build_id;
   }
   return environment;

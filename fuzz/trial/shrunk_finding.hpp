@@ -28,9 +28,9 @@ struct ShrinkLimits {
   std::chrono::milliseconds time = std::chrono::minutes(1);
 };
 
-/// For findings of a campaign, so that subjects spend their time on cases. An answer may take 0.4 ms, and the
-/// start of a process 40 ms, before the time ends the search.
-inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(5)};
+/// For findings of a campaign, so that subjects spend their time on cases. An answer may take 1 ms, and the
+/// start of a process 100 ms, before the time ends the search.
+inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(12)};
 
 /// Shrinks findings of some subjects. Many threads use it at once.
 class FindingShrinker {

@@ -12,6 +12,7 @@
 
 #include "ccd/query/error.hpp"
 #include "reports/campaign/complexity.hpp"
+#include "reports/statistics/failure.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {
@@ -74,7 +75,8 @@ namespace {
 auto place_of(const Finding& finding, const Statistics& statistics) {
   const bool is_of_oracle = finding.subject.empty();
   const auto times_seen = statistics.times_seen(signature_of(finding));
-  return std::tuple(!is_of_oracle, least_exotic_first(finding),
+  const bool on_request = failure_info(failure_of(signature_of(finding))).on_request;
+  return std::tuple(!is_of_oracle, on_request, least_exotic_first(finding),
                     std::numeric_limits<std::uint64_t>::max() - times_seen, signature_of(finding),
                     complexity(finding.shrunk));
 }

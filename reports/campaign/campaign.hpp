@@ -85,8 +85,9 @@ struct Campaign {
   Statistics statistics;
 
   /// The findings of all runs in the order of display. Failures of the oracle come first, since they put all
-  /// other findings in doubt. The rest is sorted by the class of the query, ordinary first; then by how often
-  /// the signature was seen; then the simplest first. If several findings of a signature and class are shrunk
+  /// other findings in doubt; those of failures that count only on request (--fail-on) last. The rest is sorted
+  /// by the class of the query, ordinary first; then by how often the signature was seen; then the simplest
+  /// first. If several findings of a signature and class are shrunk
   /// to the same query, only the first of them is listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };

@@ -51,16 +51,20 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of the failure with the least exotic query; of several, the gravest.
-ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings) {
-  const auto rank = [](const Finding& finding) {
-    return std::tuple(least_exotic_first(finding), failure_of(signature_of(finding)),
+/// The index of the failure with the least exotic query, one that counts if there is one; of several, the
+/// gravest.
+ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings,
+                               const Failures& failing) {
+  const auto rank = [&](const Finding& finding) {
+    const FailureKind failure = failure_of(signature_of(finding));
+    return std::tuple(!failing.contains(failure), least_exotic_first(finding), failure,
                       complexity(finding.shrunk));
   };
   std::optional<std::size_t> simplest;
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (findings[i].finding.subject != subject) continue;
-    if (!simplest || rank(findings[i].finding) < rank(findings[*simplest].finding)) simplest = i;
+    const Finding& finding = findings[i].finding;
+    if (finding.subject != subject) continue;
+    if (!simplest || rank(finding) < rank(findings[*simplest].finding)) simplest = i;
   }
   return simplest ? ordered_json(*simplest) : ordered_json();
 }
@@ -86,7 +90,7 @@ ordered_json scorecard_json(const Statistics& statistics, const std::vector<Show
     row["classes"] = ordered_json::object();
     for (const auto& [key, sum] : by_class)
       if (key.first == each.subject) row["classes"][std::string(name(key.second))] = rates_json(sum);
-    row["finding"] = index_of_simplest(each.subject, findings);
+    row["finding"] = each.clean ? ordered_json() : index_of_simplest(each.subject, findings, failing);
     if (since) row["since"] = changes_of(each.subject, *since);
     json.push_back(std::move(row));
   }

@@ -73,12 +73,9 @@ std::uint64_t count_of(const Counts& counts, const FailureInfo& failure, QueryCl
   return failure.by_class == nullptr ? 0 : (counts.*failure.by_class)[static_cast<std::size_t>(of)];
 }
 
-/// The least exotic class of the queries on which a subject failed in this way, if it is less exotic than the
-/// class of every family in which it did; nothing otherwise.
+/// The least exotic class of the queries on which a subject failed in this way; nothing if it is not known.
 std::optional<QueryClass> class_of_queries(const OfSubject& subject, const FailureInfo& failure) {
-  const auto in = least_exotic_part(subject.parts, failure);
-  if (in == subject.parts.end()) return std::nullopt;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(in->first); ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(QueryClass::unclassified); ++i)
     if (const auto of = static_cast<QueryClass>(i); count_of(subject.all, failure, of) > 0) return of;
   return std::nullopt;
 }
@@ -90,15 +87,16 @@ std::string class_and_kind(QueryClass of, Kind kind) {
 }
 
 /// "53 of 504 ordinary vt collisions": how often a subject failed in families of a class, for each kind with
-/// failures; "" if there are none. Adds these kinds to `said`.
-std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in,
+/// failures, of which some queries have this class if classes are `known`; "" if there are none. Adds these
+/// kinds to `said`.
+std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
   if (part == parts.end()) return "";
   std::vector<std::string> of_kinds;
   std::uint64_t total = 0;
   for (const auto& [kind, counts] : part->second) {
-    if (failure.count(counts) == 0) continue;
+    if (known ? count_of(counts, failure, in) == 0 : failure.count(counts) == 0) continue;
     said.insert(kind);
     total = failure.total(counts);
     of_kinds.push_back(fmt::format("{} of {} {}", with_separators(failure.count(counts)),
@@ -133,17 +131,20 @@ std::string said_of_queries(const Parts& parts, const FailureInfo& failure, Quer
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate families"
-std::string said_of(const Parts& parts, const FailureInfo& failure, QueryClass of) {
+/// The least exotic class of queries on which a subject failed in this way, or that of families if the class
+/// of the queries is not known; and how often it did: "missed 53 of 504 ordinary vt collisions, and 12 ordinary
+/// ee collisions in degenerate families".
+std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const FailureInfo& failure) {
+  const auto of_queries = class_of_queries(subject, failure);
+  const QueryClass of = of_queries.value_or(least_exotic_part(subject.parts, failure)->first);
   std::set<Kind> said;
-  const std::string in_families = said_of_families(parts, failure, of, said);
-  const std::string elsewhere = said_of_queries(parts, failure, of, said);
+  const std::string in_families = said_of_families(subject.parts, failure, of, of_queries.has_value(), said);
+  const std::string elsewhere = said_of_queries(subject.parts, failure, of, said);
   const bool both = !in_families.empty() && !elsewhere.empty();
-  return fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere);
+  return {of, fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere)};
 }
 
-/// Puts the failures that count into words, each for the least exotic class in which it was seen: the class
-/// of the families, or that of the queries if it is less exotic.
+/// Puts the failures that count into words, each for the least exotic class in which it was seen.
 void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
@@ -152,13 +153,12 @@ void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerd
       verdict.said[kind] = verdict.first = failure.verb;
       continue;
     }
-    const auto in = least_exotic_part(subject.parts, failure);
-    if (in == subject.parts.end()) continue;
-    const QueryClass least_exotic = class_of_queries(subject, failure).value_or(in->first);
-    verdict.said[kind] = said_of(subject.parts, failure, least_exotic);
-    if (!verdict.first.empty() && least_exotic >= verdict.least_exotic) continue;
-    verdict.first = verdict.said[kind];
-    verdict.least_exotic = least_exotic;
+    if (least_exotic_part(subject.parts, failure) == subject.parts.end()) continue;
+    const auto [of, text] = said_of(subject, failure);
+    verdict.said[kind] = text;
+    if (!verdict.first.empty() && of >= verdict.least_exotic) continue;
+    verdict.first = text;
+    verdict.least_exotic = of;
   }
 }
 
@@ -203,6 +203,20 @@ std::string not_asked_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
+/// "3 of the missed queries are ordinary", or "all missed queries are extreme", if the least exotic class of
+/// the queries on which a subject failed is not that of the families; "" otherwise.
+std::string other_class(const OfSubject& subject, const FailureInfo& failure, std::string_view participle) {
+  const auto of = class_of_queries(subject, failure);
+  const QueryClass in = least_exotic_part(subject.parts, failure)->first;
+  if (!of || *of == in) return "";
+  if (*of > in)
+    return fmt::format("all {} queries are {}", participle,
+                       *of == QueryClass::degenerate ? "degenerate or extreme" : name(*of));
+  const auto count = count_of(subject.all, failure, *of);
+  return fmt::format("{} of the {} queries {} {}", with_separators(count), participle,
+                     count == 1 ? "is" : "are", name(*of));
+}
+
 /// The parts of a verdict, the gravest failure first.
 std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject& subject) {
   const Counts& counts = subject.all;
@@ -211,18 +225,14 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
     if (!failures.contains(kind)) return;
     const FailureInfo& failure = failure_info(kind);
     parts.push_back(fmt::format("{} {}", words, class_by_class(subject.parts, failure)));
-    if (const auto of = class_of_queries(subject, failure)) {
-      const auto count = count_of(counts, failure, *of);
-      parts.push_back(fmt::format("{} of the {} queries {} {}", with_separators(count), participle,
-                                  count == 1 ? "is" : "are", name(*of)));
-    }
+    if (std::string other = other_class(subject, failure, participle); !other.empty())
+      parts.push_back(std::move(other));
   };
   if (!failures.contains(FailureKind::miss))
     parts.push_back(fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions")));
   add_by_class(FailureKind::miss, "MISSED", "missed");
   add_by_class(FailureKind::late, "LATE", "late");
-  if (failures.contains(FailureKind::beyond_bound))
-    parts.push_back(fmt::format("{} BEYOND ITS BOUND", with_separators(counts.refuted_bounds)));
+  add_by_class(FailureKind::beyond_bound, "BEYOND ITS BOUND", "refuting");
   add_by_class(FailureKind::fault, no_answer(counts), "unanswered");
   if (failures.contains(FailureKind::slow)) parts.push_back(slow_text(counts));
   if (failures.contains(FailureKind::unknown))
@@ -235,8 +245,9 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
 /// The text of a verdict on a subject that answered. Its parts are separated by commas, or by semicolons if
 /// one of them is a list of classes, which has semicolons itself.
 std::string answered_text(const Failures& failures, const OfSubject& subject) {
-  const bool has_list =
-      !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::fault}).empty();
+  const bool has_list = !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::beyond_bound,
+                                              FailureKind::fault})
+                             .empty();
   std::string text = fmt::format("{}", fmt::join(verdict_parts(failures, subject), has_list ? "; " : ", "));
   if (failures.contains(FailureKind::contract))
     text += fmt::format("; {} not asked, beyond its contract",

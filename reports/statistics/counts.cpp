@@ -54,6 +54,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
     ++false_by_stage[stage];
     distances.add(outcome.ratio);
     refuted_bounds += outcome.bound_refuted ? 1 : 0;
+    refuted_by_class[of] += outcome.bound_refuted ? 1 : 0;
     measured_by_wang += outcome.measured_by_wang ? 1 : 0;
     if (outcome.ratio >= least_kept(farthest)) add_up(farthest, {{outcome.ratio, query, provenance()}});
   }

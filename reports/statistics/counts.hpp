@@ -76,6 +76,7 @@ struct Counts {
   QueryClassCounts missed_by_class{};  ///< false negatives by the class of the query
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
+  QueryClassCounts refuted_by_class{};              ///< the same, by the class of the query
   std::uint64_t measured_by_wang = 0;               ///< false positives for which the subject claims no bound
   std::uint64_t times_given = 0;                    ///< true positives for which the subject gives a time
   std::uint64_t times_promised = 0;                 ///< given times that are promised to be lower bounds
@@ -114,6 +115,8 @@ struct Counts {
         Counter{"times", &Counts::times},
         NamedCounts<Counts, class_names.size()>{"missed_by_class", &Counts::missed_by_class, class_names,
                                                 "false_negatives_by_class", "missed"},
+        NamedCounts<Counts, class_names.size()>{"refuted_by_class", &Counts::refuted_by_class, class_names,
+                                                "refuted_bounds_by_class", "refuted_in"},
         NamedCounts<Counts, class_names.size()>{"late_by_class", &Counts::late_by_class, class_names,
                                                 "late_by_class", "late"},
         NamedCounts<Counts, class_names.size()>{"faults_by_class", &Counts::faults_by_class, class_names,

@@ -39,7 +39,7 @@ constexpr std::array<FailureInfo, 10> infos{{
      [](const Counts& counts) { return counts.times_promised; }, &Counts::late_by_class},
     {FailureKind::beyond_bound, "beyond-bound", false, "exceeded its bound in", "false positive",
      "false positives", [](const Counts& counts) { return counts.refuted_bounds; },
-     [](const Counts& counts) { return counts.false_positives; }},
+     [](const Counts& counts) { return counts.false_positives; }, &Counts::refuted_by_class},
     {FailureKind::fault, "fault", false, "failed to answer", "query", "queries", faulty, queries,
      &Counts::faults_by_class},
     {FailureKind::not_asked, "not-asked", false, "was asked nothing", "", "", not_asked, queries},

@@ -27,6 +27,7 @@ class Tally:
     false_negatives: int
     missed_by_class: dict  # false negatives, by the class of the query
     late_by_class: dict  # late times, by the class of the query
+    refuted_by_class: dict  # the least and the largest possible number of refuted bounds, likewise
     false_positives: int
     claims: bool
     true_by_stage: dict
@@ -56,6 +57,11 @@ class Tally:
             each = (_classes(answers, kind, *part, failed) for kind, part in zip(kinds, parts))
             return dict(Counter(itertools.chain(*each)))
 
+        claims = answers.asked[subject, kinds[0]].claims
+        least, most = (
+            by_class(lambda asked: claims & (getattr(asked.ratios, end) > 1))
+            for end in ('lo', 'hi')
+        )
         return cls(
             subject,
             len(hit),
@@ -64,8 +70,9 @@ class Tally:
             int((collision & ~hit).sum()),
             by_class(lambda asked: asked.false_negative),
             by_class(lambda asked: asked.impact.late),
+            {name: (least.get(name, 0), most[name]) for name in most},
             int(false.sum()),
-            answers.asked[subject, kinds[0]].claims,
+            claims,
             _by_name(stage[hit & collision]),
             _by_name(stage[false]),
             Enclosed.joined([asked.ratios[own] for asked, own in parts])[false],

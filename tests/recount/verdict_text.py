@@ -8,7 +8,13 @@ from tally import CLASSES
 # the query, the verb, and the noun.
 MISS = 'false_negatives', 'collisions', 'false_negatives_by_class', 'missed', 'collision'
 LATE = 'late', 'times_promised', 'late_by_class', 'was late in', 'time'
-BEYOND = 'refuted_bounds', 'false_positives', None, 'exceeded its bound in', 'false positive'
+BEYOND = (
+    'refuted_bounds',
+    'false_positives',
+    'refuted_bounds_by_class',
+    'exceeded its bound in',
+    'false positive',
+)
 
 
 def counted(count, one, many=None):
@@ -51,23 +57,32 @@ def verdict(row, kinds):
     parts = []
     if not counts['false_negatives']:
         parts = [f'no miss in {counted(counts["collisions"], "collision")}']
-    for failure, name in (MISS, 'missed'), (LATE, 'late'):
-        if not counts[failure[0]]:
-            continue
-        parts.append(f'{name.upper()} {_class_by_class(kinds, failure)}')
-        if nearer := _class_of_queries(kinds, failure):
-            count = sum(_of_class(of, failure, nearer) for of in kinds.values())
-            parts.append(
-                f'{count:,} of the {name} queries {"is" if count == 1 else "are"} {nearer}'
-            )
-    if counts['refuted_bounds']:
-        parts.append(f'{counts["refuted_bounds"]:,} BEYOND ITS BOUND')
+    for failure, title, name in (
+        (MISS, 'MISSED', 'missed'),
+        (LATE, 'LATE', 'late'),
+        (BEYOND, 'BEYOND ITS BOUND', 'refuting'),
+    ):
+        if counts[failure[0]]:
+            parts.append(f'{title} {_class_by_class(kinds, failure)}')
+            parts += _other_class(kinds, failure, name)
     if counts['unknown']:
         of = counted(counts['queries'], 'query', 'queries')
         parts.append(f'UNKNOWN in {counts["unknown"]:,} of {of}')
     unknown = sum(of['false_positives_by_stage'].get('unknown', 0) for of in kinds.values())
     parts.append(_false_positives(counts, unknown))
-    return ('; ' if counts['false_negatives'] or counts['late'] else ', ').join(parts)
+    has_list = any(counts[failure[0]] for failure in (MISS, LATE, BEYOND))
+    return ('; ' if has_list else ', ').join(parts)
+
+
+def _other_class(kinds, failure, name):
+    """Such as "3 of the missed queries are ordinary", or "all missed queries are extreme", if the
+    least exotic class of the queries is not that of the families."""
+    of, families = _class_of_queries(kinds, failure), _class_of_families(kinds, failure)
+    if CLASSES.index(of) > CLASSES.index(families):
+        return [f'all {name} queries are {"degenerate or extreme" if of == CLASSES[1] else of}']
+    count = sum(_of_class(each, failure, of) for each in kinds.values())
+    text = f'{count:,} of the {name} queries {"is" if count == 1 else "are"} {of}'
+    return [] if of == families else [text]
 
 
 def _false_positives(counts, unknown):
@@ -117,19 +132,24 @@ def _class_by_class(kinds, failure):
 
 def _of_class(counts, failure, name):
     """On how many queries of a class a subject failed in this way."""
-    return counts[failure[2]].get(name, 0) if failure[2] else 0
+    return counts[failure[2]].get(name, 0)
 
 
 def _class_of_queries(kinds, failure):
-    """The least exotic class of the queries on which a subject failed in this way. None if it did
-    so in a family of this class, or of a less exotic one."""
-    for name in CLASSES:
-        own = [of['classes'][name] for of in kinds.values() if name in of['classes']]
-        if any(of[failure[0]] for of in own):
-            return None
-        if any(_of_class(of, failure, name) for of in kinds.values()):
-            return name
-    return None
+    """The least exotic class of the queries on which a subject failed in this way, or None."""
+    own = (
+        name for name in CLASSES[:3] if any(_of_class(of, failure, name) for of in kinds.values())
+    )
+    return next(own, None)
+
+
+def _class_of_families(kinds, failure):
+    """The least exotic class of the families in which a subject failed in this way."""
+    return next(
+        name
+        for name, of_kinds in _by_class(kinds, failure).items()
+        if any(count for count, _ in of_kinds.values())
+    )
 
 
 def _said(kinds, failure, name):
@@ -138,7 +158,9 @@ def _said(kinds, failure, name):
     *_, verb, noun = failure
     own = '' if name == 'unclassified' else f'{name} '
     failed = {
-        kind: each for kind, each in _by_class(kinds, failure).get(name, {}).items() if each[0]
+        kind: each
+        for kind, each in _by_class(kinds, failure).get(name, {}).items()
+        if _of_class(kinds[kind]['classes'][name], failure, name)
     }
     parts = []
     if failed:
@@ -170,12 +192,7 @@ def _failures_said(kinds):
     """For each failure of a subject, the gravest first: the least exotic class in which it was
     seen, and the words for it."""
     for failure in (MISS, LATE, BEYOND):
-        of_families = (
-            name
-            for name, of_kinds in _by_class(kinds, failure).items()
-            if any(count for count, _ in of_kinds.values())
-        )
-        if name := _class_of_queries(kinds, failure) or next(of_families, None):
+        if name := _class_of_queries(kinds, failure):
             yield name, _said(kinds, failure, name)
 
 

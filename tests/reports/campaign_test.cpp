@@ -68,6 +68,17 @@ TEST(Campaign, ShowsShrunkFindingsOfAClassFirst) {
   EXPECT_EQ(shown.front().provenance, "shrunk");
 }
 
+TEST(Campaign, ShowsSlowQueriesLast) {
+  Campaign campaign{{{info, {{}}, {}}}, {}};
+  for (const bool is_slow : {true, false}) {
+    Finding each = finding(0, "", 0, is_slow ? "ee time" : "s");
+    if (is_slow) each.what = Finding::What::fault;
+    each.query_class = is_slow ? QueryClass::ordinary : QueryClass::extreme;
+    campaign.runs.front().findings.push_back(each);
+  }
+  EXPECT_EQ(campaign.findings().front().signature, "s");
+}
+
 TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
   const Campaign whole = merged({0, 1, 2});
   ASSERT_EQ(whole.runs.size(), 1);

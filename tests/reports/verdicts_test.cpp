@@ -60,10 +60,18 @@ TEST(Verdicts, TellMissedQueriesThatAreLessExoticThanTheirFamilies) {
   EXPECT_EQ(subject_verdicts(statistics).front().first,
             "missed 3 ordinary vt collisions in extreme families");
   EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::ordinary);
+}
 
-  Counts& ordinary = statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}];
-  ordinary = missing(counts(2000, 504, 1, 0), QueryClass::degenerate, 1);
-  EXPECT_EQ(subject_verdicts(statistics).front().first, "missed 1 of 504 ordinary vt collisions");
+TEST(Verdicts, NameNoClassWithoutFailingQueries) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}] =
+      missing(counts(2000, 504, 2, 0), QueryClass::degenerate, 2);
+  EXPECT_EQ(verdict_lines(statistics, usual_failures()),
+            "FAIL mine: MISSED ordinary vt 2 of 504; all missed queries are degenerate or extreme; no false "
+            "positive\n");
+  EXPECT_EQ(subject_verdicts(statistics).front().first,
+            "missed 2 degenerate vt collisions in ordinary families");
+  EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::degenerate);
 }
 
 TEST(Verdicts, TellTheClassOfUnansweredAndLateQueriesToo) {
@@ -79,6 +87,13 @@ TEST(Verdicts, TellTheClassOfUnansweredAndLateQueriesToo) {
   EXPECT_EQ(subject_verdicts(statistics).front().first,
             "failed to answer 7 ordinary vt queries in degenerate families");
   EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::ordinary);
+  planar = counts(1377, 500, 0, 9);
+  planar.refuted_bounds = 2;
+  planar.refuted_by_class = {0, 2};
+  EXPECT_EQ(
+      verdict_lines(statistics, usual_failures()),
+      "FAIL mine: no miss in 1,004 collisions; BEYOND ITS BOUND degenerate vt 2 of 9; 9 false positives, the "
+      "farthest at 0.009 of the bound\n");
   planar = counts(1377, 500, 0, 0);
   planar.times_promised = 500;
   planar.late = 2;

@@ -51,6 +51,8 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
     EXPECT_EQ(run("report b.db -o report").code, shown.code) << trial;
     EXPECT_EQ(read_json("report/report.json")["headline"]["clean"], shown.code == 0) << trial;
     EXPECT_EQ(read_json("report/report.json")["headline"]["alarms"].empty(), shown.code == 0) << trial;
+    for (const auto& each : read_json("report/report.json")["verdicts"])
+      EXPECT_TRUE(!each["clean"] || each["finding"].is_null()) << trial;
     if (*shown.fails_on != '\0') {
       const std::string option = std::string(" --fail-on ") + shown.fails_on;
       EXPECT_EQ(run(trial + option, environment).code, 1) << trial;
