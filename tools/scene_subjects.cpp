@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "ccd/query/error.hpp"
-#include "ccd/wang/pair_bound.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
+#include "fuzz/scenes/scene_bound.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/text/text.hpp"
 #include "tools/terminal.hpp"
@@ -17,20 +15,6 @@
 namespace nearmiss::tools {
 
 namespace {
-
-/// The largest bound B (§5 of the paper) of all pairs whose boxes meet, over all steps, rounded up to four
-/// digits.
-double scene_bound(const Scene& scene) {
-  double largest = 0;
-  for_each_step(scene, never_over, [&](std::size_t, const MovingMesh& mesh) {
-    find_candidates(mesh, [&](const Candidate& candidate) {
-      largest = std::max(largest, pair_bound(make_query(mesh, candidate)));
-    });
-  });
-  const double unit = std::pow(10, std::floor(std::log10(largest)) - 3);
-  const double rounded = std::ceil(largest / unit) * unit;
-  return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
-}
 
 /// Whether a subject's answers depend on a given bound.
 bool uses_bound(const std::string& text) {
@@ -53,7 +37,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
       made.push_back(std::move(subject));
   };
   for (const std::string& bound : bounds) {
-    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
+    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene, stop);
     const std::string suffix = bound == "pair"    ? ""
                                : bound == "scene" ? std::string(of_scene)
                                                   : fmt::format("@{}", *parse_bound(bound));

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# At link time, functions that are compiled with less optimization must not replace those of ccd/ and oracle/.
+# Usage: optimized_test.sh OBJECTS FAST_OBJECTS, each a list separated by blanks
+set -euo pipefail
+# The functions of objects that any other object may provide.
+shared() {
+  # shellcheck disable=SC2086
+  nm -C $1 | sed -n 's/^[0-9a-f]* W //p' | grep -E 'nearmiss::|Eigen::' | grep -vE '::~|excerpt' | sort -u
+}
+both=$(comm -12 <(shared "$1") <(shared "$2"))
+[[ -z $both ]] || { echo "compiled with more and with less optimization: $both"; exit 1; }
