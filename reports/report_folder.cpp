@@ -8,7 +8,7 @@
 
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
-#include "reports/sections/json_file.hpp"
+#include "reports/text/json_file.hpp"
 
 namespace nearmiss {
 

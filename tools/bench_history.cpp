@@ -11,6 +11,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
+#include "reports/text/json_file.hpp"
 
 namespace nearmiss::tools {
 
@@ -58,8 +59,8 @@ std::vector<BenchRun> runs_of(const std::string& text, const std::filesystem::pa
   for (std::string line; std::getline(lines, line);) {
     ++number;
     try {
-      runs.push_back(run_of(nlohmann::json::parse(line)));
-    } catch (const nlohmann::json::exception&) {
+      runs.push_back(run_of(parse_json<nlohmann::json>(line)));
+    } catch (const std::exception&) {
       throw Error(fmt::format("{}:{}: found '{}', expected a run that nearmiss bench --history stored",
                               file.string(), number, excerpt(line)));
     }

@@ -8,6 +8,8 @@
 #include <span>
 #include <tuple>
 
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search/search.hpp"
@@ -53,12 +55,24 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
   return line + ", " + show_duration(std::max(left, {})) + " left";
 }
 
+/// The family of the pairs of a mesh. Throws Stopped, or Error if the time is over before it has them.
+Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
+  const MovingMesh mesh = moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0);
+  try {
+    return mesh_family(mesh, stop);
+  } catch (const Stopped&) {
+    if (stop.is_requested()) throw;
+    throw Error(fmt::format(
+        "--time: found {}, expected more time: the mesh has more pairs than can be collected in it",
+        excerpt(options.time)));
+  }
+}
+
 /// The families chosen with --family, --sweep, --mesh and --search.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
   std::vector<Family> known(families().begin(), families().end());
-  if (!options.mesh.empty())
-    known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
+  if (!options.mesh.empty()) known.push_back(family_of_mesh(options, stop));
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
   // Only with --separation drawn does "all" include the families that have separations of their own.
@@ -117,7 +131,10 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
 }  // namespace
 
 int record_campaign(const CampaignOptions& options) {
+  const auto start = Stop::Clock::now();
   Stop stop(interrupted());
+  TimeLimit time;
+  if (!options.time.empty()) stop.limit(*(time = parse_duration(options.time, "--time")));
   const Subjects subjects = options.trial.make_subjects(stop);
   CampaignPlan plan;
   plan.families = chosen_families(options, subjects, stop);
@@ -134,10 +151,8 @@ int record_campaign(const CampaignOptions& options) {
   plan.before = record.statistics();
   plan.findings_before = record.findings();
   const bool only_time_ends_it = plan.cases == 0 && plan.first == 0;
-  TimeLimit time;
-  if (!options.time.empty()) time = parse_duration(options.time, "--time");
   if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
-  if (time) stop.limit(*time);
+  if (time) stop.limit(*time -= Stop::Clock::now() - start);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);

@@ -86,10 +86,13 @@ Query changed(Random& random, const Query& pair, double size) {
 
 }  // namespace
 
-Family mesh_family(const MovingMesh& mesh, std::size_t most) {
+Family mesh_family(const MovingMesh& mesh, const Stop& stop, std::size_t most) {
   std::array samples{CandidateSample(most), CandidateSample(most)};
   const auto number = [](Kind kind) { return static_cast<std::size_t>(kind); };
-  find_candidates(mesh, [&](const Candidate& each) { samples[number(each.kind)].add(each); });
+  find_candidates(
+      mesh, [&](const Candidate& each) { samples[number(each.kind)].add(each); },
+      [&] { return stop.is_due(); });
+  stop.check();
 
   auto pairs = std::make_shared<std::array<std::vector<Query>, kinds.size()>>();
   for (const Kind kind : kinds) {

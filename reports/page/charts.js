@@ -16,6 +16,17 @@ const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-seri
 const drawn = {};
 
 /**
+ * A copy in which strings such as "constructor", which every object has as a member, end in an invisible
+ * character: Vega-Lite drops them from the domain of a scale.
+ */
+function withoutMembers(value) {
+  if (typeof value === "string") return value in {} ? `${value}\u200b` : value;
+  if (Array.isArray(value)) return value.map(withoutMembers);
+  if (value === null || typeof value !== "object") return value;
+  return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, withoutMembers(each)]));
+}
+
+/**
  * Draws a chart in place of an earlier one. Makes no code from strings, so that the page's content policy
  * allows it.
  */
@@ -23,7 +34,7 @@ async function draw(id, description, spec) {
   const node = element(id);
   node.style.minHeight = `${node.offsetHeight}px`; // keeps the page below from jumping
   drawn[id]?.finalize();
-  drawn[id] = await vegaEmbed(node, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...spec },
+  drawn[id] = await vegaEmbed(node, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...withoutMembers(spec) },
     { renderer: "svg", ast: true, actions: { export: true, source: false, compiled: false, editor: false } });
   node.style.minHeight = "";
   node.querySelector("summary").setAttribute("aria-label", "save this chart");

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "reports/sections/json_file.hpp"
+#include "reports/text/json_file.hpp"
 
 namespace nearmiss {
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "reports/sha256.hpp"
+#include "reports/text/json_file.hpp"
 
 namespace nearmiss {
 
@@ -45,19 +46,27 @@ std::int64_t checksum(const std::string& table, const std::string& key, const st
                       [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
 }
 
-/// Parses JSON. Throws Error if it is nested too deeply for functions that walk it recursively.
-json parsed(const std::string& text) {
-  static constexpr int most_levels = 32;
-  return json::parse(text, [](int level, json::parse_event_t, const json&) {
-    if (level > most_levels) throw Error(fmt::format("found JSON with more than {} levels", most_levels));
-    return true;
-  });
+/// The most rows of a table that are looked for. A store has far fewer, but a damaged one may claim any number.
+constexpr std::uint64_t most_rows = 1'000'000;
+
+/// Whether SQLite would read a table's columns from the file. In a hostile store, they may be computed instead,
+/// by a view over an endless recursion, for example.
+bool is_plain(SQLite::Database& db, const std::string& table) {
+  SQLite::Statement kind(db, fmt::format("PRAGMA table_list({})", table));
+  if (!kind.executeStep() || kind.getColumn("type").getString() != "table") return false;
+  SQLite::Statement column(db, fmt::format("PRAGMA table_xinfo({})", table));
+  for (const char* name : {"key", "value", "checksum"})
+    if (!column.executeStep() || column.getColumn("name").getString() != name ||
+        column.getColumn("hidden").getInt() != 0)
+      return false;
+  return !column.executeStep();
 }
 
-/// Passes the intact rows to `take`. `last` is the largest row id to try. Rows are never removed singly, so n
+/// Passes the intact rows of a plain table to `take`. `last` is the largest row id to try. Rows are never removed singly, so n
 /// rows have the ids 1 to n.
 Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take) {
   Contents found;
+  if (!is_plain(db, table)) return found;
   // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be
   // damaged, too.
   SQLite::Statement row(
@@ -72,9 +81,9 @@ Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64
     if (sum != checksum(table, key, value)) continue;
     found.add(static_cast<std::uint64_t>(sum));
     try {
-      take(parsed(key), parsed(value));
+      take(parse_json<json>(key), parse_json<json>(value));
     } catch (const std::exception& error) {
-      throw Error(fmt::format("table {}: {}", table, error.what()));
+      throw Error(fmt::format("table {}: {}", table, plain_message(error)));
     }
   }
   return found;
@@ -89,10 +98,10 @@ ContentsByTable read_contents(SQLite::Database& db) {
 
 /// The largest id of a table's rows. If the table is damaged, this can be any number.
 std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
-  constexpr std::int64_t most = 1'000'000;
+  if (!is_plain(db, table)) return 0;
   SQLite::Statement last(db, fmt::format("SELECT max(rowid) FROM {}", table));
   if (last.tryExecuteStep() != SQLITE_ROW) return 0;
-  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(last.getColumn(0).getInt64(), 0, most));
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(last.getColumn(0).getInt64(), 0));
 }
 
 }  // namespace
@@ -131,7 +140,7 @@ void Reader::read(const std::string& table, const Take& take) {
   std::uint64_t last = 0;
   try {
     last = last_row(db_, table);
-    found = read_intact(db_, table, std::max(last, saved.rows), take);
+    found = read_intact(db_, table, std::min(std::max(last, saved.rows), most_rows), take);
   } catch (const SQLite::Exception&) {  // its definition is lost
   }
   rows_ += found.rows;

@@ -41,15 +41,22 @@ inline bool now(int k) {
 }
 
 /// Does what `now` does, for constexpr functions. At compile time, no mutant is on.
-constexpr bool mutant(int k) { return !std::is_constant_evaluated() && now(k); }
+constexpr bool mutant(int k) { return !__builtin_is_constant_evaluated() && now(k); }
+
+/// The type of a value; for an expression template of Eigen, that of its result.
+template <class T, class = void>
+struct TypeOf {
+  using type = T;
+};
+template <class T>
+struct TypeOf<T, std::void_t<typename T::PlainObject>> {
+  using type = typename T::PlainObject;
+};
 
 /// The value of an expression. An expression template of Eigen is evaluated.
 template <class T>
 constexpr auto value(T&& x) {
-  if constexpr (requires { typename std::remove_cvref_t<T>::PlainObject; })
-    return typename std::remove_cvref_t<T>::PlainObject(std::forward<T>(x));
-  else
-    return std::remove_cvref_t<T>(std::forward<T>(x));
+  return typename TypeOf<std::remove_cv_t<std::remove_reference_t<T>>>::type(std::forward<T>(x));
 }
 
 /// The result of one of two functions. Their return types may differ, as those of expression templates do.

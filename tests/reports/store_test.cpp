@@ -229,7 +229,7 @@ TEST_F(StoreTest, RefusesWhatIsNoStore) {
   for (const auto& [name, error] : {std::pair{"none.db", "no such file"},
                                     {"text.db", "file is not a database"},
                                     {"other.db", "found another kind of database"},
-                                    {"deep.db", "table picture: found JSON with more than 32 levels"}})
+                                    {"deep.db", "table picture: JSON with more than 32 levels"}})
     EXPECT_REFUSED(load_campaign(file(name)), std::string(name) + ": " + error);
   EXPECT_REFUSED(Store(file("no/a.db"), info, shard), "no/a.db.lock: cannot be made");
 }

@@ -1,4 +1,5 @@
 // Tests the command line with bad input, and with failures during the work.
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -261,16 +262,37 @@ TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
   EXPECT_EQ(output.error, "nearmiss: standard output cannot be written: File too large\n");
 }
 
+/// A mesh of triangles that are all in one place, so that it takes minutes to look at all pairs.
+std::string crowd() {
+  constexpr int triangles = 20'000;
+  std::string vertices;
+  std::string faces;
+  for (int i = 0; i < triangles; ++i) {
+    vertices += "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    faces += fmt::format("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+  }
+  return vertices + faces;
+}
+
 TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
   ASSERT_EQ(mkfifo(file("endless").c_str(), 0600), 0);
+  write("crowd.obj", crowd());
   for (const char* command :
-       {"verdict --kind vt <>endless", "oracle --kind vt <>endless", "bench --runs 1000000"})
+       {"verdict --kind vt <>endless", "oracle --kind vt <>endless", "bench --runs 1000000",
+        "fuzz --mesh crowd.obj crowd.obj --family mesh --cases 10",
+        "scene crowd.obj crowd.obj --bound pair,scene"})
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       Background process(file(""), command);
       ASSERT_TRUE(process.wait_until_it_handles_interrupts()) << command;
       process.stop(signal);
       EXPECT_EQ(process.code(), 130) << command;
     }
+}
+
+TEST_F(CommandLine, ATimeLimitCountsTheCollectingOfPairs) {
+  write("crowd.obj", crowd());
+  expect_refused("fuzz --mesh crowd.obj crowd.obj --family mesh --time 100ms --db new.db",
+                 {"--time: found 100ms, expected more time"});
 }
 
 TEST_F(CommandLine, AClosedStandardStreamIsAnErrorWhereItIsNeeded) {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/sections/baseline.hpp"
-#include "reports/sections/json_file.hpp"
+#include "reports/text/json_file.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"

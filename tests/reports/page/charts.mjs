@@ -3,6 +3,14 @@ import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
 import { count, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
+/** Subjects may have the names of members of every object. */
+export async function showsSubjectsWithTheNamesOfMembers(browser) {
+  const page = await open(browser, makeReport("members", ["--cases", "600", "--no-shrink", "--subject", "toString=basic,constructor=wang"]));
+  for (const name of ["toString", "constructor"])
+    assert.equal(await page.locator("#rates svg text", { hasText: name }).count(), 1);
+  await page.close();
+}
+
 export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));

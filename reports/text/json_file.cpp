@@ -1,0 +1,57 @@
+#include "reports/text/json_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+
+namespace nearmiss {
+
+template <class Json>
+Json parse_json(std::string_view text) {
+  static constexpr int most_levels = 32;
+  try {
+    return Json::parse(text, [](int level, typename Json::parse_event_t, const Json&) {
+      if (level > most_levels) throw Error(fmt::format("JSON with more than {} levels", most_levels));
+      return true;
+    });
+  } catch (const typename Json::exception& error) {
+    throw Error(plain_message(error));
+  }
+}
+template nlohmann::json parse_json<nlohmann::json>(std::string_view text);
+template nlohmann::ordered_json parse_json<nlohmann::ordered_json>(std::string_view text);
+
+std::string plain_message(const std::exception& error) {
+  const std::string message = error.what();
+  const std::size_t end_of_name = message.starts_with("[json.exception.") ? message.find("] ") : message.npos;
+  return end_of_name == message.npos ? message : message.substr(end_of_name + 2);
+}
+
+void read_json_file(const std::filesystem::path& file, std::string_view expected,
+                    const std::function<void(const nlohmann::ordered_json&)>& take) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
+  const auto refuse = [&](const std::exception& error) {
+    return Error(fmt::format("{}: found {}, expected {}", file.string(), excerpt(plain_message(error), 200),
+                             expected));
+  };
+  nlohmann::ordered_json json;
+  try {
+    json = parse_json<nlohmann::ordered_json>(text);
+  } catch (const Error& error) {
+    throw refuse(error);
+  }
+  try {
+    take(json);
+  } catch (const nlohmann::ordered_json::exception& error) {
+    throw refuse(error);
+  }
+}
+
+}  // namespace nearmiss

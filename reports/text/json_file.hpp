@@ -1,0 +1,26 @@
+// JSON from outside: of stores, and of files that one command writes and another reads.
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+namespace nearmiss {
+
+/// Parses JSON into nlohmann::json or nlohmann::ordered_json. Throws Error for other text, and for more than
+/// 32 levels of brackets, because functions walk JSON recursively.
+template <class Json>
+Json parse_json(std::string_view text);
+
+/// What an exception says, without the name "[json.exception.type_error.302]" of those of the JSON library.
+std::string plain_message(const std::exception& error);
+
+/// Reads a file and passes its content to `take`. Throws Error if the file cannot be read, if it is not JSON,
+/// or if `take` throws an exception of the JSON library; the message contains `expected`.
+void read_json_file(const std::filesystem::path& file, std::string_view expected,
+                    const std::function<void(const nlohmann::ordered_json&)>& take);
+
+}  // namespace nearmiss
