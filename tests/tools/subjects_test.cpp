@@ -62,6 +62,24 @@ TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
   EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/peers --output /"));
 }
 
+// A program that finds another build's worker would misread its answers.
+TEST_F(CommandLine, AWorkerOfAnotherBuildIsRefused) {
+  std::filesystem::copy_file(NEARMISS_EXECUTABLE, file("copied"));
+  const auto worker = std::filesystem::path(NEARMISS_EXECUTABLE).parent_path() / "nearmiss-worker";
+  std::string code = read(worker);
+  write("nearmiss-worker", code);
+  const auto executable = std::filesystem::perms::owner_all;
+  std::filesystem::permissions(file("nearmiss-worker"), executable);
+  const std::string fuzz = "; ./copied fuzz --cases 20 --family uniform --subject wang," + plugin("example");
+  EXPECT_EQ(run(fuzz, "true").code, 0);
+  const std::string digest = NEARMISS_WORKER_CODE;
+  code.replace(code.find(digest), 1, "x");
+  write("nearmiss-worker", code);
+  const Output refused = run(fuzz, "true");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.error, HasSubstr("nearmiss-worker does not start one, or is not of the same build as"));
+}
+
 TEST_F(CommandLine, ASubcommandForOneSubjectRefusesSeveral) {
   const std::string miss_of_always = write("a.vt", miss).string();
   for (const std::string& command :

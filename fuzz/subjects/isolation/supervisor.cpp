@@ -97,17 +97,21 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
   SocketPair status;
   const int wanted = 1;
   check(setsockopt(status.ours.number(), SOL_SOCKET, SO_PASSCRED, &wanted, sizeof wanted) == 0, "socket");
-  Spawn spawn;
-  spawn.pass(files.replies, reply_socket);
-  spawn.pass(status.theirs.number(), status_socket);
-  spawn.pass(files.questions, questions_memory);
-  spawn.pass(files.answers, answers_memory);
-  status_ = std::move(status.ours);
   const std::string program = path_beside("nearmiss-worker");
-  arguments.insert(arguments.begin(), "nearmiss-worker");
-  worker_ = spawn.run(program, std::move(arguments));
+  arguments.insert(arguments.begin(), {"nearmiss-worker", NEARMISS_WORKER_CODE});
+  {
+    Spawn spawn;  // has copies of the files, of which only the worker's may stay open
+    spawn.pass(files.replies, reply_socket);
+    spawn.pass(status.theirs.number(), status_socket);
+    spawn.pass(files.questions, questions_memory);
+    spawn.pass(files.answers, answers_memory);
+    worker_ = spawn.run(program, std::move(arguments));
+  }
+  status_ = std::move(status.ours);
   status.theirs.close();
-  if (!learns_process()) throw Error(fmt::format("no worker process: {} does not start a process", program));
+  if (!learns_process())
+    throw Error(fmt::format(
+        "no worker process: {} does not start one, or is not of the same build as nearmiss", program));
 }
 
 bool Supervisor::learns_process() {

@@ -1,5 +1,6 @@
-// nearmiss-worker PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
-// never runs the plug-in's code. The supervisor tells nearmiss how the process ended. When the plug-in's
+// nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
+// never runs the plug-in's code. CODE is a digest of the code that it shares with nearmiss; if it has another
+// one, it refuses to work. The supervisor tells nearmiss how the process ended. When the plug-in's
 // process or nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
@@ -149,5 +150,6 @@ int run(Assignment work) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return argc == 4 ? run({argv[1], std::strtoull(argv[2], nullptr, 10), std::strcmp(argv[3], "1") == 0}) : 2;
+  if (argc != 5 || std::strcmp(argv[1], NEARMISS_WORKER_CODE) != 0) return 2;
+  return run({argv[2], std::strtoull(argv[3], nullptr, 10), std::strcmp(argv[4], "1") == 0});
 }
