@@ -30,6 +30,7 @@ namespace {
 
 constexpr std::size_t printed_findings = 10;
 constexpr auto save_interval = std::chrono::milliseconds(500);
+constexpr auto when_locked = std::chrono::seconds(5);           // in addition, because each try waits
 constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // rare, because it writes all findings
 
 std::string cpu_model() {
@@ -145,8 +146,12 @@ void Record::add(TrialResult&& result) {
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
   for (auto& [number, finding] : result.shrunk) findings_.at(number) = std::move(finding);
   unsaved_shrunk_ = unsaved_shrunk_ || !result.shrunk.empty();
-  if (Clock::now() - last_save_ >= save_interval) save();
-  if (unsaved_shrunk_ && Clock::now() - last_save_of_shrunk_ >= save_shrunk_interval) save_now();
+  try {
+    if (Clock::now() - last_save_ >= save_interval) save();
+    if (unsaved_shrunk_ && Clock::now() - last_save_of_shrunk_ >= save_shrunk_interval) save_all();
+  } catch (const StoreIsLocked&) {
+    last_save_ = last_save_of_shrunk_ = Clock::now() + when_locked;
+  }
 }
 
 void Record::add(const ScenePicture& picture) {
@@ -163,11 +168,21 @@ void Record::save() {
   last_save_ = Clock::now();
 }
 
-void Record::save_now() {
+void Record::save_all() {
   save();
   if (store_ && unsaved_shrunk_) store_->replace(findings_);
   unsaved_shrunk_ = false;
   last_save_of_shrunk_ = Clock::now();
+}
+
+void Record::save_now() {
+  for (int tries_left = 20;; --tries_left) {
+    try {
+      return save_all();
+    } catch (const StoreIsLocked&) {
+      if (tries_left == 0) throw;
+    }
+  }
 }
 
 void Record::add_unasked(const Subjects& subjects) {

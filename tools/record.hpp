@@ -55,7 +55,7 @@ class Record {
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
-  /// Saves what was added.
+  /// Saves what was added. Waits half a minute for a process that has locked the store.
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
@@ -71,6 +71,7 @@ class Record {
   void begin();
   void go_on();
   void save();
+  void save_all();
 
   RecordOptions options_;
   RunInfo info_;

@@ -31,6 +31,10 @@ template <class Act>
 auto naming(const fs::path& file, const Act& act) {
   try {
     return act();
+  } catch (const SQLite::Exception& error) {
+    const std::string message = fmt::format("{}: {}", file.string(), error.what());
+    if (error.getErrorCode() == SQLITE_BUSY) throw StoreIsLocked(message);
+    throw Error(message);
   } catch (const std::exception& error) {
     throw Error(fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -7,9 +7,16 @@
 #include <span>
 #include <string>
 
+#include "ccd/query/error.hpp"
 #include "reports/campaign/campaign.hpp"
 
 namespace nearmiss {
+
+/// Another process has locked a store for longer than a save waits. Nothing was saved.
+class StoreIsLocked : public Error {
+ public:
+  using Error::Error;
+};
 
 /// The file to which a running shard saves its results. Every save is one transaction: it is complete or does
 /// not happen at all. Earlier saves survive a full disk, an interrupt or a kill. Only one process at a time
@@ -31,7 +38,7 @@ class Store {
   ~Store();
 
   /// Replaces the statistics and the shard, and adds the findings since the last save. If it throws Error,
-  /// the file is unchanged.
+  /// such as StoreIsLocked, the file is unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 
   /// Replaces all findings. If it throws Error, the file is unchanged.

@@ -81,9 +81,29 @@ expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -
 expect "expected that only nights are removed" test -d "$folder/the" -a -d "$folder/the nights/2nd Zoo"
 expect "expected the latest night" test -s "$folder/the nights/last/all.db"
 before=$(ls "$folder/the nights")
+night 2 --subject ''
+expect_said "found --subject '', expected CCDs"
 night 2 --subject wang,./none.so
 expect_said "found --subject 'wang,./none.so', expected CCDs with different names; paths are relative to $PWD"
 expect "expected no night of a CCD that is none" test "$(ls "$folder/the nights")" = "$before"
+# A copy of a night counts once. A killed night gives its reserve back, and does not push others out.
+cp -r "$folder/the nights/last/" "$folder/the nights/2001-01-01T000000Z copy"
+mkdir "$folder/the nights/2002-01-01T000000Z"
+touch "$folder/the nights/2002-01-01T000000Z/.reserve"
+rm -r "$folder/the nights/2999-01-01T000000Z"
+night 0 --subject wang --keep 3
+expect "expected a report" test -s "$folder/the nights/last/report/index.html"
+expect "expected that the killed night's reserve is given back" test ! -e "$folder/the nights/2002-01-01T000000Z/.reserve"
+expect "expected three nights beside the killed one, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2[0-9]*Z*" | wc -l)" = 4
+# The report of shards on a cluster leaves out what cannot be read.
+mkdir "$folder/shards"
+cp "$folder/the nights/last/families.db" "$folder/shards/shard-0.db"
+: >"$folder/shards/shard-1.db"
+code=0
+"$source/tools/slurm/report" "$nearmiss" "$folder/shards" &>"$folder/said" || code=$?
+expect "expected exit code 2, found $code" test $code = 2
+expect_said '^left out: 1 of 2 shards, which cannot be read$'
+expect "expected a report of the other shard" test -s "$folder/shards/report/index.html"
 # libFuzzer hunts equally long for each way to break a promise.
 printf '#!/bin/sh\necho "$*" >>%s/hunts\n' "$folder" >tools/libfuzzer
 night 0 --subject wang,wang-time --time 100s

@@ -2,10 +2,13 @@
 # At link time, functions that are compiled with less optimization must not replace those of ccd/ and oracle/.
 # Usage: optimized_test.sh OBJECTS FAST_OBJECTS, each a list separated by blanks
 set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 2)) || refuse "expected OBJECTS FAST_OBJECTS"
 # The functions of objects that any other object may provide.
 shared() {
   # shellcheck disable=SC2086
   nm -C $1 | sed -n 's/^[0-9a-f]* W //p' | grep -E 'nearmiss::|Eigen::' | grep -vE '::~|excerpt' | sort -u
 }
-both=$(comm -12 <(shared "$1") <(shared "$2"))
+both=$(comm -12 <(shared "${arguments[0]}") <(shared "${arguments[1]}"))
 [[ -z $both ]] || { echo "compiled with more and with less optimization: $both"; exit 1; }

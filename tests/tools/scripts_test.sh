@@ -55,6 +55,7 @@ done
 # An option's value follows a blank or an equals sign. A missing or wrong value is refused at once.
 for options in "--keep 0" --keep=0; do try 2 tools/nightly $options; expect_said "found --keep '0'"; done
 for options in "--time 9s" --time=9s; do try 2 tools/nightly $options; expect_said "found the time '9s'"; done
+try 2 tools/nightly --subject ''; expect_said "found --subject '', expected CCDs"
 try 2 tools/nightly --subject; expect_said "found --subject without a value"
 try 2 tools/nightly tonight; expect_said "found 'tonight'"
 try 2 tools/bench-commits; expect_said "found 0 commits, expected one or two"

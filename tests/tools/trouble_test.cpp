@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/reports/stored.hpp"
 #include "tests/tools/background.hpp"
 #include "tests/tools/command_line.hpp"
 
@@ -203,6 +204,21 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
 }
 
 constexpr const char* endless_campaign = "fuzz --family uniform --time 24h --db a.db";
+
+TEST_F(CommandLine, ACampaignOutlastsALockOfItsStore) {
+  Background campaign(file(""), endless_campaign);
+  ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
+  {
+    const testing::Database other(file("a.db"));
+    other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
+    std::this_thread::sleep_for(std::chrono::seconds(3));  // longer than a save waits
+    EXPECT_FALSE(campaign.has_ended()) << read("error.txt");
+  }
+  ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
+  campaign.stop(SIGINT);
+  EXPECT_EQ(campaign.code(), 130) << read("error.txt");
+  EXPECT_GT(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 0);
+}
 
 TEST_F(CommandLine, AnInterruptSavesEverything) {
   Background campaign(file(""), endless_campaign);
