@@ -21,7 +21,7 @@ std::string distances_csv(const Statistics& statistics);
 std::string times_csv(const Statistics& statistics);
 
 /// A row for each finding. "shrunk" and "query" are 24 hex floats each, or 25 with a separation, as in a
-/// query file; "seen" is the number of findings with the same signature.
+/// query file; "seen" is the number of queries that failed with the same signature.
 std::string findings_csv(const Campaign& campaign);
 
 }  // namespace nearmiss

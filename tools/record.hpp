@@ -1,4 +1,4 @@
-// Saves and reports the findings of the commands that run trials (fuzz, replay, scene).
+// Saves and reports the findings of the commands that run trials, such as fuzz, replay and scene.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Options of the commands that run trials: fuzz, replay, scene.
+// Options of the commands that run trials, such as fuzz, replay and scene.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 namespace nearmiss::tools {
 
 /// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --no-shrink,
-/// --jobs
+/// --versions, --jobs
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
   bool beyond_contract = false;

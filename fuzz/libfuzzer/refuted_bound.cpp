@@ -10,16 +10,17 @@ const nearmiss::libfuzzer::Target nearmiss::libfuzzer::target{};
 
 void nearmiss::libfuzzer::examine(const Query& query) {
   const Verdict verdict = subject().decide(query);
-  if (!verdict.hit) return;
-  const Decision truth = untraced([&] { return decide(query); });
+  if (!verdict.hit || verdict.fault != Fault::none) return;
+  const Query rounded = subject().rounded(query);
+  const Decision truth = untraced([&] { return decide(rounded); });
   show(Signal::filter_stage, query.kind, static_cast<std::size_t>(truth.stage));
   show(truth.collision ? Signal::true_stage : Signal::false_stage, query.kind,
        static_cast<std::size_t>(verdict.stage));
   if (truth.collision) return;
-  const double bound = subject().distance_bound(query);
+  const double bound = subject().distance_bound(rounded);
   if (!std::isfinite(bound)) return;  // the subject claims no bound
-  const double ratio = untraced([&] { return closest_ratio(query, bound); });
-  if (ratio >= 1 && untraced([&] { return distance_exceeds(query, bound); }))
-    fail(Finding::What::refuted_bound, query, ratio);
+  const double ratio = untraced([&] { return closest_ratio(rounded, bound); });
+  if (ratio >= 1 && untraced([&] { return distance_exceeds(rounded, bound); }))
+    fail(Finding::What::refuted_bound, rounded, ratio);
   show_factor(Signal::distance, query.kind, ratio);
 }

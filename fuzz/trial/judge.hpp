@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// A kind of failure and its signature (signatures.hpp).
+/// A sort of failure and its signature (signatures.hpp).
 struct Failure {
   Finding::What what{};
   std::string signature;

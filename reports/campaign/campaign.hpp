@@ -16,8 +16,8 @@
 
 namespace nearmiss {
 
-/// The first of the keys by which findings are sorted for display: those of the least exotic class come first,
-/// and of these the shrunk ones.
+/// A key by which findings are sorted for display: those of the least exotic class come first, and of these
+/// the shrunk ones.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }

@@ -15,7 +15,7 @@ namespace nearmiss {
 
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
-  /// "false negatives", "false positives", "false positives beyond the bound", or "no answer". For a subject
+  /// "false negatives", "false positives", "late times", "false positives beyond the bound" or "no answer". For a subject
   /// that claims no bound: "false positives beyond wang's bound (no claim)".
   std::string_view what;
   std::string subject, kind, family;

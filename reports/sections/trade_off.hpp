@@ -27,11 +27,9 @@ struct TradeOff {
     return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: its only failure, if any, is that it could not tell.
+  /// Whether the subject may be on a front: it did not fail, apart from what fails only on request.
   [[nodiscard]] bool sound() const {
-    Failures failures = failures_of(subject, all.counts);
-    failures.erase(FailureKind::unknown);
-    return failures.empty();
+    return in_common(failures_of(subject, all.counts), usual_failures()).empty();
   }
 };
 

@@ -38,7 +38,8 @@ TEST(MeshFamily, HasUnchangedPairsOfTheMesh) {
 
 TEST(MeshFamily, KeepsNoMorePairsThanItMay) {
   const MovingMesh mesh = grids(4);
-  EXPECT_EQ(pairs_among(mesh_family(mesh, Stop::never(), 3), pairs_of(mesh)).size(), 6);  // three of each kind
+  EXPECT_EQ(pairs_among(mesh_family(mesh, Stop::never(), 3), pairs_of(mesh)).size(),
+            6);  // three of each kind
 }
 
 TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {

@@ -80,6 +80,16 @@ TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   EXPECT_EQ(json["ns_per_query"], 100);
 }
 
+// As for verdicts: slow queries, and those beyond a contract, fail only on request.
+TEST(TradeOff, ASubjectThatDidNotFailIsSound) {
+  Statistics statistics;
+  Counts& some = statistics.counts[{"a", Kind::edge_edge, "f"}] = counts(100, 50, 0, 10, 100);
+  for (const Fault each : {Fault::time, Fault::contract}) some.faults[static_cast<std::size_t>(each)] = 1;
+  EXPECT_TRUE(trade_offs(statistics)[0].sound());
+  some.faults[static_cast<std::size_t>(Fault::crash)] = 1;
+  EXPECT_FALSE(trade_offs(statistics)[0].sound());
+}
+
 TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
   const auto at = [](const char* subject) { return CountsKey{subject, Kind::edge_edge, "f"}; };
   Statistics statistics;

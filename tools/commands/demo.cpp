@@ -116,7 +116,7 @@ void run(const Options& options) {
 void add_demo(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<Options>();
   auto* command =
-      app.add_subcommand("demo", "Show what this tool does: a CCD's first miss, shrunk and drawn");
+      app.add_subcommand("demo", "Show what this tool does: a collision that a CCD misses, shrunk and drawn");
   command->add_option("-o,--output", options->out, "Write the miss to this file")
       ->type_name("FILE")
       ->capture_default_str();

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/sections/baseline.hpp"
-#include "reports/text/json_file.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/store/store.hpp"
+#include "reports/text/json_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"
 
