@@ -5,9 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -29,7 +33,7 @@ using testing::queries;
 bool grants_namespaces() {
   const pid_t child = fork();
   if (child == 0) {
-    constexpr int own = CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWNET;
+    constexpr int own = CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWNET | CLONE_NEWIPC;
     _exit(unshare(own) == 0 || unshare(CLONE_NEWUSER | own) == 0 ? 0 : 1);
   }
   int status = 0;
@@ -140,6 +144,20 @@ TEST_P(Containment, APluginHasNoPrivilegesExceptOnFiles) { EXPECT_TRUE(refuses("
 
 TEST_P(Containment, APluginHasItsOwnNamespaceIfTheSystemGrantsOne) {
   EXPECT_EQ(refuses("escaping_namespace"), GetParam() && grants_namespaces());
+}
+
+/// The number of System V segments that this process sees.
+std::ptrdiff_t segments() {
+  std::ifstream all("/proc/sysvipc/shm");
+  return std::count(std::istreambuf_iterator<char>(all), {}, '\n');
+}
+
+TEST_P(Containment, SharedMemoryIsLimitedAndGoesWithThePlugin) {
+  if (!GetParam() || !grants_namespaces()) GTEST_SKIP() << "found no namespaces";
+  const std::ptrdiff_t before = segments();
+  EXPECT_TRUE(refuses("escaping_shared"));
+  EXPECT_EQ(segments(), before);
+  EXPECT_FALSE(std::filesystem::exists("/dev/shm/nearmiss-left"));
 }
 
 TEST(Dismissal, EndsManyWorkersAtOnce) {

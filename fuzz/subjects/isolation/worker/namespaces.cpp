@@ -33,13 +33,15 @@ bool enter(int namespaces) {
 
 }  // namespace
 
-bool enter_namespaces() { return enter(CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWNET); }
+bool enter_namespaces() { return enter(CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWNET | CLONE_NEWIPC); }
 
 void leave_network() { enter(CLONE_NEWNET); }
 
-void mount_own_proc() {
+void mount_own_folders(std::uint64_t bytes) {
   if (mount(nullptr, "/", nullptr, MS_REC | MS_SLAVE, nullptr) != 0) return;
   mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC | MS_RDONLY, nullptr);
+  const std::string options = "mode=1777" + (bytes == 0 ? "" : ",size=" + std::to_string(bytes));
+  mount("tmpfs", "/dev/shm", "tmpfs", MS_NOSUID | MS_NODEV, options.c_str());
 }
 
 }  // namespace nearmiss::isolation

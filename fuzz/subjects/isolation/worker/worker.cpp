@@ -121,7 +121,7 @@ int guard(const Assignment& work) {
   if (supervisor == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setsid();
-    mount_own_proc();
+    mount_own_folders(work.bytes);
     return supervise(work);
   }
   close_channel();
