@@ -66,7 +66,6 @@ bool is_plain(SQLite::Database& db, const std::string& table) {
 /// rows have the ids 1 to n.
 Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take) {
   Contents found;
-  if (!is_plain(db, table)) return found;
   // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be
   // damaged, too.
   SQLite::Statement row(
@@ -91,14 +90,14 @@ Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64
 
 ContentsByTable read_contents(SQLite::Database& db) {
   ContentsByTable contents;
+  if (!is_plain(db, contents_table)) return contents;
   read_intact(db, contents_table, tables.size(),
               [&](const json& key, const json& value) { contents.emplace(key, value); });
   return contents;
 }
 
-/// The largest id of a table's rows. If the table is damaged, this can be any number.
+/// The largest id of a plain table's rows. If the table is damaged, this can be any number.
 std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
-  if (!is_plain(db, table)) return 0;
   SQLite::Statement last(db, fmt::format("SELECT max(rowid) FROM {}", table));
   if (last.tryExecuteStep() != SQLITE_ROW) return 0;
   return static_cast<std::uint64_t>(std::max<std::int64_t>(last.getColumn(0).getInt64(), 0));
@@ -139,8 +138,10 @@ void Reader::read(const std::string& table, const Take& take) {
   Contents found;
   std::uint64_t last = 0;
   try {
-    last = last_row(db_, table);
-    found = read_intact(db_, table, std::min(std::max(last, saved.rows), most_rows), take);
+    if (is_plain(db_, table)) {
+      last = last_row(db_, table);
+      found = read_intact(db_, table, std::min(std::max(last, saved.rows), most_rows), take);
+    }
   } catch (const SQLite::Exception&) {  // its definition is lost
   }
   rows_ += found.rows;
