@@ -53,24 +53,25 @@ inline constexpr std::array<std::string_view, rejection_count> rejection_names{
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {
   none,
-  error,      ///< it reported an error, or a bound that is not a distance
-  crash,      ///< its process ended
-  time,       ///< it exceeded its time limit
-  memory,     ///< it exceeded its memory limit
-  exception,  ///< it threw an exception that it did not catch
-  protocol,   ///< it wrote to nearmiss's channels, or closed them
-  not_asked,  ///< it does not decide this kind, or was dropped for exceeding its time limit too often
-  invalid,    ///< it gave an unknown answer, or a collision without the time that it promises
-  load,       ///< it could not be loaded again after it had failed
-  contract,   ///< it was not asked, because the query breaks its contract
+  error,         ///< it reported an error, or a bound that is not a distance
+  crash,         ///< its process ended
+  time,          ///< it exceeded its time limit
+  memory,        ///< it exceeded its memory limit
+  exception,     ///< it threw an exception that it did not catch
+  protocol,      ///< it wrote to nearmiss's channels, or closed them
+  not_asked,     ///< it does not decide this kind, or was dropped for exceeding its time limit too often
+  invalid,       ///< it gave an unknown answer, or a collision without the time that it promises
+  load,          ///< it could not be loaded again after it had failed
+  contract,      ///< it was not asked, because the query breaks its contract
+  inconsistent,  ///< asked once more, among other queries, it gave the other answer
 };
 
-inline constexpr std::size_t fault_count = 11;
+inline constexpr std::size_t fault_count = 12;
 
 /// Names of the faults, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{
-    "none",     "error",     "crash",   "time", "memory",  "exception",
-    "protocol", "not-asked", "invalid", "load", "contract"};
+    "none",     "error",     "crash",   "time", "memory",   "exception",
+    "protocol", "not-asked", "invalid", "load", "contract", "inconsistent"};
 
 /// A subject's answer to one query.
 struct Verdict {

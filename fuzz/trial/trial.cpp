@@ -48,34 +48,53 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// Times the subject on a sample of the queries that it answered, one by one.
-void time_sample(const Subject& subject, const Batch& batch, const std::vector<Verdict>& verdicts,
-                 SubjectTimes& times) {
-  constexpr std::uint64_t one_in = 256;
-  std::vector<std::size_t> sample;
+/// A sample of the queries that a subject answered, the last one first.
+struct Sample {
+  std::vector<std::size_t> numbers;  ///< in the batch
   std::vector<Query> queries;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (verdicts[i].fault != Fault::none || !is_sampled(batch.number(i), one_in)) continue;
-    sample.push_back(i);
-    queries.push_back(batch.queries[i]);
+
+  Sample(const Batch& batch, const std::vector<Verdict>& verdicts) {
+    constexpr std::uint64_t one_in = 256;
+    for (std::size_t i = verdicts.size(); i-- > 0;) {
+      if (verdicts[i].fault != Fault::none || !is_sampled(batch.number(i), one_in)) continue;
+      numbers.push_back(i);
+      queries.push_back(batch.queries[i]);
+    }
   }
-  if (queries.empty()) return;
-  std::vector<std::optional<std::uint64_t>> each(queries.size());
-  subject.time_each(queries, each);
+};
+
+/// Times the subject on a sample, one query at a time.
+void time_sample(const Subject& subject, const Batch& batch, const Sample& sample, SubjectTimes& times) {
+  std::vector<std::optional<std::uint64_t>> each(sample.queries.size());
+  subject.time_each(sample.queries, each);
   for (std::size_t k = 0; k < each.size(); ++k)
-    if (each[k]) times.add(*each[k], queries[k], [&] { return batch.provenance(sample[k]); });
+    if (each[k]) times.add(*each[k], sample.queries[k], [&] { return batch.provenance(sample.numbers[k]); });
 }
 
-/// Decides a batch. If times count, times the subject over the whole batch, and over single queries of a
-/// sample.
+/// Asks the subject about a sample once more: fewer queries at once, in another order. An answer that is not
+/// the first one again is none. Times may differ, because rounding may depend on the place in a vector.
+void ask_again(const Subject& subject, const Sample& sample, std::vector<Verdict>& verdicts) {
+  std::vector<Verdict> again(sample.queries.size());
+  subject.decide(sample.queries, again);
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    Verdict& first = verdicts[sample.numbers[k]];
+    if (again[k].fault == Fault::none && again[k].hit != first.hit) first = {.fault = Fault::inconsistent};
+  }
+}
+
+/// Decides a batch, and a sample of it twice. If times count, times the subject over the whole batch, and
+/// over single queries of the sample.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
-  if (!batch.timed || batch.queries.empty()) {
+  const bool timed = batch.timed && !batch.queries.empty();
+  if (timed)
+    times.add(batch.kind, batch.family, subject.decide_timed(batch.queries, verdicts));
+  else
     subject.decide(batch.queries, verdicts);
-    return verdicts;
-  }
-  times.add(batch.kind, batch.family, subject.decide_timed(batch.queries, verdicts));
-  time_sample(subject, batch, verdicts, times);
+  const Sample sample(batch, verdicts);
+  if (sample.queries.empty()) return verdicts;
+  if (timed) time_sample(subject, batch, sample, times);
+  ask_again(subject, sample, verdicts);
   return verdicts;
 }
 

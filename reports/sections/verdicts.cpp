@@ -165,11 +165,11 @@ void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerd
 /// "NO ANSWER (2 crash, 1 exception)"
 std::string no_answer(const Counts& counts) {
   std::vector<std::string> reasons;
-  for (const Fault each : {Fault::error, Fault::crash, Fault::memory, Fault::exception, Fault::protocol,
-                           Fault::invalid, Fault::load})
-    if (counts.without_answer(each) > 0)
-      reasons.push_back(fmt::format("{} {}", with_separators(counts.without_answer(each)),
-                                    fault_names[static_cast<std::size_t>(each)]));
+  for (std::size_t i = 0; i < fault_count; ++i) {
+    const auto fault = static_cast<Fault>(i);
+    if (counts.faults[i] > 0 && failure_of(Outcome{.verdict = {.fault = fault}}) == FailureKind::fault)
+      reasons.push_back(fmt::format("{} {}", with_separators(counts.faults[i]), fault_names[i]));
+  }
   return fmt::format("NO ANSWER ({})", fmt::join(reasons, ", "));
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -131,6 +132,13 @@ TEST_P(Containment, NoSignalReachesThisProcess) {
   EXPECT_TRUE(refuses("escaping_signal"));
   std::signal(SIGUSR1, before);
   EXPECT_EQ(signals, 0);
+}
+
+TEST_P(Containment, NoOtherProcessIsSlowedDown) {
+  const int scheduler = sched_getscheduler(0), priority = getpriority(PRIO_PROCESS, 0);
+  EXPECT_TRUE(refuses("escaping_schedule"));
+  EXPECT_EQ(sched_getscheduler(0), scheduler);
+  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), priority);
 }
 
 TEST_P(Containment, NoProcessCanBeTraced) {

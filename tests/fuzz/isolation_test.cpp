@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -134,6 +135,31 @@ TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
 }
 
 // A process that dies at any moment leaves only answers that the plug-in gave.
+// The plug-ins compute at least this long, so the tests do not depend on speed.
+TEST(Isolation, TheComputingTimeOfAChildCounts) {
+  const auto subject = make_isolated_plugin(plugin("computes_in_a_child"));
+  const auto queries = one_batch(50);
+  std::vector<Verdict> verdicts(queries.size());
+  std::thread([&] {
+    use_one_processor();                       // so that the plug-in's process computes little
+    subject->decide_timed(queries, verdicts);  // starts the child
+    for (int i = 0; i < 3; ++i)
+      EXPECT_GE(subject->decide_timed(queries, verdicts).nanoseconds, 50 * 900'000U / 2);
+  }).join();
+}
+
+TEST(Isolation, ComputingCountsEvenIfThePluginDoesItBeforeItIsTimed) {
+  const auto subject = make_isolated_plugin(plugin("computes_ahead"));
+  const auto queries = one_batch(100);
+  std::vector<Verdict> verdicts(50);
+  subject->decide_timed(std::span(queries).first(50), verdicts);
+  EXPECT_GE(subject->decide_timed(std::span(queries).last(50), verdicts).nanoseconds, (50 * 90'000U - 500'000U) / 2);
+}
+
+TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
+  EXPECT_THROW(make_isolated_plugin(plugin("eat_while_loaded"), limits_for(Fault::memory)), Error);
+}
+
 TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
   const auto subject = make_isolated_plugin(plugin("aborts_later"));
   const auto queries = one_batch(50);

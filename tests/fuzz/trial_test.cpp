@@ -118,6 +118,20 @@ TEST(Trial, AMissingAnswerIsAFaultAndNoMiss) {
   EXPECT_EQ(result.findings[1].provenance, "2");
 }
 
+TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
+  unsigned calls = 0;
+  const auto forgets = [&](const Query&) {
+    const bool hit = ++calls * 2654435761U >> 31 != 0;
+    return Verdict{hit, hit ? Stage::unspecified : Stage::none};
+  };
+  const Batch many = batch_of("many", std::vector<Query>(10'000, falling_vertex(0.25, 0.25, 1, -1)));
+  const TrialResult result =
+      hold_trial(one(std::make_unique<testing::MadeUpSubject>("forgets", forgets)), many);
+  EXPECT_GT(counts_of(result).without_answer(Fault::inconsistent), 10);
+  EXPECT_EQ(result.statistics.seen.size(), 2);
+  EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
+}
+
 TEST(Trial, ComparesTheMethodsOfTheOracleAsAsked) {
   const auto counts = [](const Batch& batch, const Comparison& comparison) {
     return hold_trial({}, batch, comparison).statistics.oracle_total();

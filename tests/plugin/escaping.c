@@ -4,6 +4,7 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +13,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/shm.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
@@ -49,6 +51,23 @@ static int attempt(void) {
   fcntl(ends[0], F_SETFL, O_ASYNC | O_NONBLOCK);
   if (write(ends[1], "", 1) != 1) return 0;
   return sent == 0;
+}
+#elif defined(SCHEDULE)
+/* Tries to slow nearmiss down. */
+static int attempt(void) {
+  const pid_t victim = nearmiss();
+  const struct sched_param lowest = {0};
+  cpu_set_t first;
+  CPU_ZERO(&first);
+  CPU_SET(0, &first);
+  int done = sched_setscheduler(victim, SCHED_IDLE, &lowest) == 0;
+  done += sched_setparam(victim, &lowest) == 0;
+  done += sched_setaffinity(victim, sizeof first, &first) == 0;
+  done += setpriority(PRIO_PROCESS, (id_t)victim, 19) == 0;
+  done += setpriority(PRIO_PGRP, (id_t)getpgid(victim), 19) == 0;
+  done += syscall(SYS_ioprio_set, 1, victim, 3 << 13) == 0;
+  setpriority(PRIO_USER, 0, 19); /* of the processes that it sees */
+  return done == 0;
 }
 #elif defined(TRACE)
 static int may_trace(pid_t victim) {

@@ -1,10 +1,13 @@
 /* A subject that reports every query, but misbehaves on one query in NEARMISS_ONE_IN (environment; 100 if not
  * set), chosen by the bits of the coordinates. */
+#define _GNU_SOURCE
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "tests/plugin/one_by_one.h"
 
@@ -40,6 +43,12 @@ static int misbehave(void) {
   while (memset(malloc(1 << 20), 1, 1 << 20) != NULL) {
   }
   return 1;
+#elif defined(EAT_FILE)
+  static char block[1 << 20];
+  const int file = memfd_create("eaten", 0);
+  while (write(file, block, sizeof block) > 0) {
+  }
+  return 1;
 #elif defined(FAIL)
   return -7;
 #else
@@ -49,6 +58,10 @@ static int misbehave(void) {
   return 1;
 #endif
 }
+
+#if defined(WHILE_LOADED)
+__attribute__((constructor)) static void begin(void) { misbehave(); }
+#endif
 
 static int test(const double* x, double* toi) {
   (void)toi;

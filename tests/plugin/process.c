@@ -2,10 +2,18 @@
  * query is chosen when it is compiled. */
 #define _GNU_SOURCE
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "tests/plugin/one_by_one.h"
 
@@ -36,11 +44,77 @@ static double computed(void) {
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-static int answer(void) {
+static int compute(void) {
   const double start = computed();
   while (computed() - start < COMPUTES) {
   }
   return 1;
+}
+#if defined(IN_A_CHILD)
+/* A child computes. This process does not wait for it in the sense of the system: it yields the processor. */
+struct shared {
+  atomic_int asked, answered;
+};
+
+static void serve(struct shared* shared) {
+  while (1) {
+    while (atomic_load(&shared->asked) == atomic_load(&shared->answered)) sched_yield();
+    compute();
+    atomic_fetch_add(&shared->answered, 1);
+  }
+}
+
+static int answer(void) {
+  static struct shared* shared = NULL;
+  if (shared == NULL) {
+    shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (fork() == 0) serve(shared);
+  }
+  const int asked = atomic_fetch_add(&shared->asked, 1) + 1;
+  while (atomic_load(&shared->answered) != asked) sched_yield();
+  return 1;
+}
+#elif defined(AHEAD)
+/* Decides all queries that it sees in the memory of the worker, at the first one that it has not seen yet. */
+static const double* questions(void) {
+  FILE* const maps = fopen("/proc/self/maps", "r");
+  char line[512];
+  char* memory = NULL;
+  while (memory == NULL && fgets(line, sizeof line, maps) != NULL)
+    if (strstr(line, "r--s") != NULL && strstr(line, "nearmiss-worker") != NULL)
+      sscanf(line, "%p", (void**)&memory);
+  fclose(maps);
+  return (const double*)(memory + 16); /* behind the kind and the numbers of the queries */
+}
+
+static int decided(const double* x) {
+  enum { most = 4096 };
+  static double known[most][24];
+  static int count = 0;
+  for (int i = 0; i < count; ++i)
+    if (memcmp(known[i], x, sizeof known[i]) == 0) return 1;
+  if (count == most) exit(1);
+  memcpy(known[count++], x, sizeof known[0]);
+  return 0;
+}
+
+static int answer_to(const double* x) {
+  if (decided(x)) return 1;
+  compute();
+  const double* const all = questions();
+  for (int i = 0; i < QUERIES; ++i)
+    if (!decided(all + 24 * i)) compute();
+  return 1;
+}
+#else
+static int answer(void) { return compute(); }
+#endif
+#elif defined(FORGETS)
+/* Reports about half of the queries, whichever these are. */
+#define NAME "forgets"
+static int answer(void) {
+  static unsigned calls = 0;
+  return (int)(++calls * 2654435761U >> 31);
 }
 #elif defined(WAITS)
 /* Waits a tenth of a millisecond, as if for a device, and reports nothing. */
@@ -76,7 +150,11 @@ static int answer(void) {
 
 static int test(const double* x, double* toi) {
   (void)x, (void)toi;
+#if defined(AHEAD)
+  return answer_to(x);
+#else
   return answer();
+#endif
 }
 
 EXPORT_DETECTOR(NAME, test, NULL)

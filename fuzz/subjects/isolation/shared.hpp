@@ -79,7 +79,6 @@ struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
-  std::atomic<std::uint64_t> program_time{0};    ///< computing time in ns of a plug-in that is a program
   std::array<PluginAnswer, batch_size> of{};
   std::uint64_t nanoseconds = 0;        ///< measured by decide_timed
   std::array<char, 256> exception{};    ///< what() of an exception that the plug-in did not catch

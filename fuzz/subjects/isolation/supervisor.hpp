@@ -42,6 +42,8 @@ class Supervisor {
 
   /// The plug-in's process.
   [[nodiscard]] pid_t process() const { return process_; }
+  /// The process from which all processes of the worker descend.
+  [[nodiscard]] pid_t worker() const { return worker_; }
   /// The socket on which the supervisor sends a `Status` that says how the process ended.
   [[nodiscard]] int socket() const { return status_.number(); }
 

@@ -11,6 +11,7 @@
 #include "ccd/subjects/detector.hpp"
 #include "ccd/subjects/subject.hpp"
 #include "fuzz/stop.hpp"
+#include "fuzz/subjects/isolation/computing_time.hpp"
 #include "fuzz/subjects/isolation/handles.hpp"
 #include "fuzz/subjects/isolation/plugin_code.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
@@ -18,11 +19,10 @@
 
 namespace nearmiss::isolation {
 
-using Duration = std::chrono::duration<double>;
-
 /// The limits of a plug-in.
 struct PluginLimits {
-  Duration time{1};                              ///< computing time for a query; ten times as long may pass
+  /// Computing time for a query, of all threads and processes of the plug-in; ten times as long may pass.
+  Duration time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that may pass while it is loaded
   Duration leaving{0.1};                         ///< the time that may pass while it is closed
@@ -81,9 +81,13 @@ class WorkerProcess {
   /// The answer to a query of the batch.
   [[nodiscard]] const PluginAnswer& answer(std::uint32_t i) const { return answers_->of[i]; }
   /// Times in ns that the worker measured in the last call: of the call, or of a query. They are limited to
-  /// the time that the call took.
-  [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds); }
-  [[nodiscard]] std::uint64_t measured(std::uint32_t i) const { return limited(answers_->of[i].nanoseconds); }
+  /// the time that the call took. That of a call is at least half of the computing time of all threads and
+  /// processes of the plug-in, because it may have decided each query twice, less what the worker itself may
+  /// compute; but not in the first call.
+  [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
+  [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
+    return limited(answers_->of[i].nanoseconds, Duration{});
+  }
   /// The computing time of the last call.
   [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
 
@@ -95,6 +99,7 @@ class WorkerProcess {
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
     Duration computing{}, passed{};
+    Duration certain{};  ///< the part of the computing time that is certainly of this time
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
     /// The limit for work that may compute for this long, and wait for a device or a processor besides.
     static Elapsed with_waiting(Duration computing);
@@ -103,8 +108,11 @@ class WorkerProcess {
 
   void start(const std::string& plugin);
   void load(const std::string& plugin);
-  /// The computing time of the plug-in's process, and of the program that it runs, if it does.
-  [[nodiscard]] Duration computing() const;
+  /// The computing time of the plug-in's process.
+  [[nodiscard]] Duration own_computing() const;
+  /// Brings others_ and others_compute_ up to date. That takes longer than a call of a fast plug-in. So it is
+  /// done seldom, or for each call if the plug-in has processes that compute.
+  void look_at_others();
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// Like `ask`, but without updating is_waiting_.
@@ -115,7 +123,7 @@ class WorkerProcess {
   /// Whether the supervisor reports within this time that the process has ended.
   bool ends_within(std::chrono::milliseconds time);
   [[nodiscard]] WorkerFailure failure(End end, std::uint32_t query);
-  [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds) const;
+  [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds, Duration least) const;
 
   PluginLimits limits_;
   SharedMemory<SharedQuestions> questions_{false};
@@ -127,6 +135,9 @@ class WorkerProcess {
   bool is_waiting_ = false;                                         ///< for a call
   std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
   Elapsed elapsed_;                                                 ///< of the last call
+  ComputingTime others_;         ///< of all processes of the worker but the plug-in's
+  bool others_compute_ = false;  ///< a process that the plug-in has started computes
+  Duration least_{};             ///< what the time that was measured in the last call is at least
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

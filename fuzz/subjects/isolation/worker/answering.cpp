@@ -111,16 +111,35 @@ void prepare_for_faults() {
   std::set_terminate(note_exception_and_end);
 }
 
+/// The memory of a process in bytes.
+struct Memory {
+  rlim_t addresses = 0;  ///< its address space
+  rlim_t data = 0;       ///< what it can write to, and shares with nobody
+};
+
+Memory memory_of(pid_t process) {
+  std::FILE* const statm = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "r");
+  unsigned long addresses = 0, data = 0;
+  if (statm == nullptr || std::fscanf(statm, "%lu %*u %*u %*u %*u %lu", &addresses, &data) != 2) _exit(1);
+  std::fclose(statm);
+  const auto page = static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  return {addresses * page, data * page};
+}
+
+void limit(pid_t process, __rlimit_resource resource, rlim_t bytes) {
+  const rlimit both{bytes, bytes};
+  prlimit(process, resource, &both, nullptr);
+}
+
+/// Limits the memory that this process, and later those that it starts, may use while the plug-in is loaded,
+/// and again as much after that. Addresses are not limited yet, because drivers of devices reserve many.
+void limit_memory_of_loading(rlim_t more) {
+  if (more != 0) limit(getpid(), RLIMIT_DATA, memory_of(getpid()).data + 2 * more);
+}
+
 /// Limits the memory that a process may use in addition to what it has.
 void limit_memory(pid_t process, rlim_t more) {
-  if (more == 0) return;
-  std::FILE* const statm = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "r");
-  unsigned long pages = 0;
-  if (statm == nullptr || std::fscanf(statm, "%lu", &pages) != 1) _exit(1);
-  std::fclose(statm);
-  const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
-  const rlimit limit{bytes, bytes};
-  prlimit(process, RLIMIT_AS, &limit, nullptr);
+  if (more != 0) limit(process, RLIMIT_AS, memory_of(process).addresses + more);
 }
 
 /// Notes which query comes next, because the plug-in may crash in it.
@@ -276,7 +295,7 @@ struct Loaded {
 Loaded load(std::string_view name) {
   try {
     if (is_program(name)) {
-      static const Program program(std::string(name.substr(program_prefix.size())), answers->program_time);
+      static const Program program(std::string(name.substr(program_prefix.size())));
       return {open_detector(program.subject(), "", {}), program.process()};
     }
     const PluginName parsed = PluginName::parse(name);
@@ -299,6 +318,7 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   prepare_for_faults();
   Call call{};
   if (!receive(call)) return 0;
+  limit_memory_of_loading(bytes);
   const Loaded loaded = load(plugin);
   limit_memory(loaded.process, bytes);
   reply(call.number);

@@ -9,6 +9,10 @@ void close_files();
 /// Keeps crashes from writing a file "core", which could replace one of the user's.
 void forbid_core_dumps();
 
+/// When the system or a cgroup is out of memory, it ends the process or one of its descendants first. They
+/// cannot undo that, because this needs a privilege (drop_privileges in privileges.hpp).
+void be_ended_first_for_want_of_memory();
+
 /// Lets the process and its descendants be at most `more` processes and threads more than their user has now.
 /// The system does not apply this limit to root.
 void limit_processes(unsigned long more);

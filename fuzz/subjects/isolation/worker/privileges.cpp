@@ -8,6 +8,7 @@
 #include <linux/seccomp.h>
 #include <linux/sockios.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -20,6 +21,8 @@
 namespace nearmiss::isolation {
 
 namespace {
+
+constexpr int ioprio_who_process = 1;  // ioprio_set(2); no header has it
 
 /// The machine whose system calls this program makes; 0 if the filter does not know it.
 #if defined(__x86_64__)
@@ -60,10 +63,10 @@ class Filter {
     load(offsetof(seccomp_data, nr));
   }
 
-  /// Forbids a call unless its first argument has one of two values.
-  void limit(int call, int value, int other) {
+  /// Forbids a call unless an argument has one of two values.
+  void limit(int call, unsigned argument, int value, int other) {
     jump_if_equal(call, 0, 5);
-    load_argument(0);
+    load_argument(argument);
     jump_if_equal(value, 2, 0);
     jump_if_equal(other, 1, 0);
     refuse();
@@ -113,15 +116,21 @@ void drop_privileges() {
   syscall(SYS_capset, &header, sets.data());
 }
 
-void confine_signals() {
+void confine_to_itself() {
   const pid_t self = getpid();
   Filter filter;
   for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
                          SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
   // 0 stands for the caller's own process group, or the caller itself.
-  for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64})
-    filter.limit(call, self, 0);
+  for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64,
+                         SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr, SYS_sched_setaffinity,
+                         SYS_migrate_pages, SYS_move_pages})
+    filter.limit(call, 0, self, 0);
+  // Nor may it change the priorities of its group's or its user's processes.
+  filter.limit(SYS_setpriority, 0, PRIO_PROCESS, PRIO_PROCESS);
+  filter.limit(SYS_ioprio_set, 0, ioprio_who_process, ioprio_who_process);
+  for (const int call : {SYS_setpriority, SYS_ioprio_set}) filter.limit(call, 1, self, 0);
   // The owner of an open file gets signals, which the process that sets the owner can choose.
   for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
   for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <stdexcept>
 #include <vector>
 
@@ -43,7 +42,7 @@ struct Pipe {
   dup2(errors.write, STDERR_FILENO);
   closefrom(STDERR_FILENO + 1);
   std::signal(SIGPIPE, SIG_DFL);
-  // The shell itself is replaced, so that the limits and the computing time are those of the program.
+  // The shell itself is replaced, so that the limits are those of the program.
   // A command that first changes the folder says `exec` itself.
   execl("/bin/sh", "sh", "-c", ((command.starts_with("cd ") ? "" : "exec ") + command).c_str(), nullptr);
   _exit(127);
@@ -57,8 +56,7 @@ std::string last_line(std::string text) {
 
 }  // namespace
 
-Program::Program(const std::string& command, std::atomic<std::uint64_t>& time)
-    : command_(command), time_(time) {
+Program::Program(const std::string& command) : command_(command) {
   start(command);
   try {
     description_ = ProgramDescription::parse(read_description());
@@ -108,7 +106,7 @@ void Program::start(const std::string& command) {
   const Pipe errors;
   process_ = fork();
   if (process_ == 0) become(command, in, out, errors);
-  if (process_ < 0 || clock_getcpuclockid(process_, &clock_) != 0) throw Error("cannot start a program");
+  if (process_ < 0) throw Error("cannot start a program");
   std::signal(SIGPIPE, SIG_IGN);
   for (const int each : {in.read, out.write, errors.write}) close(each);
   in_ = in.write;
@@ -179,10 +177,6 @@ void Program::wait_for(int pipe, short event) {
   poll(pipes.data(), count, ended ? 0 : look_again_ms);
   if (ended && pipes[0].revents == 0) end_like_it();  // its own children may hold the pipe open
   if (count > 1 && pipes[1].revents != 0) read_errors();
-  timespec time{};
-  if (clock_gettime(clock_, &time) == 0)
-    time_.store(static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 +
-                static_cast<std::uint64_t>(time.tv_nsec));
 }
 
 bool Program::has_ended() const {

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <sys/types.h>
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -20,9 +19,8 @@ struct UnaskedBytes {};
 /// process. If it ends, so does this process, in the same way.
 class Program {
  public:
-  /// Starts the command, and reads its description. `time` is kept at its computing time, in ns. Throws
-  /// Error.
-  Program(const std::string& command, std::atomic<std::uint64_t>& time);
+  /// Starts the command, and reads its description. Throws Error.
+  explicit Program(const std::string& command);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
   /// Ends its standard input, and waits until it has ended.
@@ -57,9 +55,7 @@ class Program {
   [[noreturn]] void end_like_it();
 
   std::string command_;
-  std::atomic<std::uint64_t>& time_;
   pid_t process_ = -1;
-  clockid_t clock_{};
   int in_ = -1, out_ = -1,
       errors_ = -1;          ///< pipes to its standard input, and from its standard output and error
   std::string last_errors_;  ///< the end of what it wrote to standard error

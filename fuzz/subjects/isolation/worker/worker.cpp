@@ -88,7 +88,7 @@ int run_plugin(const Assignment& work) {
   tell({.code = 0, .status = 0, .is_in_namespace = work.own_namespace ? 1 : 0});
   close(status_socket);
   drop_privileges();
-  if (!work.own_namespace) confine_signals();
+  if (!work.own_namespace) confine_to_itself();
   prctl(PR_SET_DUMPABLE, 1);
   return answer_requests(work.plugin, work.bytes);
 }
@@ -138,6 +138,7 @@ int run(Assignment work) {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   forbid_core_dumps();
+  be_ended_first_for_want_of_memory();
   limit_processes(most_processes);
   const sigset_t blocked = end_of_child();
   sigprocmask(SIG_BLOCK, &blocked, nullptr);

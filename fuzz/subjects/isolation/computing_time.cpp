@@ -1,0 +1,69 @@
+#include "fuzz/subjects/isolation/computing_time.hpp"
+
+#include <unistd.h>
+
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace nearmiss::isolation {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_of(pid_t process) { return "/proc/" + std::to_string(process); }
+
+/// The time of the children that a process has waited for, and of theirs.
+Duration time_of_ended_children(pid_t process) {
+  std::ifstream file(folder_of(process) + "/stat");
+  constexpr std::size_t most = 1024;
+  std::string text(most, '\0');
+  file.read(text.data(), most);  // fails without an exception, also if the process ends meanwhile
+  const std::size_t end_of_name = text.rfind(')');  // the name may contain anything
+  if (end_of_name == std::string::npos) return {};
+  std::istringstream fields(text.substr(end_of_name + 1));
+  constexpr int before = 13;  // from `state` to `stime` of proc(5)
+  std::string skipped;
+  for (int i = 0; i < before; ++i) fields >> skipped;
+  double user = 0, system = 0;
+  fields >> user >> system;
+  return (user + system) * clock_tick();
+}
+
+void add_children(pid_t process, std::vector<pid_t>& found) {
+  std::error_code none;
+  for (const auto& thread : fs::directory_iterator(folder_of(process) + "/task", none)) {
+    std::ifstream children(thread.path() / "children");
+    for (pid_t child = 0; children >> child;) found.push_back(child);
+  }
+}
+
+}  // namespace
+
+Duration computing_time(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return {};
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+Duration clock_tick() { return Duration(1.0 / static_cast<double>(sysconf(_SC_CLK_TCK))); }
+
+ComputingTime computing_time_of_tree(pid_t root) {
+  ComputingTime sum;
+  std::vector<pid_t> processes{root};
+  for (std::size_t i = 0; i < processes.size(); ++i) {
+    const pid_t process = processes[i];
+    sum.running += computing_time(process);
+    sum.ended += time_of_ended_children(process);
+    add_children(process, processes);
+  }
+  return sum;
+}
+
+}  // namespace nearmiss::isolation

@@ -1,0 +1,30 @@
+// How long a process and its descendants have computed.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+
+namespace nearmiss::isolation {
+
+using Duration = std::chrono::duration<double>;
+
+/// The computing time of all threads of a process; 0 if there is no such process.
+Duration computing_time(pid_t process);
+
+/// Computing times of several processes.
+struct ComputingTime {
+  Duration running{};  ///< of processes that are there
+  Duration ended{};    ///< of those that have ended and that their parents have waited for, to a clock tick
+
+  [[nodiscard]] Duration sum() const { return running + ended; }
+};
+
+/// The length of a clock tick, by which a sum of `ended` may be too small.
+Duration clock_tick();
+
+/// Adds up a process and all its descendants. Descendants are found only if the system has the file
+/// /proc/PID/task/TID/children (proc(5)), as the kernels of distributions do.
+ComputingTime computing_time_of_tree(pid_t root);
+
+}  // namespace nearmiss::isolation
