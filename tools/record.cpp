@@ -23,6 +23,7 @@
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/commit.hpp"
+#include "tools/terminal.hpp"
 
 namespace nearmiss::tools {
 
@@ -60,6 +61,18 @@ void print_broken(std::FILE* text, const std::vector<Finding>& findings, const S
   }
 }
 
+/// Saves. Waits half a minute for a process that has locked the store.
+template <class Save>
+void patiently(const Save& save) {
+  for (int tries_left = 20;; --tries_left) {
+    try {
+      return save();
+    } catch (const StoreIsLocked&) {
+      if (tries_left == 0) throw;
+    }
+  }
+}
+
 }  // namespace
 
 void RecordOptions::add_to(CLI::App& command) {
@@ -81,6 +94,7 @@ RunInfo run_info(const std::string& command) {
 
 Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
+  stop_on_signals();
   options_.json.expect_writable();
   options_.json.expect_other_file(options_.db);
   shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
@@ -155,7 +169,7 @@ void Record::add(TrialResult&& result) {
 }
 
 void Record::add(const ScenePicture& picture) {
-  if (store_) store_->add(picture);
+  if (store_) patiently([&] { store_->add(picture); });
 }
 
 void Record::save() {
@@ -176,13 +190,7 @@ void Record::save_all() {
 }
 
 void Record::save_now() {
-  for (int tries_left = 20;; --tries_left) {
-    try {
-      return save_all();
-    } catch (const StoreIsLocked&) {
-      if (tries_left == 0) throw;
-    }
-  }
+  patiently([&] { save_all(); });
 }
 
 void Record::add_unasked(const Subjects& subjects) {

@@ -39,7 +39,8 @@ RunInfo environment();
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
 class Record {
  public:
-  /// Throws Error, before any work is done, if a file cannot be made, or if the store has another run.
+  /// Throws Error, before any work is done, if a file cannot be made, or if the store has another run. From
+  /// now on, a signal only sets a flag (stop_on_signals), so that the command saves its results.
   Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
@@ -53,9 +54,9 @@ class Record {
 
   /// Adds a result, and replaces findings that have been shrunk since; saves at intervals.
   void add(TrialResult&& result);
-  /// Saves a picture, if there is a store.
+  /// Saves a picture, if there is a store. Waits half a minute for a process that has locked it.
   void add(const ScenePicture& picture);
-  /// Saves what was added. Waits half a minute for a process that has locked the store.
+  /// Saves what was added. Waits as long.
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 

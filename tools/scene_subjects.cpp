@@ -10,7 +10,6 @@
 #include "fuzz/scenes/scene_bound.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/text/text.hpp"
-#include "tools/terminal.hpp"
 
 namespace nearmiss::tools {
 
@@ -37,7 +36,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
       made.push_back(std::move(subject));
   };
   for (const std::string& bound : bounds) {
-    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene, stop);
+    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
     const std::string suffix = bound == "pair"    ? ""
                                : bound == "scene" ? std::string(of_scene)
                                                   : fmt::format("@{}", *parse_bound(bound));
@@ -52,7 +51,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects, std::FILE* out) {
   const double limit = parse_number(thickness, "--thickness");
-  const auto all = claimed_precisions(scene, leave_out, subjects, [] { return interrupted().load(); });
+  const auto all = claimed_precisions(scene, leave_out, subjects);
   const ClaimedPrecision* const best = cheapest_within(all, limit);
   std::vector<std::vector<std::string>> rows{{"subject", "claimed distance", "ns/query", ""}};
   for (const ClaimedPrecision& each : all)

@@ -71,10 +71,9 @@ void end_on_signals() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 
-const std::atomic<bool>& interrupted() {
-  handle_interrupts(on_signal);
-  return stop;
-}
+void stop_on_signals() { handle_interrupts(on_signal); }
+
+const std::atomic<bool>& interrupted() { return stop; }
 
 Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,9 @@ struct ClaimedPrecision {
   double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
 };
 
-/// The precisions of all subjects, in their order. `stop` ends the measurement early.
+/// The precisions of all subjects, in their order.
 std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
-                                                 const Subjects& subjects, const std::function<bool()>& stop);
+                                                 const Subjects& subjects);
 
 /// The cheapest subject whose claim is at most the thickness of contact; null if there is none.
 const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -134,9 +135,9 @@ void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
     primitives.add({t.begin(), t.end()}, mark);
   }
   std::ranges::sort(of_triangles);
-  for (const auto& e : mesh.edges)
-    if (!std::ranges::binary_search(of_triangles, e))
-      primitives.add({e.begin(), e.end()}, mark_of(edges_, e));
+  std::vector<std::array<int, 2>> lines;
+  std::ranges::set_difference(mesh.edges, of_triangles, std::back_inserter(lines));
+  for (const auto& e : lines) primitives.add({e.begin(), e.end()}, mark_of(edges_, e));
 }
 
 /// Adds the points with a mark, and those in no primitive.

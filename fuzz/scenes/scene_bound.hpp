@@ -2,12 +2,11 @@
 #pragma once
 
 #include "fuzz/scenes/scene.hpp"
-#include "fuzz/stop.hpp"
 
 namespace nearmiss {
 
 /// The largest bound B (§5 of the paper) of all pairs whose boxes meet, over all steps, rounded up to four
-/// digits. Throws Stopped.
-double scene_bound(const Scene& scene, const Stop& stop);
+/// digits.
+double scene_bound(const Scene& scene);
 
 }  // namespace nearmiss

@@ -50,17 +50,11 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::funct
     for (const auto& [kind, funnel] : funnels)
       counted.statistics.funnels[{step_name(scene_, step), kind}].merge(funnel);
   trials_.add(std::move(counted));
-  if (sum.marks.size() > marks_.size()) {
-    most_marked_ = step;
-    marks_ = std::move(sum.marks);
-  }
-}
-
-std::optional<ScenePicture> SceneTrial::picture() const {
-  if (marks_.size() == 0) return std::nullopt;
+  if (sum.marks.size() <= most_marks_) return;
+  most_marks_ = sum.marks.size();
   std::vector<std::string> names;
   for (const auto& subject : trials_.subjects()) names.push_back(subject->name());
-  return marks_.picture(step_name(scene_, most_marked_), moving_mesh(scene_, most_marked_), names);
+  picture_ = sum.marks.picture(step_name(scene_, step), mesh, names);
 }
 
 SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t number,

@@ -23,7 +23,7 @@ class SceneTrial {
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
   /// The picture of the step with the most marked primitives so far; nothing if no primitive is marked.
-  [[nodiscard]] std::optional<ScenePicture> picture() const;
+  [[nodiscard]] const std::optional<ScenePicture>& picture() const { return picture_; }
 
  private:
   /// The funnels and marks of some parts, in addition to the results of their trials.
@@ -43,9 +43,9 @@ class SceneTrial {
   const Scene& scene_;
   LeaveOut leave_out_;
   Trials& trials_;
-  std::optional<Plan> plan_;     ///< of the last step
-  std::size_t most_marked_ = 0;  ///< the step of `marks_`
-  Marks marks_;
+  std::optional<Plan> plan_;    ///< of the last step
+  std::size_t most_marks_ = 0;  ///< of a step so far
+  std::optional<ScenePicture> picture_;
 };
 
 }  // namespace nearmiss

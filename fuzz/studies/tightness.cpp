@@ -111,6 +111,7 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
   std::vector<Gauge> gauges;
   for (const std::string& name : plan.names) gauges.push_back(gauge_of(name));
   for (const Gauge& gauge : gauges) {
+    if (stop) return;
     Extreme sum = gauge.nothing;
     const auto start = steady_clock::now();
     const std::size_t wave = 8 * static_cast<std::size_t>(plan.jobs);

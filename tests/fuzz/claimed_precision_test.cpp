@@ -23,7 +23,7 @@ TEST(ClaimedPrecision, TheCheapestWithinTheThicknessIsTaken) {
 TEST(ClaimedPrecision, IsTheLargestBoundOfAllPairs) {
   const MovingMesh mesh = tetrahedra(1);
   const Subjects subjects = testing::subjects_named({"wang"});
-  const auto found = claimed_precisions(scene_of(mesh), LeaveOut::all, subjects, never_over);
+  const auto found = claimed_precisions(scene_of(mesh), LeaveOut::all, subjects);
   double largest = 0;
   follow_plan(
       Plan(mesh, LeaveOut::all),

@@ -185,6 +185,13 @@ class Trial(unittest.TestCase):
             nearmiss.trial(interrupted, 1000)
         self.assertEqual(calls, 10)
 
+    def test_making_queries_ends_at_a_signal(self):
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        with self.assertRaises(KeyboardInterrupt):
+            signal.setitimer(signal.ITIMER_REAL, 0.01)
+            nearmiss.queries('uniform', 'vt', 10**7)
+
     def test_says_what_a_function_should_return(self):
         for answer, time, error, message in (
             (lambda n: np.zeros(n), 'none', TypeError, 'answers of type float64, expected bool'),

@@ -15,12 +15,14 @@
 
 namespace nearmiss::testing {
 
-/// Runs "nearmiss ARGUMENTS" in a folder. Kills it at the end of the scope if it still runs.
+/// Runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2" in its environment. Kills it at the
+/// end of the scope if it still runs.
 class Background {
  public:
-  Background(const std::filesystem::path& folder, const std::string& arguments) {
-    const std::string command = "cd " + folder.string() + " && exec " + NEARMISS_EXECUTABLE + " " +
-                                arguments + " >out.txt 2>error.txt";
+  Background(const std::filesystem::path& folder, const std::string& arguments,
+             const std::string& variables = "") {
+    const std::string command = "cd " + folder.string() + " && " + variables + " exec " +
+                                NEARMISS_EXECUTABLE + " " + arguments + " >out.txt 2>error.txt";
     process_ = fork();
     if (process_ == 0) {
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -66,9 +68,11 @@ class Background {
     });
   }
 
+  void send(int signal) const { kill(process_, signal); }
+
   /// Sends a signal, and waits for the process to end.
   void stop(int signal) {
-    kill(process_, signal);
+    send(signal);
     int status = 0;
     waitpid(process_, &status, 0);
     code_ = code_of(status);

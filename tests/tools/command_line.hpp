@@ -79,13 +79,14 @@ class CommandLine : public testing::TemporaryFolder {
       EXPECT_FALSE(std::filesystem::exists(file(name))) << arguments << " left " << name;
   }
 
-  /// Waits until a campaign has saved some rounds in a.db. Returns false if it ends before that.
-  [[nodiscard]] bool wait_for_a_save(Background& campaign) const {
-    const auto has_queries = [&] {
-      return run("report a.db -o saved").code == 0 && !read_json("saved/report.json")["subjects"].empty();
+  /// Waits until a command has saved, in a.db, at least this many cases. Returns false if it ends before that.
+  [[nodiscard]] bool wait_for_a_save(Background& command, std::uint64_t cases = 1) const {
+    const auto has_cases = [&] {
+      return run("report a.db -o saved").code <= 1 &&
+             read_json("saved/report.json")["runs"][0]["cases_done"] >= cases;
     };
-    while (campaign.wait_for_a_change(file("a.db-wal")))
-      if (has_queries()) return true;
+    while (command.wait_for_a_change(file("a.db-wal")))
+      if (has_cases()) return true;
     return false;
   }
 

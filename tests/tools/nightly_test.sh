@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs tools/nightly in its own copy of the tree, in which set-up and libFuzzer do nothing. Checks exit codes,
-# the baseline, and what remains after a signal and on a full disk. Also interrupts tools/run.
+# the baseline, and what remains after a signal and on a full disk. Also interrupts tools/run, and runs
+# tools/libfuzzer twice at the same time.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -105,7 +106,11 @@ expect "expected exit code 2, found $code" test $code = 2
 expect_said '^left out: 1 of 2 shards, which cannot be read$'
 expect "expected a report of the other shard" test -s "$folder/shards/report/index.html"
 # libFuzzer hunts equally long for each way to break a promise.
-printf '#!/bin/sh\necho "$*" >>%s/hunts\n' "$folder" >tools/libfuzzer
+cat >tools/libfuzzer <<END_OF_SCRIPT
+#!/bin/sh
+echo "\$3 \$4 \$5" >>"$folder/hunts"
+mkdir -p "\$2/\$3" && cp corpus/cases/rounding/vt-planted.case "\$2/\$3/"
+END_OF_SCRIPT
 night 0 --subject wang,wang-time --time 100s
 expect "expected six hunts of 6 s, found $(<"$folder/hunts")" cmp "$folder/hunts" - <<END_OF_HUNTS
 false_negative 6s wang
@@ -113,10 +118,44 @@ refuted_bound 6s wang
 false_negative 6s wang-time
 late 6s wang-time
 refuted_bound 6s wang-time
-oracle_disagreement 6s
+oracle_disagreement 6s 
 END_OF_HUNTS
 nothing tools/libfuzzer
+# What it finds is in the night's folder, and is replayed.
+"$nearmiss" merge "$folder/found.db" "$folder/the nights/last/found.db" >"$folder/said" || fail "expected a replay of what was found"
+expect_said '^oracle: 4 queries'
 rm -r "$folder/the nights"
+
+# Two hunts at the same time share their inputs, but not their findings. Only one of them replaces the inputs.
+mkdir -p fuzz build/fuzz "$folder/bin"
+cp -r "$source/fuzz/libfuzzer" fuzz/
+cp "$source/tools/libfuzzer" tools/
+touch build/fuzz/build.ninja
+nothing build/fuzz/fuzz_seeds
+printf '#!/bin/sh\n! flock --nonblock build/lock true || touch "%s/unlocked"\n' "$folder" >"$folder/bin/cmake"
+cat >build/fuzz/fuzz_late <<END_OF_SCRIPT
+#!/bin/sh
+case "\$*" in
+  -help=1) exit ;;
+  *-set_cover_merge=1*) echo >>"$folder/replaced"; exit ;;
+esac
+touch "\$NEARMISS_CASES/a.case"
+while ! test -e "$folder/enough"; do sleep 0.05; done
+END_OF_SCRIPT
+chmod +x build/fuzz/fuzz_late "$folder/bin/cmake"
+for each in one other; do
+  PATH=$folder/bin:$PATH tools/libfuzzer --jobs 1 --found "$folder/$each" late 100s &>"$folder/$each.said" &
+  until [[ -e $folder/$each/late/a.case ]]; do sleep 0.05; done
+done
+touch "$folder/enough"
+wait
+for each in one other; do
+  cp "$folder/$each.said" "$folder/said"
+  expect_said '^1 failures in '
+done
+expect "expected that one hunt replaces the inputs" test "$(wc -l <"$folder/replaced")" = 1
+expect "expected that builds are locked" test ! -e "$folder/unlocked"
+nothing tools/libfuzzer
 
 # Each signal is passed on to the part of the night that runs. A report is made, and no process remains.
 cp build/release/nearmiss quick
@@ -184,15 +223,18 @@ kill -TERM "$night"
 ends 130
 expect "expected no night" test "$(ls "$results")" = lock
 
-# A full disk ends the night with a report of the results so far.
+# A full disk, or one on which no further file can be made, ends the night with a report of the results so far.
 nothing tools/setup tools/libfuzzer
 ln -sf "$nearmiss" build/release/nearmiss
 mkdir "$folder/disk"
-mount -t tmpfs -o size=70m none "$folder/disk" 2>/dev/null || { echo "skipped: a small disk cannot be mounted here"; exit 77; }
-begin disk
-until_ saved families
-! head -c 100M /dev/zero >"$folder/disk/filler" 2>/dev/null || fail "the disk is not full"
-ends 2
-expect_report
-expect_said 'that failed with exit code 2'
+for full in 'head -c 100M /dev/zero >filler' 'touch {1..3000}'; do
+  mount -t tmpfs -o size=70m,nr_inodes=2000 none "$folder/disk" 2>/dev/null || { echo "skipped: a small disk cannot be mounted here"; exit 77; }
+  begin disk
+  until_ saved families
+  ! (cd "$folder/disk" && eval "$full") 2>/dev/null || fail "the disk is not full"
+  ends 2
+  expect_report
+  expect_said 'that failed with exit code 2'
+  umount "$folder/disk"
+done
 echo "nights report what there is, and know the last ones"

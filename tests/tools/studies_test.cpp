@@ -5,6 +5,7 @@ namespace nearmiss {
 namespace {
 
 using nlohmann::json;
+using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
@@ -48,6 +49,18 @@ TEST_F(CommandLine, PowerResumesWhereItStopped) {
   EXPECT_GT(results[0]["cases"], 0);
   EXPECT_EQ(results[2]["subject"], "defect:mu*1");
   EXPECT_TRUE(results[2]["failure"].is_null());
+}
+
+TEST_F(CommandLine, AnInterruptEndsPowersHuntWithLibFuzzer) {
+  write("fuzzer",
+        "test $2 = late || { echo nothing in 2 s, 100 executions; exit; }\ntouch late\nsleep 100000\n");
+  Background power(file(""),
+                   "power --time 24h --way libfuzzer --libfuzzer 'sh fuzzer' --json new.json "
+                   "--subject defect:vv,defect:later-root");
+  ASSERT_TRUE(power.wait_for_a_change(file("late"))) << read("error.txt");
+  power.stop(SIGTERM);
+  EXPECT_EQ(power.code(), 130) << read("error.txt");
+  EXPECT_EQ(read_json("new.json").size(), 1);
 }
 
 TEST_F(CommandLine, PowerHuntsWithATargetOfLibFuzzerForEachPromise) {

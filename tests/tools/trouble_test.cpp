@@ -1,12 +1,8 @@
 // Tests the command line with bad input, and with failures during the work.
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 #include "tests/reports/stored.hpp"
 #include "tests/tools/background.hpp"
@@ -224,65 +220,48 @@ TEST_F(CommandLine, ACampaignOutlastsALockOfItsStore) {
   EXPECT_GT(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 0);
 }
 
-/// A cgroup whose processes together may use 300 MB of memory.
-class SmallCgroup {
- public:
-  SmallCgroup() {
-    for (const std::filesystem::path root : {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"}) {
-      folder_ = root / ("nearmiss-test-" + std::to_string(getpid()));
-      std::error_code error;
-      if (!std::filesystem::create_directory(folder_, error)) continue;
-      for (const char* limit : {"memory.limit_in_bytes", "memory.max"})
-        exists_ |= write_to(folder_ / limit, "300000000");
-      for (const char* none : {"memory.swappiness", "memory.swap.max"}) write_to(folder_ / none, "0");
-      if (exists_) return;
-      rmdir(folder_.c_str());
-    }
+TEST_F(CommandLine, ASceneOutlastsALockOfItsStore) {
+  Background scene(file(""), "scene tumbling@100000 --subject wang --db a.db");
+  ASSERT_TRUE(wait_for_a_save(scene)) << read("error.txt");
+  {
+    const testing::Database other(file("a.db"));
+    other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
+    scene.send(SIGINT);  // it saves, and saves its picture, while the store is locked
+    std::this_thread::sleep_for(std::chrono::seconds(4));
+    EXPECT_FALSE(scene.has_ended()) << read("error.txt");
   }
-  SmallCgroup(const SmallCgroup&) = delete;
-  SmallCgroup& operator=(const SmallCgroup&) = delete;
-  ~SmallCgroup() {
-    if (exists_) rmdir(folder_.c_str());
-  }
-
-  [[nodiscard]] bool exists() const { return exists_; }
-  /// What a shell does to enter it.
-  [[nodiscard]] std::string enter() const { return "echo $$ >" + (folder_ / "cgroup.procs").string() + ";"; }
-
- private:
-  static bool write_to(const std::filesystem::path& file, const char* text) {
-    if (!std::filesystem::exists(file)) return false;
-    std::ofstream out(file);
-    out << text << std::flush;
-    return out.good();
-  }
-
-  std::filesystem::path folder_;
-  bool exists_ = false;
-};
-
-TEST_F(CommandLine, APluginThatUsesUpTheMemoryOfACgroupEndsAlone) {
-  const SmallCgroup small;
-  if (!small.exists()) GTEST_SKIP() << "found no cgroup whose memory can be limited";
-  const std::string fuzz = "fuzz --cases 1000 --family uniform --jobs 2 --no-shrink --subject wang,";
-  expect_code(1, fuzz + plugin("eat_file") + " --db a.db", small.enter() + " NEARMISS_ONE_IN=200");
-  const json counts = report_of("a.db", 1)["subjects"]["misbehaving"];
-  int crashes = 0, answered = 0;
-  for (const char* kind : {"vt", "ee"}) {
-    crashes += counts[kind]["faults"]["crash"].get<int>();
-    answered += counts[kind]["positives"].get<int>();
-  }
-  EXPECT_GT(crashes, 0);
-  EXPECT_EQ(crashes + answered, 1000);
+  scene.stop(0);
+  EXPECT_EQ(scene.code(), 130) << read("error.txt");
+  EXPECT_EQ(report_of("a.db")["pictures"].size(), 1);
 }
 
 TEST_F(CommandLine, AnInterruptSavesEverything) {
-  Background campaign(file(""), endless_campaign);
-  ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
-  campaign.stop(SIGINT);
-  EXPECT_EQ(campaign.code(), 130) << read("error.txt");
-  EXPECT_THAT(read("out.txt"), HasSubstr("no miss in"));
-  EXPECT_GT(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 0);
+  write_falling_triangle();
+  std::string queries;
+  for (int i = 0; i < 100'000; ++i) queries += miss;
+  write("q.vt", queries);
+  constexpr int all = 500;
+  const std::vector<std::pair<std::string, int>> commands{
+      {"fuzz --time 24h --family uniform", 1},
+      {"fuzz --time 24h --sweep stiff", 1},
+      {"fuzz --time 24h --search --family uniform", 1},
+      {"fuzz --time 24h --mesh start.obj end.obj --family mesh", 1},
+      {fmt::format("fuzz --cases {} --subject {}", all, plugin("crash")), all},  // while it shrinks
+      {"ladder --time 24h", 1},
+      {"tightness --time 24h --values 0,1 --subject '" + plugin("sampling") + ":tolerance=*'", 1},
+      {"scene tumbling@100000", 1},
+      {"scene tumbling@20000 --verify-plan", 1},
+      {"replay q.vt --subject " + plugin("waits"), 1}};
+  for (const auto& [command, cases] : commands) {
+    Background process(file(""), command + " --db a.db", "NEARMISS_ONE_IN=2");
+    ASSERT_TRUE(wait_for_a_save(process, cases)) << command << read("error.txt");
+    process.stop(SIGINT);
+    EXPECT_EQ(process.code(), 130) << command << read("error.txt");
+    EXPECT_THAT(read("out.txt"), HasSubstr("\noracle: ")) << command;
+    EXPECT_LE(run("report a.db -o report").code, 1) << command;
+    EXPECT_GE(read_json("report/report.json")["runs"][0]["cases_done"], cases) << command;
+    std::filesystem::remove(file("a.db"));
+  }
 }
 
 TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
@@ -349,12 +328,28 @@ std::string crowd() {
 TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
   ASSERT_EQ(mkfifo(file("endless").c_str(), 0600), 0);
   write("crowd.obj", crowd());
-  for (const char* command :
-       {"verdict --kind vt <>endless", "oracle --kind vt <>endless", "bench --runs 1000000",
-        "fuzz --mesh crowd.obj crowd.obj --family mesh --cases 10",
-        "scene crowd.obj crowd.obj --bound pair,scene"})
+  write("hit.vt", hit);
+  const std::string hang = " --query-time 24h --subject " + plugin("hang");
+  const std::vector<std::string> commands{"verdict --kind vt <>endless",
+                                          "verdict --kind vt hit.vt" + hang,
+                                          "oracle --kind vt <>endless",
+                                          "family uniform --seed 1 --kind vt --count 1000000000",
+                                          "shrink hit.vt" + hang,
+                                          "replay hit.vt" + hang,
+                                          "bench --runs 1000000",
+                                          "bench --queries 4000000000",
+                                          "bench hit.vt" + hang,
+                                          "power --time 24h",
+                                          "tightness --time 24h",
+                                          "fuzz --cases 10 --subject " + plugin("escaping_stop_while_loaded"),
+                                          "fuzz --mesh crowd.obj crowd.obj --family mesh --cases 10",
+                                          "scene knot@1000000",
+                                          "scene crowd.obj crowd.obj --bound pair,scene",
+                                          "scene crowd.obj crowd.obj --thickness 1",
+                                          "scene crowd.obj crowd.obj --export pairs"};
+  for (const std::string& command : commands)
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      Background process(file(""), command);
+      Background process(file(""), command, "NEARMISS_ONE_IN=1");
       ASSERT_TRUE(process.wait_until_it_handles_interrupts()) << command;
       process.stop(signal);
       EXPECT_EQ(process.code(), 130) << command;

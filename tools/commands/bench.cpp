@@ -236,6 +236,7 @@ int run(const Options& options) {
   fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
              "ns/query", over);
   Results results;
+  stop_on_signals();
   try {
     for (const Input& input : inputs) time_input(subjects, input, options.runs, stop, out, results);
   } catch (const Stopped&) {  // the inputs that were timed before the stop are still reported

@@ -1,9 +1,13 @@
 // nearmiss power: measures how soon each way to hunt finds each of the known defects.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -71,19 +75,41 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
+/// What a command of the shell prints. A signal to nearmiss ends the command, too.
+std::string output_of(const std::string& command) {
+  std::array<int, 2> pipe{};
+  const pid_t process = pipe2(pipe.data(), O_CLOEXEC) == 0 ? fork() : -1;
+  if (process < 0) throw Error(fmt::format("'{}': cannot be run", command));
+  if (process == 0) {
+    setpgid(0, 0);
+    dup2(pipe[1], STDOUT_FILENO);
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(exit_bad_input);
+  }
+  setpgid(process, process);  // whoever is first
+  close(pipe[1]);
+  std::string text;
+  std::array<char, 4096> buffer;
+  for (ssize_t n = 1; n != 0;) {
+    constexpr int patience_ms = 100;
+    pollfd readable{.fd = pipe[0], .events = POLLIN, .revents = 0};
+    if (interrupted()) kill(-process, SIGTERM);
+    if (poll(&readable, 1, patience_ms) <= 0) continue;
+    n = read(pipe[0], buffer.data(), buffer.size());
+    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  close(pipe[0]);
+  waitpid(process, nullptr, 0);
+  return text;
+}
+
 /// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for "found
 /// after S s, N executions: PATH" or "nothing in ...".
 Hunt hunt_with_target(const Options& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command =
       fmt::format("{} --first {} {}s '{}'", options.libfuzzer, target.name, seconds, subject);
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw Error(fmt::format("'{}': cannot be run", command));
-  std::string text;
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    text.append(buffer.data(), n);
-  pclose(pipe);
+  const std::string text = output_of(command);
   Hunt result{.subject = subject, .way = std::string(coverage_guided)};
   static const std::regex found("found after ([0-9.]+) s, ([0-9]+) executions: (.*)");
   if (std::smatch match; std::regex_search(text, match, found)) {
@@ -91,7 +117,7 @@ Hunt hunt_with_target(const Options& options, const std::string& subject,
     result.seconds = std::stod(match[1]);
     result.cases = std::stoull(match[2]);
     result.provenance = match[3].str();
-  } else if (text.find("nothing in") == std::string::npos) {
+  } else if (text.find("nothing in") == std::string::npos && !interrupted()) {
     throw Error(
         fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command, text));
   }
@@ -165,6 +191,7 @@ int run(const Options& options) {
     return std::any_of(results.begin(), results.end(),
                        [&](const Hunt& each) { return each.subject == subject && each.way == way; });
   };
+  stop_on_signals();
   Progress progress;
   for (const std::string& subject : subjects) {
     for (const std::string& way : ways) {

@@ -38,7 +38,7 @@ int run(const Options& options) {
   const Subjects subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
   if (options.separation.apply({}).separation > 0) expect_separations(subjects);
   for (const fs::path& path : options.paths)  // checks all files before anything is written
-    read_cases(path, [&](const Case&) { stop.check(); });
+    read_cases(path, [](const Case&) {});
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
   RunInfo info = options.trial.run_info(command, subjects);

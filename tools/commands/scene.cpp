@@ -70,13 +70,13 @@ class Export {
       files_.try_emplace(kind, name);
     }
   }
-  /// Writes the pairs of a step that subjects are asked about.
-  void add_all(const MovingMesh& mesh, LeaveOut leave_out, const Stop& stop) {
+  /// Writes the pairs of a step that subjects are asked about. Throws Stopped.
+  void add_all(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
       for (const Query& query : pairs.queries) files_.at(pairs.kind).out << to_line(query) << '\n';
     };
-    follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.is_due(); });
+    follow_plan(Plan(mesh, leave_out, jobs, is_over), write, {}, is_over);
   }
   /// Renames the temporary files to their final names, except empty files. Throws Error if something could
   /// not be written.
@@ -153,47 +153,53 @@ class SceneProgress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-struct Verified {
+struct Held {
+  std::string scene;  ///< its name and size; "" if it was stopped before
   Verification verification;
   std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
 };
 
-/// Goes through all steps of a scene.
-Verified hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
-                     const Stop& stop) {
-  const LeaveOut leave_out = leave_outs.at(options.leave_out);
-  Export exported(options.export_to);
-  Verified verified;
-  SceneProgress progress(options, scene.steps(), record);
-  Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
-                [&](TrialResult&& result) { record.add(std::move(result)); });
-  SceneTrial trial(scene, leave_out, trials);
-  const auto is_over = [&] { return stop.is_due(); };
-  for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
-    exported.add_all(mesh, leave_out, stop);
-    const auto start = std::chrono::steady_clock::now();
-    trial.hold(step, mesh, [&](double part) { progress.asking(step, part); });
-    verified.asking += std::chrono::steady_clock::now() - start;
-    if (options.verify_plan && !stop.is_due())
-      verified.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
-        progress.verifying(step, part);
-        return !stop.is_due();
-      }));
-  });
-  trials.finish([&] { progress.shrinking(trials.to_shrink()); });
-  if (!stop.is_due()) exported.finish();
-  if (const auto picture = trial.picture()) record.add(*picture);
-  return verified;
-}
-
-/// The scene's name and size, for the terminal.
-std::string describe(const Scene& scene) {
-  const MovingMesh mesh = moving_mesh(scene, 0);
+/// The scene's name and size, for the terminal. `mesh` is the mesh of its first step.
+std::string describe(const Scene& scene, const MovingMesh& mesh) {
   return fmt::format("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
                      counted(mesh.start.size(), "vertex", "vertices"),
                      counted(mesh.triangles.size(), "triangle", "triangles"),
                      counted(mesh.edges.size(), "edge", "edges"),
                      counted(static_cast<std::size_t>(bodies(scene.mesh).count), "body", "bodies"));
+}
+
+/// Goes through all steps of a scene.
+Held hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
+                 const Stop& stop) {
+  const LeaveOut leave_out = leave_outs.at(options.leave_out);
+  Export exported(options.export_to);
+  Held held;
+  SceneProgress progress(options, scene.steps(), record);
+  Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
+                [&](TrialResult&& result) { record.add(std::move(result)); });
+  SceneTrial trial(scene, leave_out, trials);
+  const IsOver is_over = [&] { return stop.is_due(); };
+  const auto hold = [&](std::size_t step, const MovingMesh& mesh) {
+    if (step == 0) held.scene = describe(scene, mesh);
+    exported.add_all(mesh, leave_out, options.trial.jobs, is_over);
+    const auto start = std::chrono::steady_clock::now();
+    trial.hold(step, mesh, [&](double part) { progress.asking(step, part); });
+    held.asking += std::chrono::steady_clock::now() - start;
+    if (!options.verify_plan) return;
+    record.save_now();  // because verifying takes long
+    held.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
+      progress.verifying(step, part);
+      return !stop.is_due();
+    }));
+  };
+  try {
+    for_each_step(scene, is_over, hold);
+  } catch (const Stopped&) {  // the results so far are still reported
+  }
+  trials.finish([&] { progress.shrinking(trials.to_shrink()); });
+  if (!stop.is_due()) exported.finish();
+  if (trial.picture()) record.add(*trial.picture());
+  return held;
 }
 
 int run(Options options) {
@@ -214,21 +220,21 @@ int run(Options options) {
     keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects, text);
 
   Record record(options.record, info, {.environment = plugins});
-  const Verified verified = hold_trials(options, scene, all.subjects, record, stop);
-  fmt::print(text, "{}", describe(scene));
+  const Held held = hold_trials(options, scene, all.subjects, record, stop);
+  fmt::print(text, "{}", held.scene);
   if (record.statistics().counts.empty())
     fmt::print(text, "no subject was asked: the plan decides all pairs\n");
   if (!stop.is_requested()) record.add_unasked(all.subjects);
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
   if (!options.verify_plan || stop.is_requested()) return code;
-  const double asking = verified.asking.count();
-  const double verifying = verified.verification.seconds;
+  const double asking = held.asking.count();
+  const double verifying = held.verification.seconds;
   fmt::print(
       text,
       "\n{}following the plan took {:.3g} s; asking about all that it leaves out {:.3g} s, {:.3g} times as "
       "long\n",
-      describe(verified.verification), asking, verifying, verifying / asking);
-  return verified.verification.fine() ? code : exit_found;
+      describe(held.verification), asking, verifying, verifying / asking);
+  return held.verification.fine() ? code : exit_found;
 }
 
 void add_scene_options(CLI::App& command, Options& options) {

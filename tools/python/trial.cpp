@@ -167,8 +167,10 @@ py::tuple make(const std::string& family, std::string_view kind, std::size_t cou
   std::vector<Query> queries;
   const Family from = find_family(family);
   const QueryMaker query(from, seed);
-  for (std::uint64_t index = 0; queries.size() < count; ++index)
+  for (std::uint64_t index = 0; queries.size() < count; ++index) {
     if (short_name(kind_of(index)) == kind) queries.push_back(query(index));
+    if (index % 1000 == 0) let_python_handle_signals();
+  }
   return py::make_tuple(coordinates_of(queries), separations_of(queries));
 }
 

@@ -1,0 +1,70 @@
+// nearmiss where memory is short.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+using testing::CommandLine;
+
+/// A cgroup whose processes together may use 300 MB of memory.
+class SmallCgroup {
+ public:
+  SmallCgroup() {
+    for (const std::filesystem::path root : {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"}) {
+      folder_ = root / ("nearmiss-test-" + std::to_string(getpid()));
+      std::error_code error;
+      if (!std::filesystem::create_directory(folder_, error)) continue;
+      for (const char* limit : {"memory.limit_in_bytes", "memory.max"})
+        exists_ |= write_to(folder_ / limit, "300000000");
+      for (const char* none : {"memory.swappiness", "memory.swap.max"}) write_to(folder_ / none, "0");
+      if (exists_) return;
+      rmdir(folder_.c_str());
+    }
+  }
+  SmallCgroup(const SmallCgroup&) = delete;
+  SmallCgroup& operator=(const SmallCgroup&) = delete;
+  ~SmallCgroup() {
+    if (exists_) rmdir(folder_.c_str());
+  }
+
+  [[nodiscard]] bool exists() const { return exists_; }
+  /// What a shell does to enter it.
+  [[nodiscard]] std::string enter() const { return "echo $$ >" + (folder_ / "cgroup.procs").string() + ";"; }
+
+ private:
+  static bool write_to(const std::filesystem::path& file, const char* text) {
+    if (!std::filesystem::exists(file)) return false;
+    std::ofstream out(file);
+    out << text << std::flush;
+    return out.good();
+  }
+
+  std::filesystem::path folder_;
+  bool exists_ = false;
+};
+
+TEST_F(CommandLine, APluginThatUsesUpTheMemoryOfACgroupEndsAlone) {
+  const SmallCgroup small;
+  if (!small.exists()) GTEST_SKIP() << "found no cgroup whose memory can be limited";
+  const std::string fuzz = "fuzz --cases 1000 --family uniform --jobs 2 --no-shrink --subject wang,";
+  expect_code(1, fuzz + plugin("eat_file") + " --db a.db", small.enter() + " NEARMISS_ONE_IN=200");
+  const json counts = report_of("a.db", 1)["subjects"]["misbehaving"];
+  int crashes = 0, answered = 0;
+  for (const char* kind : {"vt", "ee"}) {
+    crashes += counts[kind]["faults"]["crash"].get<int>();
+    answered += counts[kind]["positives"].get<int>();
+  }
+  EXPECT_GT(crashes, 0);
+  EXPECT_EQ(crashes + answered, 1000);
+}
+
+}  // namespace
+}  // namespace nearmiss
