@@ -14,12 +14,12 @@ namespace nearmiss::tools {
 void occupy_standard_streams();
 
 /// Until `stop_on_signals` is called, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code
-/// of an interrupt. Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an error
-/// instead of a signal.
+/// of an interrupt. Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an
+/// error instead of a signal.
 void end_on_signals();
 
-/// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that results can be saved; a second signal, at least
-/// two seconds later, ends the program at once. To be called when there is something to save, but not
+/// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that results can be saved; a second signal, at
+/// least two seconds later, ends the program at once. To be called when there is something to save, but not
 /// earlier, so that a signal need not wait for the loading of files.
 void stop_on_signals();
 /// This flag.

@@ -15,8 +15,8 @@
 
 namespace nearmiss::testing {
 
-/// Runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2" in its environment. Kills it at the
-/// end of the scope if it still runs.
+/// Runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2" in its environment. Kills it at
+/// the end of the scope if it still runs.
 class Background {
  public:
   Background(const std::filesystem::path& folder, const std::string& arguments,

@@ -79,7 +79,7 @@ class CommandLine : public testing::TemporaryFolder {
       EXPECT_FALSE(std::filesystem::exists(file(name))) << arguments << " left " << name;
   }
 
-  /// Waits until a command has saved, in a.db, at least this many cases. Returns false if it ends before that.
+  /// Waits until a command has saved, in a.db, at least this many cases. Returns false if it ends before.
   [[nodiscard]] bool wait_for_a_save(Background& command, std::uint64_t cases = 1) const {
     const auto has_cases = [&] {
       return run("report a.db -o saved").code <= 1 &&
