@@ -48,6 +48,14 @@ static int misbehave(void) {
   const int file = memfd_create("eaten", 0);
   while (write(file, block, sizeof block) > 0) {
   }
+  close(file);
+  return 1;
+#elif defined(EAT_IN_CHILDREN)
+  for (int i = 0; i < 16; ++i) {
+    if (fork() != 0) continue;
+    for (void* block = malloc(1 << 20); block != NULL; block = malloc(1 << 20)) memset(block, 1, 1 << 20);
+    while (1) pause();
+  }
   return 1;
 #elif defined(FAIL)
   return -7;

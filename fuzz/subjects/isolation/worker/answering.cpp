@@ -132,9 +132,13 @@ void limit(pid_t process, __rlimit_resource resource, rlim_t bytes) {
 }
 
 /// Limits the memory that this process, and later those that it starts, may use while the plug-in is loaded,
-/// and again as much after that. Addresses are not limited yet, because drivers of devices reserve many.
+/// and again as much after that. Addresses are not limited yet, because drivers of devices reserve many. No
+/// file, on a disk or in memory, may become larger; to write more is an error.
 void limit_memory_of_loading(rlim_t more) {
-  if (more != 0) limit(getpid(), RLIMIT_DATA, memory_of(getpid()).data + 2 * more);
+  if (more == 0) return;
+  limit(getpid(), RLIMIT_DATA, memory_of(getpid()).data + 2 * more);
+  limit(getpid(), RLIMIT_FSIZE, more);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 /// Limits the memory that a process may use in addition to what it has.
