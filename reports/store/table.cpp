@@ -36,16 +36,6 @@ std::string schema() {
   return text;
 }
 
-/// The first 64 bits of a SHA-256 digest of the version, the table's name, the key and the value.
-std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value) {
-  Sha256 digest;
-  digest.add(fmt::format("{} {} {} {} ", store_version, table, key.size(), value.size())).add(key).add(value);
-  const auto bytes = digest.digest();
-  return static_cast<std::int64_t>(
-      std::accumulate(bytes.begin(), bytes.begin() + sizeof(std::uint64_t), std::uint64_t{0},
-                      [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
-}
-
 /// The most rows of a table that are looked for. A store has far fewer, but a damaged one may claim any number.
 constexpr std::uint64_t most_rows = 1'000'000;
 
@@ -104,6 +94,15 @@ std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
 }
 
 }  // namespace
+
+std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value) {
+  Sha256 digest;
+  digest.add(fmt::format("{} {} {} {} ", store_version, table, key.size(), value.size())).add(key).add(value);
+  const auto bytes = digest.digest();
+  return static_cast<std::int64_t>(
+      std::accumulate(bytes.begin(), bytes.begin() + sizeof(std::uint64_t), std::uint64_t{0},
+                      [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
+}
 
 bool is_empty(const SQLite::Database& db) {
   return !SQLite::Statement(db, "SELECT 1 FROM sqlite_schema").executeStep();

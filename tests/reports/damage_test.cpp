@@ -6,7 +6,6 @@
 
 #include "ccd/query/error.hpp"
 #include "fuzz/random.hpp"
-#include "reports/sha256.hpp"
 #include "reports/store/store.hpp"
 #include "reports/store/table.hpp"
 #include "tests/refused.hpp"
@@ -179,12 +178,8 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
 void claim_rows(const std::filesystem::path& store, const std::string& table, const std::string& rows) {
   const std::string key = '"' + table + '"';
   const std::string value = R"({"rows":)" + rows + R"(,"sum":0})";
-  const std::string digest =
-      sha256_hex(std::to_string(store_version) + " contents " + std::to_string(key.size()) + " " +
-                 std::to_string(value.size()) + " " + key + value);
-  const auto checksum = static_cast<std::int64_t>(std::stoull(digest.substr(0, 16), nullptr, 16));
-  Database(store).execute("UPDATE contents SET value = '" + value +
-                          "', checksum = " + std::to_string(checksum) + " WHERE key = '" + key + "'");
+  Database(store).execute("UPDATE contents SET value = '" + value + "', checksum = " +
+                          std::to_string(checksum("contents", key, value)) + " WHERE key = '" + key + "'");
 }
 
 TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
