@@ -202,7 +202,8 @@ class OpenStore {
       if (table == "contents") continue;
       const Contents contents = seal_rows(table);
       if (!counts_rows) continue;
-      SQLite::Statement replace(db_, "INSERT OR REPLACE INTO contents VALUES (?, ?, 0)");
+      SQLite::Statement replace(
+          db_, "INSERT INTO contents VALUES (?, ?, 0) ON CONFLICT DO UPDATE SET value = excluded.value");
       replace.bind(1, json(table).dump());
       replace.bind(2, json(contents).dump());
       replace.exec();
