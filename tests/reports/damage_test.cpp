@@ -203,7 +203,7 @@ TEST_F(DamageTest, RowsDoNotShareALongValue) {
   constexpr std::size_t page_size = 4096;
   // All but 489 bytes of the row are on other pages.
   const std::string key = R"([0,"scene:cloth"])";
-  const std::string value = '"' + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + '"';
+  const std::string value = R"({"points":")" + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + "\"}";
   write_campaign({{{{}, {}, {}, {{"scene:cloth", value}}}}, {}}, file("b.db"));
   // The only cell of the page begins with the size of the row in three bytes, and the row's id.
   std::string bytes = read("b.db");
@@ -225,6 +225,13 @@ TEST_F(DamageTest, RowsDoNotShareALongValue) {
   write("b.db", bytes);
   claim_rows(file("b.db"), "picture", "4", 4 * static_cast<std::uint64_t>(checksum("picture", key, value)));
   EXPECT_REFUSED(load_campaign(file("b.db")), "without 2 of 4 rows of picture");
+}
+
+TEST_F(DamageTest, APictureIsAnObject) {
+  write_campaign({{{{}, {}, {}, {{"scene:cloth", "{}"}}}}, {}}, file("b.db"));
+  const std::int64_t sum = checksum("picture", R"([0,"scene:cloth"])", "1");
+  Database(file("b.db")).execute("UPDATE picture SET value = '1', checksum = " + std::to_string(sum));
+  EXPECT_REFUSED(load_campaign(file("b.db")), "b.db: table picture: type must be object, but is number");
 }
 
 TEST_F(DamageTest, ARowOfAnEarlierSaveIsNoticed) {
