@@ -1,5 +1,6 @@
 // Writes the inputs that libFuzzer starts from. `fuzz_seeds FOLDER CASES...` makes FOLDER/TARGET/... for
 // every target, from the cases in the given files and folders and from some queries of each family.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmpxx.h>
 
@@ -19,6 +20,7 @@
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
+#include "reports/store/store.hpp"
 
 namespace nearmiss::libfuzzer {
 namespace {
@@ -126,11 +128,73 @@ std::vector<std::string> meshes(const Query& query) {
       binary_stl(query)};
 }
 
+/// A campaign with results of every sort.
+Campaign campaign() {
+  const Query query = make_query(families().front(), 1, 0);
+  Campaign campaign;
+  Statistics& statistics = campaign.statistics;
+  const auto provenance = [] { return "uniform:1:0"; };
+  for (const char* subject : {"wang", "additive:rescaling=0.5", "additive:rescaling=0.9"})
+    for (const char* family : {"uniform", "search-miss@wang", "crossed~0.1", "scene:cloth#3", "folder/"}) {
+      Counts& counts = statistics.counts[{subject, query.kind, family}];
+      counts.add({.verdict = {true, Stage::ve_minimum, 0.5},
+                  .collision = true,
+                  .time = TimeError{.early = 0.25, .travelled = 0.5, .promised = true}},
+                 query, provenance);
+      counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, provenance);
+      counts.add({.verdict = {true, Stage::vv, 0.5}, .ratio = 0.5}, query, provenance);
+      counts.times.add(query.kind, family, {3, 300});
+      counts.times.add(100, query, provenance);
+      statistics.oracle[{query.kind, family}].queries = 3;
+    }
+  statistics.funnels[{"scene:cloth#3", query.kind}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
+  count_collision(statistics.factors, {"wang", query.kind, "crossed", ""},
+                  std::array<std::string, 2>{"scale=1", "when=at-1"}, true);
+  statistics.versions[{"old", "wang", query.kind, "uniform"}] = {1, 2, 3, 4};
+  statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 0.5, query, "uniform:1:0", 7};
+  Run run{{{"command", "fuzz"}, {"seed", "1"}}, {{.count = 2, .environment = {{"cpu", "some"}}}}, {}};
+  for (const auto what : {Finding::What::false_negative, Finding::What::late, Finding::What::fault}) {
+    run.findings.push_back({.what = what,
+                            .subject = "wang",
+                            .family = "uniform",
+                            .query = query,
+                            .provenance = "uniform:1:0",
+                            .signature = "vt simple-root inside in-face",
+                            .shrunk = query,
+                            .simplest = query});
+    statistics.seen[signature_of(run.findings.back())] = 5;
+  }
+  run.pictures.push_back({"scene:cloth#3", R"({"points":[0,1]})"});
+  campaign.runs.push_back(run);
+  return campaign;
+}
+
+/// Writes a store with small pages, so that an input has few bytes.
+void write_store(const Campaign& campaign, const fs::path& file) {
+  fs::remove(file);
+  write_campaign(campaign, file);
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("PRAGMA page_size = 512; VACUUM");
+}
+
+void write_stores(const fs::path& folder) {
+  fs::create_directories(folder);
+  write_store(campaign(), folder / "whole.db");
+  Campaign part = campaign();
+  part.statistics = {};
+  write_store(part, folder / "findings.db");
+  part = campaign();
+  part.runs = {{{{"command", "fuzz"}}, {{}}, {}}};
+  write_store(part, folder / "statistics.db");
+  part.statistics = {};
+  write_store(part, folder / "begun.db");
+}
+
 void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
   const auto write = [&](const char* target, const std::string& name, const std::string& text) {
     fs::create_directories(folder / target);
     replace_file(folder / target / name, text);
   };
+  write_stores(folder / "read_store");
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
   for (const Case& each : make_cases(cases)) {

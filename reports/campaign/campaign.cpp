@@ -192,24 +192,28 @@ std::string how_far(const Run& run) {
 }  // namespace
 
 std::string missing_shards(const Run& run) {
-  std::vector<std::uint64_t> missing;
+  constexpr std::size_t most_named = 1000;  // a damaged store may claim any number of shards
+  std::vector<std::uint64_t> missing;       ///< the first of them
   std::vector<std::uint64_t> unfinished;
   std::vector<std::string> asked;  ///< number of cases of each unfinished shard
-  auto shard = run.shards.begin();
   const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;
-  for (std::uint64_t index = 0; index < count; ++index) {
-    if (shard == run.shards.end() || shard->index != index) {
-      missing.push_back(index);
-      continue;
-    }
-    if (!shard->complete) {
-      unfinished.push_back(index);
-      asked.push_back(with_separators(shard->cases));
-    }
-    ++shard;
+  std::uint64_t next = 0;
+  const auto miss_before = [&](std::uint64_t index) {
+    while (next < index && missing.size() < most_named) missing.push_back(next++);
+  };
+  for (const Shard& shard : run.shards) {
+    if (shard.index >= count) break;
+    miss_before(shard.index);
+    next = shard.index + 1;
+    if (shard.complete) continue;
+    unfinished.push_back(shard.index);
+    asked.push_back(with_separators(shard.cases));
   }
+  miss_before(count);
   std::string text;
-  if (!missing.empty()) text = fmt::format("shards {} of {} are missing", fmt::join(missing, ", "), count);
+  if (!missing.empty())
+    text = fmt::format("shards {}{} of {} are missing", fmt::join(missing, ", "),
+                       missing.size() < most_named ? "" : ", ...", count);
   if (!unfinished.empty() && count == 1) text = how_far(run);
   if (!unfinished.empty() && count > 1)
     text +=

@@ -14,9 +14,10 @@
 namespace nearmiss {
 
 /// The rows that belong to runs. Runs are numbered from 0.
-using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;           ///< by run and index
-using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;       ///< by run and place in it
-using Pictures = std::map<std::pair<std::uint64_t, std::string>, nlohmann::json>;  ///< by run and step
+using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;      ///< by run and index
+using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;  ///< by run and place in it
+using Pictures =
+    std::map<std::pair<std::uint64_t, std::string>, nlohmann::json::object_t>;  ///< by run and step
 
 /// Consecutive findings of a run, from the one at place `first` on.
 Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint64_t first = 0);

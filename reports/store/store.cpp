@@ -248,7 +248,8 @@ void Store::replace(std::span<const Finding> findings) {
 
 void Store::add(const ScenePicture& picture) {
   database_->change([&](Save& save) {
-    save.add("picture", Pictures{{{only_run, picture.step}, nlohmann::json::parse(picture.json)}});
+    save.add("picture", Pictures{{{only_run, picture.step},
+                                  nlohmann::json::parse(picture.json).get<nlohmann::json::object_t>()}});
   });
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <numeric>
+#include <system_error>
 
 #include "reports/sha256.hpp"
 #include "reports/text/json_file.hpp"
@@ -36,19 +38,6 @@ std::string schema() {
   return text;
 }
 
-/// The first 64 bits of a SHA-256 digest of the version, the table's name, the key and the value.
-std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value) {
-  Sha256 digest;
-  digest.add(fmt::format("{} {} {} {} ", store_version, table, key.size(), value.size())).add(key).add(value);
-  const auto bytes = digest.digest();
-  return static_cast<std::int64_t>(
-      std::accumulate(bytes.begin(), bytes.begin() + sizeof(std::uint64_t), std::uint64_t{0},
-                      [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
-}
-
-/// The most rows of a table that are looked for. A store has far fewer, but a damaged one may claim any number.
-constexpr std::uint64_t most_rows = 1'000'000;
-
 /// Whether SQLite would read a table's columns from the file. In a hostile store, they may be computed instead,
 /// by a view over an endless recursion, for example.
 bool is_plain(SQLite::Database& db, const std::string& table) {
@@ -62,20 +51,78 @@ bool is_plain(SQLite::Database& db, const std::string& table) {
   return !column.executeStep();
 }
 
-/// Passes the intact rows of a plain table to `take`. `last` is the largest row id to try. Rows are never removed singly, so n
-/// rows have the ids 1 to n.
+constexpr int most_bytes = 1 << 26;  // limit for a key or a value
+
+/// The bytes of a database's file and of the log beside it.
+std::uint64_t bytes_of(SQLite::Database& db) {
+  const char* const file = sqlite3_db_filename(db.getHandle(), "main");  // without links
+  std::uint64_t bytes = 0;
+  for (const char* part : {file, sqlite3_filename_wal(file)}) {
+    std::error_code missing;
+    const std::uintmax_t size = std::filesystem::file_size(part, missing);
+    if (!missing) bytes += size;
+  }
+  return bytes;
+}
+
+/// How much of a table is read. In a hostile store, few bytes can claim any number of rows, and many rows can
+/// share a long chain of pages.
+class Limits {
+ public:
+  explicit Limits(std::uint64_t bytes_of_store) : bytes_(bytes_of_store), unread_(bytes_of_store) {}
+
+  /// The most rows that are looked for.
+  [[nodiscard]] std::uint64_t rows() const {
+    constexpr std::uint64_t least_bytes = 16;  // of a row: checksum, lengths, key, value
+    constexpr std::uint64_t most = 1'000'000;
+    return std::min(bytes_ / least_bytes, most);
+  }
+
+  /// Counts the bytes of a row. Returns whether all rows together have no more bytes than the store.
+  bool read(std::uint64_t bytes) {
+    const bool fits = bytes <= unread_;
+    unread_ -= fits ? bytes : unread_;
+    return fits;
+  }
+
+  /// Counts a row that leads to damaged pages. Returns whether another row may be tried.
+  bool fail() {
+    constexpr int most = 1'000;
+    return ++failed_ < most;
+  }
+
+ private:
+  std::uint64_t bytes_, unread_;
+  int failed_ = 0;
+};
+
+/// Passes the intact rows of a plain table to `take`. `last` is the largest row id to try. Rows are never
+/// removed singly, so n rows have the ids 1 to n.
 Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take) {
   Contents found;
+  Limits limits(bytes_of(db));
   // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be
   // damaged, too.
-  SQLite::Statement row(
-      db, fmt::format("SELECT key, value, checksum FROM {} NOT INDEXED WHERE rowid = ?", table));
-  for (std::uint64_t id = 1; id <= last; ++id) {
+  const auto where_id = [&](const char* columns) {
+    return SQLite::Statement(db,
+                             fmt::format("SELECT {} FROM {} NOT INDEXED WHERE rowid = ?", columns, table));
+  };
+  const auto has = [](SQLite::Statement& row, std::uint64_t id) {
     row.tryReset();
     row.bind(1, static_cast<std::int64_t>(id));
-    if (row.tryExecuteStep() != SQLITE_ROW) continue;
+    return row.tryExecuteStep() == SQLITE_ROW;
+  };
+  SQLite::Statement row = where_id("key, value, checksum");
+  SQLite::Statement only_id = where_id("rowid");
+  last = std::min(last, limits.rows());
+  for (std::uint64_t id = 1; id <= last; ++id) {
+    if (!has(row, id)) {
+      if (row.getErrorCode() == SQLITE_CORRUPT && has(only_id, id) && !limits.fail()) break;
+      continue;
+    }
     const std::string key = row.getColumn(0).getString();
     const std::string value = row.getColumn(1).getString();
+    if (!limits.read(key.size() + value.size())) break;
     const std::int64_t sum = row.getColumn(2).getInt64();
     if (sum != checksum(table, key, value)) continue;
     found.add(static_cast<std::uint64_t>(sum));
@@ -105,6 +152,15 @@ std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
 
 }  // namespace
 
+std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value) {
+  Sha256 digest;
+  digest.add(fmt::format("{} {} {} {} ", store_version, table, key.size(), value.size())).add(key).add(value);
+  const auto bytes = digest.digest();
+  return static_cast<std::int64_t>(
+      std::accumulate(bytes.begin(), bytes.begin() + sizeof(std::uint64_t), std::uint64_t{0},
+                      [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
+}
+
 bool is_empty(const SQLite::Database& db) {
   return !SQLite::Statement(db, "SELECT 1 FROM sqlite_schema").executeStep();
 }
@@ -125,6 +181,8 @@ void expect_store(SQLite::Database& db) {
 }
 
 Reader::Reader(SQLite::Database& db) : db_(db) {
+  const auto bytes = static_cast<int>(std::min(bytes_of(db), std::uint64_t{most_bytes}));
+  sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, bytes);
   try {
     contents_ = read_contents(db);
   } catch (const SQLite::Exception&) {  // its definition is lost
@@ -140,7 +198,7 @@ void Reader::read(const std::string& table, const Take& take) {
   try {
     if (is_plain(db_, table)) {
       last = last_row(db_, table);
-      found = read_intact(db_, table, std::min(std::max(last, saved.rows), most_rows), take);
+      found = read_intact(db_, table, std::max(last, saved.rows), take);
     }
   } catch (const SQLite::Exception&) {  // its definition is lost
   }

@@ -34,6 +34,10 @@ bool is_empty(const SQLite::Database& db);
 /// of a store and nothing else, such as a view or a trigger.
 void expect_store(SQLite::Database& db);
 
+/// The checksum of a row: the first 64 bits of a SHA-256 digest of the version, the table's name, the key and
+/// the value.
+std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value);
+
 /// The number of rows of a table, and the sum of their checksums modulo 2^64. They reveal rows that are
 /// missing, doubled, or left from an earlier save. The table `contents` has both numbers for every other
 /// table; a save updates them without reading rows that it does not change.

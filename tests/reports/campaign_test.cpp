@@ -15,6 +15,10 @@
 namespace nearmiss {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::StartsWith;
+
 const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
 
 Finding finding(std::uint64_t round, const std::string& provenance, double shrunk,
@@ -99,6 +103,9 @@ TEST(Campaign, SaysWhichShardsAreMissing) {
   EXPECT_EQ(missing_shards(merged({1}).runs.front()), "shards 0, 2 of 3 are missing");
   EXPECT_EQ(missing_shards({{}, {{.index = 0, .count = 2}}, {}}),
             "shards 1 of 2 are missing, shards 0 of 2 are not complete (stopped after 0 cases)");
+  EXPECT_THAT(
+      missing_shards({{}, {{.index = 1, .count = ~std::uint64_t{0}, .complete = true}}, {}}),
+      AllOf(StartsWith("shards 0, 2, 3, "), EndsWith(", 1000, ... of 18446744073709551615 are missing")));
 }
 
 TEST(Campaign, SaysHowFarARunHasCome) {

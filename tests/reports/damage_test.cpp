@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <set>
 
 #include "ccd/query/error.hpp"
 #include "fuzz/random.hpp"
-#include "reports/sha256.hpp"
 #include "reports/store/store.hpp"
 #include "reports/store/table.hpp"
 #include "tests/refused.hpp"
@@ -176,21 +176,62 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
 }
 
 /// Replaces the row of `contents` about a table by another one with the right checksum.
-void claim_rows(const std::filesystem::path& store, const std::string& table, const std::string& rows) {
+void claim_rows(const std::filesystem::path& store, const std::string& table, const std::string& rows,
+                std::uint64_t sum = 0) {
   const std::string key = '"' + table + '"';
-  const std::string value = R"({"rows":)" + rows + R"(,"sum":0})";
-  const std::string digest =
-      sha256_hex(std::to_string(store_version) + " contents " + std::to_string(key.size()) + " " +
-                 std::to_string(value.size()) + " " + key + value);
-  const auto checksum = static_cast<std::int64_t>(std::stoull(digest.substr(0, 16), nullptr, 16));
-  Database(store).execute("UPDATE contents SET value = '" + value +
-                          "', checksum = " + std::to_string(checksum) + " WHERE key = '" + key + "'");
+  const std::string value = R"({"rows":)" + rows + R"(,"sum":)" + std::to_string(sum) + '}';
+  Database(store).execute("UPDATE contents SET value = '" + value + "', checksum = " +
+                          std::to_string(checksum("contents", key, value)) + " WHERE key = '" + key + "'");
 }
 
 TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
   claim_rows(file("a.db"), "seen", "4611686018427387904");
   EXPECT_REFUSED(load_campaign(file("a.db")), "some rows are not as they were saved");
   EXPECT_EQ(salvage_campaign(file("a.db")).lost, "4611686018427387901 of 4611686018427387904 rows of seen");
+}
+
+TEST_F(DamageTest, NoMoreRowsAreLookedForThanTheFileCanHold) {
+  for (const char* table : {"run", "shard", "finding", "picture", "campaign", "counts", "oracle", "funnel",
+                            "factor", "version", "seen", "extreme"})
+    claim_rows(file("a.db"), table, "4611686018427387904");
+  const std::clock_t start = std::clock();
+  EXPECT_REFUSED(load_campaign(file("a.db")), "some rows are not as they were saved");
+  EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC);
+}
+
+TEST_F(DamageTest, RowsDoNotShareALongValue) {
+  constexpr std::size_t page_size = 4096;
+  // All but 489 bytes of the row are on other pages.
+  const std::string key = R"([0,"scene:cloth"])";
+  const std::string value = R"({"points":")" + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + "\"}";
+  write_campaign({{{{}, {}, {}, {{"scene:cloth", value}}}}, {}}, file("b.db"));
+  // The only cell of the page begins with the size of the row in three bytes, and the row's id.
+  std::string bytes = read("b.db");
+  const std::size_t page = bytes.find(key + value.substr(0, 9)) / page_size * page_size;
+  std::size_t start =
+      256 * static_cast<unsigned char>(bytes[page + 5]) + static_cast<unsigned char>(bytes[page + 6]);
+  std::string cell = bytes.substr(page + start, page_size - start);
+  for (char id = 2; id <= 4; ++id) {
+    start -= cell.size();
+    cell[3] = id;
+    bytes.replace(page + start, cell.size(), cell);
+    const std::size_t pointer = page + 8 + 2 * static_cast<std::size_t>(id - 1);
+    bytes[pointer] = static_cast<char>(start / 256);
+    bytes[pointer + 1] = static_cast<char>(start % 256);
+  }
+  bytes[page + 4] = 4;
+  bytes[page + 5] = static_cast<char>(start / 256);
+  bytes[page + 6] = static_cast<char>(start % 256);
+  write("b.db", bytes);
+  claim_rows(file("b.db"), "picture", "4", 4 * static_cast<std::uint64_t>(checksum("picture", key, value)));
+  EXPECT_REFUSED(load_campaign(file("b.db")), "without 2 of 4 rows of picture");
+}
+
+TEST_F(DamageTest, APictureIsAnObject) {
+  write_campaign({{{{}, {}, {}, {{"scene:cloth", "{}"}}}}, {}}, file("b.db"));
+  const std::int64_t sum = checksum("picture", R"([0,"scene:cloth"])", "1");
+  Database(file("b.db")).execute("UPDATE picture SET value = '1', checksum = " + std::to_string(sum));
+  EXPECT_REFUSED(load_campaign(file("b.db")), "b.db: table picture: type must be object, but is number");
 }
 
 TEST_F(DamageTest, ARowOfAnEarlierSaveIsNoticed) {

@@ -225,7 +225,8 @@ TEST_F(StoreTest, NeverReplacesAFileOfTheUser) {
 TEST_F(StoreTest, RefusesWhatIsNoStore) {
   write("text.db", "this is not a database, although it is long enough to be taken for one");
   Database(file("other.db")).execute("CREATE TABLE t (x)");
-  Store(file("deep.db"), info, shard).add({"scene", std::string(50, '[') + std::string(50, ']')});
+  Store(file("deep.db"), info, shard)
+      .add({"scene", R"({"points":)" + std::string(50, '[') + std::string(50, ']') + '}'});
   for (const auto& [name, error] : {std::pair{"none.db", "no such file"},
                                     {"text.db", "file is not a database"},
                                     {"other.db", "found another kind of database"},

@@ -1,0 +1,19 @@
+// Mutation of stores: bytes changed at random would hardly ever get past the checksums.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "fuzz/random.hpp"
+
+namespace nearmiss::libfuzzer {
+
+/// Changes a few bytes.
+using MutateBytes = std::function<std::string(std::string_view)>;
+
+/// Changes cells, rows or tables of a store, and mostly makes its checksums and numbers of rows right again.
+/// Changes the bytes of the file instead if SQLite cannot read it, and once in a while.
+std::string mutated_store(Random& random, std::string_view store, const MutateBytes& mutate_bytes);
+
+}  // namespace nearmiss::libfuzzer
