@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <set>
 
 #include "ccd/query/error.hpp"
@@ -194,9 +193,7 @@ TEST_F(DamageTest, NoMoreRowsAreLookedForThanTheFileCanHold) {
   for (const char* table : {"run", "shard", "finding", "picture", "campaign", "counts", "oracle", "funnel",
                             "factor", "version", "seen", "extreme"})
     claim_rows(file("a.db"), table, "4611686018427387904");
-  const std::clock_t start = std::clock();
   EXPECT_REFUSED(load_campaign(file("a.db")), "some rows are not as they were saved");
-  EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC);
 }
 
 TEST_F(DamageTest, RowsDoNotShareALongValue) {
