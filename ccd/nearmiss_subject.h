@@ -71,12 +71,10 @@ typedef struct {
    *        invalid. Pass on a NaN that your code computes: it is counted as an invalid answer, which another
    *        number would hide.
    * A C++ exception may leave the function: the query that threw it has no answer, which is the fault
-   * `exception`, and what() is shown. The process and the state are kept, and answer the next queries.
-   * An answer must depend only on its own x and h and on the options, because a query that fails is
-   * asked again when it is shrunk or replayed. One query in 256 is asked twice, among other queries; if
-   * the second answer is another one, that is the fault `inconsistent`. Arithmetic rounds to nearest,
-   * keeps subnormals and does not trap; if the detector changes this, nearmiss restores it after the
-   * call. */
+   * `exception`, and what() is shown. The process and the state are kept, and answer the next queries. An
+   * answer must depend only on its own x and h and on the options: a failing query is asked again when it is
+   * shrunk, and one in 256 is asked twice; another answer is the fault `inconsistent`. Arithmetic rounds to
+   * nearest, keeps subnormals and does not trap; if the detector changes this, nearmiss restores it. */
   void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
 
   /* The largest distance of a false positive that the detector claims for a query, in the unit of its
