@@ -153,7 +153,8 @@ TEST(Isolation, ComputingCountsEvenIfThePluginDoesItBeforeItIsTimed) {
   const auto queries = one_batch(100);
   std::vector<Verdict> verdicts(50);
   subject->decide_timed(std::span(queries).first(50), verdicts);
-  EXPECT_GE(subject->decide_timed(std::span(queries).last(50), verdicts).nanoseconds, (50 * 90'000U - 500'000U) / 2);
+  EXPECT_GE(subject->decide_timed(std::span(queries).last(50), verdicts).nanoseconds,
+            (50 * 90'000U - 500'000U) / 2);
 }
 
 TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
