@@ -73,9 +73,12 @@ void time_sample(const Subject& subject, const Batch& batch, const Sample& sampl
 
 /// Asks the subject about a sample once more: fewer queries at once, in another order. An answer that is not
 /// the first one again is none. Times may differ, because rounding may depend on the place in a vector.
-void ask_again(const Subject& subject, const Sample& sample, std::vector<Verdict>& verdicts) {
+void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again(sample.queries.size());
-  subject.decide(sample.queries, again);
+  if (timed)
+    subject.decide_timed(sample.queries, again);  // as it was asked before
+  else
+    subject.decide(sample.queries, again);
   for (std::size_t k = 0; k < again.size(); ++k) {
     Verdict& first = verdicts[sample.numbers[k]];
     if (again[k].fault == Fault::none && again[k].hit != first.hit) first = {.fault = Fault::inconsistent};
@@ -94,7 +97,7 @@ std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Subj
   const Sample sample(batch, verdicts);
   if (sample.queries.empty()) return verdicts;
   if (timed) time_sample(subject, batch, sample, times);
-  ask_again(subject, sample, verdicts);
+  ask_again(subject, sample, timed, verdicts);
   return verdicts;
 }
 
