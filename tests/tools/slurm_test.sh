@@ -119,13 +119,22 @@ scancel "${array}_1"
 scontrol release "$array" "$report"
 expect_code 2 "${campaign[@]}" "${fuzz[@]}"
 expect_said "jobs $array,$report still work on"
+process_of() {
+  local found
+  found=$(grep -lsz "^$results/shard-$1.db$" /proc/[0-9]*/cmdline) && basename "${found%/cmdline}"
+}
 saved() { { "$nearmiss" report "$results/shard-$1.db" -o "$folder/peek" || (($? == 1)); } | grep wang; }
-wait_until saved 0 || fail "shard 0 saves nothing"
-process=$(grep -lsz "^$results/shard-0.db$" /proc/[0-9]*/cmdline || true)
-[[ $process ]] || fail "shard 0 ended too early"
-kill -KILL "$(basename "${process%/cmdline}")"
-wait_until saved 2 || fail "shard 2 saves nothing"
+# Whether both processes have saved something. If so, they are stopped, so that none can end meanwhile.
+both_saved() {
+  first=$(process_of 0) && third=$(process_of 2) && kill -STOP "$first" "$third" || return 1
+  if saved 0 && saved 2; then return; fi
+  kill -CONT "$first" "$third"
+  return 1
+}
+wait_until both_saved || fail "shards 0 and 2 save nothing"
+kill -KILL "$first"
 scancel --signal=USR1 --batch "${array}_2"
+kill -CONT "$third"
 wait_until no_jobs || fail "the campaign does not end"
 expect_job() { [[ $(scontrol --oneliner show job "$1") == *$2* ]] || fail "job $1 has no $2"; }
 expect_job "${array}_2" " JobState=COMPLETED *Restarts=1 "
