@@ -56,7 +56,7 @@ class Record {
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store. Waits half a minute for a process that has locked it.
   void add(const ScenePicture& picture);
-  /// Saves what was added. Waits as long.
+  /// Saves what was added. Waits for such a process, too.
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "ccd/query/error.hpp"
@@ -71,14 +72,20 @@ void time_sample(const Subject& subject, const Batch& batch, const Sample& sampl
     if (each[k]) times.add(*each[k], sample.queries[k], [&] { return batch.provenance(sample.numbers[k]); });
 }
 
+/// Asks the subject, in the same way for all queries of a batch. Returns the time if it counts.
+BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed,
+              std::vector<Verdict>& verdicts) {
+  verdicts.resize(queries.size());
+  if (timed) return subject.decide_timed(queries, verdicts);
+  subject.decide(queries, verdicts);
+  return {};
+}
+
 /// Asks the subject about a sample once more: fewer queries at once, in another order. An answer that is not
 /// the first one again is none. Times may differ, because rounding may depend on the place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
-  std::vector<Verdict> again(sample.queries.size());
-  if (timed)
-    subject.decide_timed(sample.queries, again);  // as it was asked before
-  else
-    subject.decide(sample.queries, again);
+  std::vector<Verdict> again;
+  ask(subject, sample.queries, timed, again);
   for (std::size_t k = 0; k < again.size(); ++k) {
     Verdict& first = verdicts[sample.numbers[k]];
     if (again[k].fault == Fault::none && again[k].hit != first.hit) first = {.fault = Fault::inconsistent};
@@ -88,12 +95,10 @@ void ask_again(const Subject& subject, const Sample& sample, bool timed, std::ve
 /// Decides a batch, and a sample of it twice. If times count, times the subject over the whole batch, and
 /// over single queries of the sample.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
-  std::vector<Verdict> verdicts(batch.queries.size());
+  std::vector<Verdict> verdicts;
   const bool timed = batch.timed && !batch.queries.empty();
-  if (timed)
-    times.add(batch.kind, batch.family, subject.decide_timed(batch.queries, verdicts));
-  else
-    subject.decide(batch.queries, verdicts);
+  const BatchTime time = ask(subject, batch.queries, timed, verdicts);
+  if (timed) times.add(batch.kind, batch.family, time);
   const Sample sample(batch, verdicts);
   if (sample.queries.empty()) return verdicts;
   if (timed) time_sample(subject, batch, sample, times);

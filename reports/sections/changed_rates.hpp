@@ -15,8 +15,8 @@ namespace nearmiss {
 
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
-  /// "false negatives", "false positives", "late times", "false positives beyond the bound" or "no answer". For a subject
-  /// that claims no bound: "false positives beyond wang's bound (no claim)".
+  /// "false negatives", "false positives", "late times", "false positives beyond the bound" or "no answer".
+  /// For a subject that claims no bound: "false positives beyond wang's bound (no claim)".
   std::string_view what;
   std::string subject, kind, family;
   Proportion before, now;

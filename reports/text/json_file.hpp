@@ -15,8 +15,8 @@ namespace nearmiss {
 template <class Json>
 Json parse_json(std::string_view text);
 
-/// What an exception says. The JSON library begins a message with a name, such as
-/// "[json.exception.type_error.302]", which is left out.
+/// The message of an exception, without the name with which the JSON library begins its messages, such as
+/// "[json.exception.type_error.302]".
 std::string plain_message(const std::exception& error);
 
 /// Reads a file and passes its content to `take`. Throws Error if the file cannot be read, if it is not JSON,

@@ -134,7 +134,6 @@ TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
   EXPECT_THAT(nanoseconds, ::testing::Each(::testing::Ge(50 * 9'000U)));
 }
 
-// A process that dies at any moment leaves only answers that the plug-in gave.
 // The plug-ins compute at least this long, so the tests do not depend on speed.
 TEST(Isolation, TheComputingTimeOfAChildCounts) {
   const auto subject = make_isolated_plugin(plugin("computes_in_a_child"));
@@ -161,6 +160,7 @@ TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
   EXPECT_THROW(make_isolated_plugin(plugin("eat_while_loaded"), limits_for(Fault::memory)), Error);
 }
 
+// A process that dies at any moment leaves only answers that the plug-in gave.
 TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
   const auto subject = make_isolated_plugin(plugin("aborts_later"));
   const auto queries = one_batch(50);

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -12,22 +11,9 @@
 #include <unistd.h>
 
 #include "tests/plugin/one_by_one.h"
+#include "tests/plugin/shared_memory.h"
 
 #define MOST_FILES 64
-
-#if defined(MOVE_ON)
-/* The memory to which the worker writes its answers; it begins with the number of the query and of the
- * calls. */
-static volatile uint32_t* answers(void) {
-  FILE* const maps = fopen("/proc/self/maps", "r");
-  char line[512];
-  void* memory = NULL;
-  while (memory == NULL && fgets(line, sizeof line, maps) != NULL)
-    if (strstr(line, "rw-s") != NULL && strstr(line, "nearmiss-worker") != NULL) sscanf(line, "%p", &memory);
-  fclose(maps);
-  return memory;
-}
-#endif
 
 static void intrude(void) {
 #if defined(WRITE)
@@ -40,7 +26,8 @@ static void intrude(void) {
 #elif defined(CLOSE)
   for (int file = 0; file < MOST_FILES; ++file) close(file);
 #elif defined(MOVE_ON)
-  volatile uint32_t* const shared = answers();
+  /* The answers begin with the number of the query and of the calls. */
+  volatile uint32_t* const shared = shared_memory("rw-s");
   while (1) ++shared[1];
 #elif defined(FORK)
   for (int i = 0; i < 150; ++i)

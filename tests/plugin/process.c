@@ -7,7 +7,6 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -16,6 +15,7 @@
 #include <unistd.h>
 
 #include "tests/plugin/one_by_one.h"
+#include "tests/plugin/shared_memory.h"
 
 #if defined(ABORTS_LATER)
 /* The first answer starts a thread, which ends the process after 0 to 4 ms. */
@@ -77,14 +77,8 @@ static int answer(void) {
 #elif defined(AHEAD)
 /* Decides all queries that it sees in the memory of the worker, at the first one that it has not seen yet. */
 static const double* questions(void) {
-  FILE* const maps = fopen("/proc/self/maps", "r");
-  char line[512];
-  char* memory = NULL;
-  while (memory == NULL && fgets(line, sizeof line, maps) != NULL)
-    if (strstr(line, "r--s") != NULL && strstr(line, "nearmiss-worker") != NULL)
-      sscanf(line, "%p", (void**)&memory);
-  fclose(maps);
-  return (const double*)(memory + 16); /* behind the kind and the numbers of the queries */
+  return (const double*)((char*)shared_memory("r--s") +
+                         16); /* behind the kind and the numbers of the queries */
 }
 
 static int decided(const double* x) {
@@ -109,13 +103,6 @@ static int answer_to(const double* x) {
 #else
 static int answer(void) { return compute(); }
 #endif
-#elif defined(FORGETS)
-/* Reports about half of the queries, whichever these are. */
-#define NAME "forgets"
-static int answer(void) {
-  static unsigned calls = 0;
-  return (int)(++calls * 2654435761U >> 31);
-}
 #elif defined(WAITS)
 /* Waits a tenth of a millisecond, as if for a device, and reports nothing. */
 #define NAME "waits"

@@ -36,7 +36,7 @@ class SmallCgroup {
   }
 
   [[nodiscard]] bool exists() const { return exists_; }
-  /// What a shell does to enter it.
+  /// The command by which a shell enters it.
   [[nodiscard]] std::string enter() const { return "echo $$ >" + (folder_ / "cgroup.procs").string() + ";"; }
 
  private:

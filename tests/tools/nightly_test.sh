@@ -121,7 +121,7 @@ refuted_bound 6s wang-time
 oracle_disagreement 6s 
 END_OF_HUNTS
 nothing tools/libfuzzer
-# What it finds is in the night's folder, and is replayed.
+# The night keeps what libFuzzer found, and replays it.
 "$nearmiss" merge "$folder/found.db" "$folder/the nights/last/found.db" >"$folder/said" || fail "expected a replay of what was found"
 expect_said '^oracle: 4 queries'
 rm -r "$folder/the nights"

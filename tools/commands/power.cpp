@@ -75,7 +75,7 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// What a command of the shell prints. A signal to nearmiss ends the command, too.
+/// Runs a command in the shell, and returns its output. A signal to nearmiss ends the command, too.
 std::string output_of(const std::string& command) {
   std::array<int, 2> pipe{};
   const pid_t process = pipe2(pipe.data(), O_CLOEXEC) == 0 ? fork() : -1;

@@ -10,23 +10,17 @@
 #include <system_error>
 #include <vector>
 
+#include "fuzz/subjects/isolation/process_stat.hpp"
+
 namespace nearmiss::isolation {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string folder_of(pid_t process) { return "/proc/" + std::to_string(process); }
-
 /// The time of the children that a process has waited for, and of theirs.
 Duration time_of_ended_children(pid_t process) {
-  std::ifstream file(folder_of(process) + "/stat");
-  constexpr std::size_t most = 1024;
-  std::string text(most, '\0');
-  file.read(text.data(), most);  // fails without an exception, also if the process ends meanwhile
-  const std::size_t end_of_name = text.rfind(')');  // the name may contain anything
-  if (end_of_name == std::string::npos) return {};
-  std::istringstream fields(text.substr(end_of_name + 1));
+  std::istringstream fields(stat_behind_name(process));
   constexpr int before = 13;  // from `state` to `stime` of proc(5)
   std::string skipped;
   for (int i = 0; i < before; ++i) fields >> skipped;
@@ -37,7 +31,7 @@ Duration time_of_ended_children(pid_t process) {
 
 void add_children(pid_t process, std::vector<pid_t>& found) {
   std::error_code none;
-  for (const auto& thread : fs::directory_iterator(folder_of(process) + "/task", none)) {
+  for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(process) + "/task", none)) {
     std::ifstream children(thread.path() / "children");
     for (pid_t child = 0; children >> child;) found.push_back(child);
   }

@@ -9,8 +9,8 @@ void close_files();
 /// Keeps crashes from writing a file "core", which could replace one of the user's.
 void forbid_core_dumps();
 
-/// When the system or a cgroup is out of memory, it ends the process or one of its descendants first. They
-/// cannot undo that, because this needs a privilege (drop_privileges in privileges.hpp).
+/// When the system or a cgroup is out of memory, it ends the process or one of its descendants first. They can
+/// undo that where /proc can be written to, that is, without namespaces of their own.
 void be_ended_first_for_want_of_memory();
 
 /// Lets the process and its descendants be at most `more` processes and threads more than their user has now.

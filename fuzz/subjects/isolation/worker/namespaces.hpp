@@ -6,8 +6,8 @@
 namespace nearmiss::isolation {
 
 /// Lets the first child of this process be process 1 of a new PID namespace. When process 1 ends, the system
-/// ends every process of its namespace. The child also gets a network namespace, a mount namespace, and an IPC
-/// namespace, with which the system removes its System V shared memory.
+/// ends every process of its namespace. The child also gets a network namespace, a mount namespace, and an
+/// IPC namespace, with which the system removes its System V shared memory.
 /// Returns false if the system refuses that to this user. Must be called before any thread starts.
 bool enter_namespaces();
 

@@ -9,8 +9,9 @@ namespace nearmiss::isolation {
 void drop_privileges();
 
 /// Lets this process, and all that it starts, signal no process but this one, change the priority, processors
-/// and limits of no other one, and trace none. Meant for a process without a PID namespace of its own. Call drop_privileges() first; no privilege is needed. Does
-/// nothing if the kernel has no such filters, or on other machines than x86-64 and AArch64.
+/// and limits of no other one, and trace none. Meant for a process without a PID namespace of its own. Call
+/// drop_privileges() first; no privilege is needed. Does nothing if the kernel has no such filters, or on
+/// other machines than x86-64 and AArch64.
 void confine_to_itself();
 
 }  // namespace nearmiss::isolation

@@ -9,8 +9,9 @@
 #include <cstdlib>
 #include <map>
 #include <set>
-#include <string>
 #include <vector>
+
+#include "fuzz/subjects/isolation/process_stat.hpp"
 
 namespace nearmiss::isolation {
 
@@ -18,17 +19,8 @@ namespace {
 
 /// The parent of a process; 0 if there is no such process.
 pid_t parent_of(pid_t process) {
-  const std::string path = "/proc/" + std::to_string(process) + "/stat";
-  std::FILE* const file = std::fopen(path.c_str(), "re");
-  if (file == nullptr) return 0;
-  // "PID (NAME) STATE PARENT ...": the name may contain anything, also parentheses.
-  std::string text(512, '\0');
-  text.resize(std::fread(text.data(), 1, text.size(), file));
-  std::fclose(file);
   int parent = 0;
-  const std::size_t end_of_name = text.rfind(')');
-  if (end_of_name == std::string::npos) return 0;
-  return std::sscanf(text.c_str() + end_of_name, ") %*c %d", &parent) == 1 ? parent : 0;
+  return std::sscanf(stat_behind_name(process).c_str(), " %*c %d", &parent) == 1 ? parent : 0;
 }
 
 std::vector<pid_t> descendants(pid_t root) {
