@@ -24,9 +24,11 @@ std::string hex(std::string_view bytes) {
   return text;
 }
 
-std::string sha256_hex(std::string_view bytes) {
-  const auto digest = Sha256().add(bytes).digest();
-  return hex({reinterpret_cast<const char*>(digest.data()), digest.size()});
+std::string Sha256::hex_digest() {
+  const auto bytes = digest();
+  return hex({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
+
+std::string sha256_hex(std::string_view bytes) { return Sha256().add(bytes).hex_digest(); }
 
 }  // namespace nearmiss

@@ -81,13 +81,18 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Asks the subject about a sample once more: fewer queries at once, in another order. An answer that is not
-/// the first one again is none. Times may differ, because rounding may depend on the place in a vector.
+/// Whether a fault is the subject's own, whatever it was asked before.
+bool is_own(Fault fault) { return fault != Fault::none && fault != Fault::time && fault != Fault::not_asked; }
+
+/// Asks the subject about a sample once more: fewer queries at once, in another order. The other answer is a
+/// fault, and a fault counts as if it had come at once. Times may differ, because rounding may depend on the
+/// place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again;
   ask(subject, sample.queries, timed, again);
   for (std::size_t k = 0; k < again.size(); ++k) {
     Verdict& first = verdicts[sample.numbers[k]];
+    if (is_own(again[k].fault)) first = again[k];
     if (again[k].fault == Fault::none && again[k].hit != first.hit) first = {.fault = Fault::inconsistent};
   }
 }

@@ -21,6 +21,7 @@
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/plugins.hpp"
+#include "tests/refused.hpp"
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -157,7 +158,14 @@ TEST(Isolation, ComputingCountsEvenIfThePluginDoesItBeforeItIsTimed) {
 }
 
 TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
-  EXPECT_THROW(make_isolated_plugin(plugin("eat_while_loaded"), limits_for(Fault::memory)), Error);
+  for (const char* each : {"eat_while_loaded", "too_large"})
+    EXPECT_REFUSED(make_isolated_plugin(plugin(each), limits_for(Fault::memory)),
+                   "It was refused memory: expected at most twice --query-memory");
+}
+
+TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {
+  const auto subject = make_isolated_plugin(plugin("large"), limits_for(Fault::memory));
+  EXPECT_TRUE(subject->decide(one_batch(1).front()).hit);
 }
 
 // A process that dies at any moment leaves only answers that the plug-in gave.

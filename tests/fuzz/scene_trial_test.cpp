@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "reports/text/json.hpp"
 #include "tests/fuzz/moving_meshes.hpp"
 #include "tests/fuzz/trials.hpp"
 

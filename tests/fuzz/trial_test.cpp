@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ccd/subjects/stopwatch.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/trial_stream.hpp"
 #include "reports/campaign/campaign.hpp"
@@ -130,6 +131,23 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_GT(counts_of(result).without_answer(Fault::inconsistent), 10);
   EXPECT_EQ(result.statistics.seen.size(), 2);
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
+}
+
+TEST(Trial, AFaultWhenAskedASecondTimeIsAFault) {
+  const auto faults = [](Fault second) {
+    std::size_t calls = 0;
+    const std::vector<Query> queries(10'000, falling_vertex(0.25, 0.25, 1, -1));
+    const auto answer = [&](const Query&) {
+      return ++calls > queries.size() + warm_up_queries ? Verdict{.fault = second}
+                                                        : Verdict::accepted(Stage::unspecified, 0.5);
+    };
+    return counts_of(hold_trial(one(std::make_unique<testing::MadeUpSubject>("ends", answer)),
+                                batch_of("many", queries)))
+        .without_answer(second);
+  };
+  EXPECT_GT(faults(Fault::crash), 10);
+  EXPECT_EQ(faults(Fault::time), 0);
+  EXPECT_EQ(faults(Fault::not_asked), 0);
 }
 
 TEST(Trial, ComparesTheMethodsOfTheOracleAsAsked) {

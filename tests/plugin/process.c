@@ -122,6 +122,23 @@ static int answer(void) {
   return processes.rlim_cur >= 256 && processes.rlim_cur < RLIM_INFINITY &&
          processes.rlim_cur == processes.rlim_max;
 }
+#elif defined(LOADED_MIB)
+/* Takes so much memory when it is loaded, and USED_MIB for each query. */
+#define NAME "large"
+static void* taken(size_t mib) {
+  void* const block = malloc(mib << 20);
+  if (block == NULL) abort();
+  return block;
+}
+
+static void* loaded;
+__attribute__((constructor)) static void begin(void) { loaded = taken(LOADED_MIB); }
+
+static int answer(void) {
+  void* volatile const block = taken(USED_MIB);
+  free(block);
+  return loaded != NULL;
+}
 #elif defined(RECOVERS)
 /* Asks for more memory than is allowed, and continues when that is refused. Its process crashes at the next
  * query. */

@@ -14,8 +14,8 @@ TEST(Sha256, GivesTheDigestsOfTheStandard) {
 }
 
 TEST(Sha256, DoesNotDependOnThePieces) {
-  const auto pieces = Sha256().add("a").add("").add("bc").digest();
-  EXPECT_EQ(hex({reinterpret_cast<const char*>(pieces.data()), pieces.size()}), sha256_hex("abc"));
+  const auto pieces = Sha256().add("a").add("").add("bc").hex_digest();
+  EXPECT_EQ(pieces, sha256_hex("abc"));
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ class IsolatedPlugin final : public BatchSubject {
       }
       const std::uint32_t last = first + (is_split ? 1 : std::min(size - first, in_a_call_.load()));
       const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
-      code_->expect_unchanged();  // a running process, too, may see what is written to its file
+      code_->expect_unchanged(*limits_.stop);  // a running process, too, may see what is written to its file
       if (!is_split) adapt(last - first, *worker, failure);
       if (failure && failure->of_call) {
         is_split = true;

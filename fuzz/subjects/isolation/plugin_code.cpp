@@ -59,8 +59,8 @@ PluginCode::PluginCode(std::string name) : name_(std::move(name)) {
   sha256_ = sha256_hex(digests);
 }
 
-void PluginCode::expect_unchanged() const {
-  for (const auto& file : files_) file->expect_unchanged();
+void PluginCode::expect_unchanged(const Stop& stop) const {
+  for (const auto& file : files_) file->expect_unchanged(stop);
 }
 
 }  // namespace nearmiss::isolation

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/stop.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 
 namespace nearmiss::isolation {
@@ -29,8 +30,8 @@ class PluginCode {
   /// The GNU build id of a shared object, in hexadecimal; "" if it has none.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
-  /// Throws PluginChanged as PluginFile does.
-  void expect_unchanged() const;
+  /// Throws PluginChanged and Stopped as PluginFile does.
+  void expect_unchanged(const Stop& stop) const;
 
  private:
   std::string name_, sha256_, build_id_;

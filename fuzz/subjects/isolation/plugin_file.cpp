@@ -33,15 +33,15 @@ PluginFile::Stamp PluginFile::stamp_of(const struct stat& about) {
 }
 
 struct PluginFile::Snapshot {
-  std::string bytes;
   Stamp stamp;     ///< of the file before it was read
   bool is_recent;  ///< whether the stamp was recent when it was taken
 };
 
 PluginFile::PluginFile(std::string path) : path_(std::move(path)) {
-  const Snapshot reading = read();
-  sha256_ = sha256_hex(reading.bytes);
-  build_id_ = gnu_build_id(reading.bytes);
+  std::string bytes;
+  const Snapshot reading = read([&](std::string_view piece) { bytes += piece; });
+  sha256_ = sha256_hex(bytes);
+  build_id_ = gnu_build_id(bytes);
   stamp_ = reading.stamp;
   is_recent_ = reading.is_recent;
 }
@@ -51,7 +51,7 @@ bool PluginFile::is_recent(const Stamp& stamp) {
   return std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick;
 }
 
-PluginFile::Snapshot PluginFile::read() const {
+PluginFile::Snapshot PluginFile::read(const std::function<void(std::string_view)>& take) const {
   const auto refuse = [&](const std::string& why) {
     throw Error(fmt::format("{}: cannot load the plug-in: {}", path_, why));
   };
@@ -61,17 +61,17 @@ PluginFile::Snapshot PluginFile::read() const {
   if (!S_ISREG(about.st_mode)) refuse("found no regular file");
   if (about.st_size > most_bytes)
     refuse(fmt::format("found {} bytes, expected a shared object of at most 2 GiB", about.st_size));
-  Snapshot reading{"", stamp_of(about), is_recent(stamp_of(about))};
+  const Snapshot reading{stamp_of(about), is_recent(stamp_of(about))};
   std::array<char, 1 << 16> block{};
   while (true) {
     const ssize_t size = ::read(file.number(), block.data(), block.size());
     if (size < 0) refuse(std::strerror(errno));
     if (size == 0) return reading;
-    reading.bytes.append(block.data(), static_cast<std::size_t>(size));
+    take({block.data(), static_cast<std::size_t>(size)});
   }
 }
 
-void PluginFile::expect_unchanged() const {
+void PluginFile::expect_unchanged(const Stop& stop) const {
   const std::lock_guard lock(mutex_);
   struct stat about {};
   const bool exists = stat(path_.c_str(), &about) == 0;
@@ -83,8 +83,12 @@ void PluginFile::expect_unchanged() const {
                     path_, found, sha256_));
   };
   if (!exists) refuse("no such file");
-  const Snapshot reading = read();
-  if (const std::string found = sha256_hex(reading.bytes); found != sha256_) refuse("sha256 " + found);
+  Sha256 bytes;
+  const Snapshot reading = read([&](std::string_view piece) {
+    stop.check(Stop::grace);
+    bytes.add(piece);
+  });
+  if (const std::string found = bytes.hex_digest(); found != sha256_) refuse("sha256 " + found);
   stamp_ = reading.stamp;
   is_recent_ = reading.is_recent;
 }

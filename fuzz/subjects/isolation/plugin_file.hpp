@@ -3,11 +3,13 @@
 
 #include <sys/stat.h>
 
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
 
 #include "ccd/query/error.hpp"
+#include "fuzz/stop.hpp"
 
 namespace nearmiss::isolation {
 
@@ -31,8 +33,9 @@ class PluginFile {
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
   /// Throws PluginChanged unless the path still leads to a file with the same bytes. The file is read again
-  /// only if its times, its size or its inode have changed; otherwise this takes about a microsecond.
-  void expect_unchanged() const;
+  /// only if its times, its size or its inode have changed; otherwise this takes about a microsecond. Throws
+  /// Stopped if `stop` is due meanwhile.
+  void expect_unchanged(const Stop& stop) const;
 
  private:
   /// The attributes that change when a file is written or replaced.
@@ -47,8 +50,8 @@ class PluginFile {
   struct Snapshot;
 
   static Stamp stamp_of(const struct stat& about);
-  /// Reads the whole file.
-  [[nodiscard]] Snapshot read() const;
+  /// Reads the whole file, and passes its bytes to `take`, piece by piece.
+  [[nodiscard]] Snapshot read(const std::function<void(std::string_view)>& take) const;
   /// Whether the file may be written again without a change of its stamp, because the clock of the file
   /// system has not ticked since.
   static bool is_recent(const Stamp& stamp);

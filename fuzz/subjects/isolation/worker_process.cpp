@@ -129,10 +129,10 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged();  // a change of the file may be the reason
+    file.expect_unchanged(*limits_.stop);  // a change of the file may be the reason
     throw;
   }
-  file.expect_unchanged();  // otherwise it might have loaded other bytes
+  file.expect_unchanged(*limits_.stop);  // otherwise it might have loaded other bytes
 }
 
 void WorkerProcess::dismiss() {
@@ -161,13 +161,15 @@ void WorkerProcess::load(const std::string& plugin) {
   if (end == End::query_late || end == End::call_late)
     throw Error(
         fmt::format("{}: the plug-in takes longer than {:.0f} s to load", plugin, limits_.loading.count()));
+  const std::string memory =
+      answers_->memory_refused == 0 ? "" : ". It was refused memory: expected at most twice --query-memory";
   if (end != End::done) {
     const std::string exception = text(answers_->exception);
     throw Error(plugin + ": the plug-in " +
                 (exception.empty() ? "ended its process" : "threw an exception: " + exception) +
-                " while it was loaded");
+                " while it was loaded" + memory);
   }
-  if (answers_->error[0] != '\0') throw Error(text(answers_->error));
+  if (answers_->error[0] != '\0') throw Error(text(answers_->error) + memory);
   look_at_others();
   others_compute_ = false;  // what they did until now is no matter
   info_ = info_of(answers_->about);
@@ -241,10 +243,12 @@ WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query,
 
 WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
+  constexpr int most_looking = 10;  // at most a tenth of the time: there may be hundreds of processes
   constexpr std::uint64_t calls_between_looks = 16;
   const bool looks =
       others_compute_ || (call.number + 1) % calls_between_looks == 0;  // not while it is loaded
   if (others_compute_) look_at_others();
+  auto next_look = steady_clock::now();
   const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
   std::uint32_t calls = answers_->calls;
   // If the worker is dead or does not read, no reply comes.
@@ -253,8 +257,12 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   while (true) {
     std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {supervisor_.socket(), POLLIN, 0}}};
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
-    if (limits_.stop != nullptr) limits_.stop->check(Stop::grace);
-    if (looks || !spoke) look_at_others();
+    limits_.stop->check(Stop::grace);
+    if (spoke ? looks : steady_clock::now() >= next_look) {
+      const auto start = steady_clock::now();
+      look_at_others();
+      next_look = start + most_looking * (steady_clock::now() - start);
+    }
     elapsed_ = watch.elapsed();
     if (spoke)
       if (const auto end = end_of(call.number)) return *end;

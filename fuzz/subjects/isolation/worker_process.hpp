@@ -28,7 +28,7 @@ struct PluginLimits {
   Duration leaving{0.1};                         ///< the time that may pass while it is closed
   /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
-  const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
+  const Stop* stop = &Stop::never();  ///< ends all waiting with Stopped
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
   bool own_namespace = true;
 };

@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -52,6 +54,12 @@ void note_refusal() {
   if (answers != nullptr) answers->memory_refused.store(1, std::memory_order_relaxed);
 }
 
+void* map_pages(void* at, std::size_t size, int protection, int flags, int file, off_t offset) {
+  const long address = syscall(SYS_mmap, at, size, protection, flags, file, offset);
+  if (address == -1 && errno == ENOMEM) note_refusal();
+  return reinterpret_cast<void*>(address);
+}
+
 }  // namespace
 
 extern "C" {
@@ -75,6 +83,12 @@ void* realloc(void* old, std::size_t size) {
   void* const block = __libc_realloc(old, size);
   if (block == nullptr && size != 0) note_refusal();
   return block;
+}
+void* mmap(void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept {
+  return map_pages(at, size, protection, flags, file, offset);
+}
+void* mmap64(void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept {
+  return map_pages(at, size, protection, flags, file, offset);
 }
 }
 #endif
@@ -126,24 +140,30 @@ Memory memory_of(pid_t process) {
   return {addresses * page, data * page};
 }
 
-void limit(pid_t process, __rlimit_resource resource, rlim_t bytes) {
-  const rlimit both{bytes, bytes};
+void limit(pid_t process, __rlimit_resource resource, rlim_t now, rlim_t later) {
+  const rlimit both{now, later};
   prlimit(process, resource, &both, nullptr);
 }
 
-/// Limits the memory that this process, and later those that it starts, may use while the plug-in is loaded,
-/// and again as much after that. Addresses are not limited yet, because drivers of devices reserve many. No
-/// file, on a disk or in memory, may become larger; to write more is an error.
+/// Limits the memory that this process, and later those that it starts, may use while the plug-in is loaded:
+/// to twice as much as a query may use. Addresses are not limited yet, because drivers of devices reserve
+/// many. No file, on a disk or in memory, may become larger than `more`; to write more is an error.
 void limit_memory_of_loading(rlim_t more) {
   if (more == 0) return;
-  limit(getpid(), RLIMIT_DATA, memory_of(getpid()).data + 2 * more);
-  limit(getpid(), RLIMIT_FSIZE, more);
+  const rlim_t data = memory_of(getpid()).data;
+  limit(getpid(), RLIMIT_DATA, data + 2 * more, data + 3 * more);
+  limit(getpid(), RLIMIT_FSIZE, more, more);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Limits the memory that a process may use in addition to what it has.
+/// Limits the memory that a process may use in addition to what it has after loading.
 void limit_memory(pid_t process, rlim_t more) {
-  if (more != 0) limit(process, RLIMIT_AS, memory_of(process).addresses + more);
+  if (more == 0) return;
+  rlimit data{};
+  prlimit(process, RLIMIT_DATA, nullptr, &data);
+  limit(process, RLIMIT_DATA, data.rlim_max, data.rlim_max);  // whatever loading took, `more` is left
+  const rlim_t addresses = memory_of(process).addresses + more;
+  limit(process, RLIMIT_AS, addresses, addresses);
 }
 
 /// Notes which query comes next, because the plug-in may crash in it.
@@ -306,7 +326,9 @@ Loaded load(std::string_view name) {
     static const PluginLibrary library(parsed.path);
     return {open_detector(library.subject(parsed.subject), parsed.options, library.names())};
   } catch (const Error& error) {
-    copy(error.what(), answers->error);
+    const std::string_view text = error.what();
+    if (text.ends_with(std::strerror(ENOMEM))) note_refusal();  // dlopen(3) does not allocate by malloc
+    copy(text, answers->error);
     return {};
   }
 }
