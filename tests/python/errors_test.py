@@ -77,7 +77,8 @@ class Refusals(unittest.TestCase):
             mixed[0][0] = 0.5
             halves = [x[:4].astype(np.uint64 if number > 0 else np.int64), np.zeros((4, 3))]
             arrays = [[np.array(each) for each in row] for row in mixed]
-            for queries in (x, mixed, halves, arrays):
+            in_memory = memoryview(x.reshape(2, 4, 3))
+            for queries in (x, mixed, halves, arrays, in_memory):
                 self.expect(wanted, nearmiss.wang, 'ee', queries)
         wanted = 'separation has an integer beyond 2^53, which may be no double'
         self.expect(wanted, nearmiss.collides, 'vt', X[:2], [2**53 + 1, 0.5])

@@ -192,6 +192,29 @@ class Trial(unittest.TestCase):
             signal.setitimer(signal.ITIMER_REAL, 0.01)
             nearmiss.queries('uniform', 'vt', 10**7)
 
+    def test_a_function_may_change_what_it_is_given(self):
+        def reshapes(kind, x, separation):
+            hits = exact(kind, x, separation)
+            x.shape = (-1,)
+            return hits
+
+        self.assertEqual(nearmiss.trial(reshapes, 200).counts('reshapes').missed, 0)
+
+    def test_the_end_of_the_interpreter_ends_it(self):
+        program = """
+import threading, time, nearmiss
+asked = threading.Event()
+def slow(kind, x, separation):
+    asked.set()
+    time.sleep(0.01)
+    return nearmiss.collides(kind, x)
+threading.Thread(target=nearmiss.trial, args=(slow, 10**9), daemon=True).start()
+asked.wait()
+"""
+        for _ in range(5):
+            run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+            self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_says_what_a_function_should_return(self):
         for answer, time, error, message in (
             (lambda n: np.zeros(n), 'none', TypeError, 'answers of type float64, expected bool'),
@@ -233,8 +256,8 @@ class Trial(unittest.TestCase):
             ('cases is 10000.0, expected an integer', lambda: nearmiss.trial(never, 1e4)),
             ('families is 5, expected names', lambda: nearmiss.trial(never, 10, 5)),
             ("kinds is None, expected 'vt'", lambda: nearmiss.Subject(never, kinds=None)),
-            ('families has 5, expected names', lambda: nearmiss.trial(never, 10, [5])),
-            ('family is 5, expected a name', lambda: nearmiss.queries(5, 'vt', 1)),
+            ('found the family 5, expected a name', lambda: nearmiss.trial(never, 10, [5])),
+            ('found the family 5, expected a name', lambda: nearmiss.queries(5, 'vt', 1)),
             ('count is 1.5, expected an', lambda: nearmiss.queries('uniform', 'vt', 1.5)),
         ):
             with self.assertRaisesRegex(TypeError, message):
@@ -244,6 +267,7 @@ class Trial(unittest.TestCase):
         for message, arguments in (
             ('unknown subject', ['bassic']),
             ('unknown family', [never, 100, ['unifrom']]),
+            (r"found the family 'uniform\\x00', expected printable", [never, 1, 'uniform\0']),
             ('expected different ones', [[never, never]]),
             ('expected at least one', [never, 0]),
             ('expected at least one', [never, 10, []]),
@@ -272,6 +296,11 @@ class Queries(unittest.TestCase):
             if '~' in family:
                 expected = np.column_stack([expected, separation])
             np.testing.assert_array_equal(rows, expected)
+
+    def test_more_than_fit_into_memory_are_refused(self):
+        for count in (2**40, 2**63):
+            with self.assertRaises(MemoryError):
+                nearmiss.queries('uniform', 'vt', count)
 
 
 class WithoutModules(unittest.TestCase):

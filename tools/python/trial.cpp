@@ -4,13 +4,18 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <new>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -56,6 +61,26 @@ std::vector<Family> families_of(const std::vector<std::string>& names) {
   return chosen;
 }
 
+std::atomic<bool> is_ending = false;  ///< whether the interpreter ends, so that all trials must end
+std::atomic<int> running = 0;         ///< the trials that are running
+
+/// Notes that a trial is running.
+struct Running {
+  Running() { ++running; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running() { --running; }
+};
+
+/// Ends all trials. Waits a few seconds at most, because a function under trial may not return.
+void end_trials() {
+  is_ending = true;
+  const py::gil_scoped_release others_run;
+  constexpr std::chrono::milliseconds pause(1), patience(3000);
+  for (auto waited = pause; running > 0 && waited < patience; waited += pause)
+    std::this_thread::sleep_for(pause);
+}
+
 /// Lets Python handle the signals that have come.
 void let_python_handle_signals() {
   const py::gil_scoped_acquire lock;
@@ -63,27 +88,29 @@ void let_python_handle_signals() {
 }
 
 /// Asks the subjects the queries of a campaign's plan, in its order.
-TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects) {
+TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const Stop& stop) {
   TrialResult result;
   CasesOfShard cases(plan, 0);
   Pace pace;
   while (const auto block = cases.next(pace)) {
     const auto start = Stop::Clock::now();
     for (const Kind kind : kinds) {
-      Batch batch = batch_of(plan, *block, kind, Stop::never());
+      Batch batch = batch_of(plan, *block, kind, stop);
       if (batch.queries.empty()) continue;
       batch.timed = false;
       result.merge(hold_trial(subjects, batch, plan.comparison));
     }
     pace.took(block->family->name, block->cases(), Stop::Clock::now() - start);
     let_python_handle_signals();
+    stop.check();
   }
   return result;
 }
 
 /// Shrinks the first findings of each signature.
-void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each_signature) {
-  const FindingShrinker shrinker(pointers_to(subjects), Stop::never(), limits_in_campaign);
+void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each_signature,
+            const Stop& stop) {
+  const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);
   std::map<Signature, std::uint64_t> seen;
   for (Finding& finding : findings) {
     if (++seen[signature_of(finding)] > of_each_signature) continue;
@@ -146,10 +173,14 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   plan.seed = seed;
   plan.cases = cases;
   TrialResult result;
-  {
+  try {
+    const Running guard_of_end;
+    const Stop stop(is_ending);
     const py::gil_scoped_release others_run;
-    result = decide_all(plan, subjects);
-    shrink(result.findings, subjects, shrunk_of_each_signature);
+    result = decide_all(plan, subjects, stop);
+    shrink(result.findings, subjects, shrunk_of_each_signature, stop);
+  } catch (const Stopped&) {
+    throw std::runtime_error("the interpreter ends, and so does the trial");
   }
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
@@ -165,6 +196,8 @@ std::vector<std::tuple<std::string, std::string, bool>> known_families() {
 py::tuple make(const std::string& family, std::string_view kind, std::size_t count, std::uint64_t seed) {
   const PlainArithmetic guard;
   std::vector<Query> queries;
+  if (count > queries.max_size()) throw std::bad_alloc();
+  queries.reserve(count);
   const Family from = find_family(family);
   const QueryMaker query(from, seed);
   for (std::uint64_t index = 0; queries.size() < count; ++index) {
@@ -183,4 +216,5 @@ PYBIND11_MODULE(_trial, module) {
   module.def("hold", &hold);
   module.def("families", &known_families);
   module.def("queries", &make);
+  module.def("end_trials", &end_trials);
 }

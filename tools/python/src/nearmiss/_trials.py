@@ -1,6 +1,8 @@
 """Puts Python functions on trial: asks them hard random queries, and compares with the exact answers."""
 
+import atexit
 import dataclasses
+import functools
 import importlib
 import operator
 from dataclasses import dataclass
@@ -60,8 +62,9 @@ class Subject:
         self, kind: str, x: NDArray[np.float64], separation: NDArray[np.float64]
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """The function's answers and times. Raises an exception if their form is wrong."""
+        shape = (len(x),)  # the function may change x
         answer = self.function(kind, x, separation)
-        times: NDArray[Any] = np.full(len(x), np.nan)
+        times: NDArray[Any] = np.full(shape, np.nan)
         if self.time != 'none':
             if not isinstance(answer, tuple) or len(answer) != 2:
                 raise TypeError(
@@ -76,9 +79,9 @@ class Subject:
         if hits.dtype != np.bool_:
             raise TypeError(f'{self.name} returned answers of type {hits.dtype}, expected bool')
         for array, what in ((hits, 'answers'), (times, 'times')):
-            if array.shape != (len(x),):
+            if array.shape != shape:
                 raise ValueError(
-                    f'{self.name} returned {what} of shape {array.shape}, expected ({len(x)},)'
+                    f'{self.name} returned {what} of shape {array.shape}, expected {shape}'
                 )
         # An array of bools that is a view of other data may have bytes other than 0 and 1.
         return hits.view(np.uint8) != 0, np.asarray(times, np.float64)
@@ -216,10 +219,7 @@ def trial(
     extension = _extension()
     if families is None:
         families = [name for name, _, has_separation in extension.families() if not has_separation]
-    families = _several('families', families, 'names')
-    for each in families:
-        if not isinstance(each, str):
-            raise TypeError(f'families has {each!r}, expected names')
+    families = [_family(each) for each in _several('families', families, 'names')]
     if cases < 1 or not families:
         raise ValueError(f'found {cases} cases of {len(families)} families, expected at least one')
     rows, columns = extension.hold(chosen, families, cases, seed, shrunk)
@@ -265,6 +265,15 @@ def _several(name: str, values: Any, expected: str) -> list[Any]:
     return list(values)
 
 
+def _family(name: Any) -> str:
+    """The name of a family, which the extension knows or refuses."""
+    if not isinstance(name, str):
+        raise TypeError(f'found the family {name!r}, expected a name')
+    if not name.isprintable():
+        raise ValueError(f'found the family {name!r}, expected printable characters')
+    return name
+
+
 def _count(name: str, value: Any) -> int:
     """The value as an unsigned number of 64 bits."""
     try:
@@ -286,18 +295,19 @@ def queries(
     family: str, kind: KindLike, count: int, seed: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The first queries of a kind in a family: x (count, 2, 4, 3) and their separations (count,)."""
-    if not isinstance(family, str):
-        raise TypeError(f'family is {family!r}, expected a name')
     x, separation = _extension().queries(
-        family, kind_of(kind).value, _count('count', count), _count('seed', seed)
+        _family(family), kind_of(kind).value, _count('count', count), _count('seed', seed)
     )
     return x, separation
 
 
+@functools.cache
 def _extension() -> Any:
     try:
-        return importlib.import_module('nearmiss._trial')
+        extension = importlib.import_module('nearmiss._trial')
     except ModuleNotFoundError:
         raise ImportError(
             'this nearmiss has no trials, because it was built without the component tools'
         ) from None
+    atexit.register(extension.end_trials)  # of daemon threads, which may not use Python any more
+    return extension
