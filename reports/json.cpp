@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "reports/sections/version_table.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

@@ -1,7 +1,6 @@
 #include "reports/report.hpp"
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "corpus/query_text.hpp"
@@ -9,6 +8,7 @@
 #include "reports/page/page.hpp"
 #include "reports/report_folder.hpp"
 #include "reports/sections/shown.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
 
 namespace nearmiss {

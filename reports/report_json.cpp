@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "corpus/query_text.hpp"
 #include "oracle/distance.hpp"
@@ -23,6 +22,7 @@
 #include "reports/sections/verdicts.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

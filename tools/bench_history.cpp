@@ -5,12 +5,12 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
 
 namespace nearmiss::tools {

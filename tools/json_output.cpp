@@ -4,10 +4,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss::tools {
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "ccd/query/error.hpp"
@@ -20,6 +19,7 @@
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/sections/sweeps.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/commit.hpp"
@@ -127,9 +127,9 @@ void Record::begin() {
 
 /// Loads the run in the store as the beginning of this run. Throws Error if the store has another run.
 void Record::go_on() {
-  store_.emplace(options_.db);
+  Campaign before;
+  store_.emplace(options_.db, &before);
   saved_ = true;
-  Campaign before = load_campaign(options_.db);
   Run& run = before.runs.at(0);
   const auto expect = [&](const std::string& what, const std::string& found, const std::string& expected) {
     const auto quoted = [](const std::string& fact) { return fact.empty() ? "none" : "'" + fact + "'"; };

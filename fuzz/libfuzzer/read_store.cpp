@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "fuzz/libfuzzer/store_mutation.hpp"
 #include "reports/csv.hpp"
 #include "reports/report.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss::libfuzzer {
 

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "ccd/query/error.hpp"
 #include "reports/store/table.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
 
 namespace nearmiss::libfuzzer {

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

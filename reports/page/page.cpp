@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <random>
 #include <string_view>
+
+#include "reports/text/json.hpp"
 
 #if !__has_include("reports/page/node_modules/vega-embed/build/vega-embed.min.js")
 #error "reports/page/node_modules is missing: run tools/setup, or npm ci in reports/page"

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

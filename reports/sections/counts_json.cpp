@@ -1,10 +1,10 @@
 #include "reports/sections/counts_json.hpp"
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "corpus/query_text.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

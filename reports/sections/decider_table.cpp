@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "reports/sections/funnel_table.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/sums.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "corpus/query_text.hpp"
 #include "reports/sections/counts_json.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

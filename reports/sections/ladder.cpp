@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "reports/sections/counts_json.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

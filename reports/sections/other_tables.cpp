@@ -1,9 +1,9 @@
 #include "reports/sections/other_tables.hpp"
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
 
 namespace nearmiss {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "reports/sections/verdicts.hpp"
 #include "reports/statistics/family_class.hpp"
 #include "reports/statistics/sums.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "reports/sections/counts_json.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

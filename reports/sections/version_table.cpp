@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "reports/statistics/family_class.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "reports/campaign/campaign.hpp"
 #include "reports/store/table.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

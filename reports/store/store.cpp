@@ -222,13 +222,14 @@ Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
   database_->change([&](Save& save) { write_campaign(save, {{{info, {shard}, {}}}, {}}); });
 }
 
-Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file)) {
-  const std::vector<Run> runs = read_store(file, true).runs;
+Store::Store(const fs::path& file, Campaign* found) : database_(std::make_unique<Database>(file)) {
+  Campaign whole = read_store(file, true);
   naming(file, [&] {
-    if (runs.size() != 1 || runs.front().shards.size() != 1)
+    if (whole.runs.size() != 1 || whole.runs.front().shards.size() != 1)
       throw Error("found several shards or runs, expected one to continue");
     database_->connection = std::make_unique<Connection>(file, 0);
   });
+  if (found != nullptr) *found = std::move(whole);
 }
 
 void Store::save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings) {

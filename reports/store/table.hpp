@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ccd/query/error.hpp"
 #include "reports/store/values.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/campaign/campaign.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

@@ -4,10 +4,10 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 
@@ -37,20 +37,11 @@ void read_json_file(const std::filesystem::path& file, std::string_view expected
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
-  const auto refuse = [&](const std::exception& error) {
-    return Error(fmt::format("{}: found {}, expected {}", file.string(), excerpt(plain_message(error), 200),
-                             expected));
-  };
-  nlohmann::ordered_json json;
   try {
-    json = parse_json<nlohmann::ordered_json>(text);
-  } catch (const Error& error) {
-    throw refuse(error);
-  }
-  try {
-    take(json);
-  } catch (const nlohmann::ordered_json::exception& error) {
-    throw refuse(error);
+    take(parse_json<nlohmann::ordered_json>(text));
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{}: found {}, expected {}", file.string(), excerpt(plain_message(error), 200),
+                            expected));
   }
 }
 

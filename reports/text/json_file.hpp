@@ -20,7 +20,7 @@ Json parse_json(std::string_view text);
 std::string plain_message(const std::exception& error);
 
 /// Reads a file and passes its content to `take`. Throws Error if the file cannot be read, if it is not JSON,
-/// or if `take` throws an exception of the JSON library; the message contains `expected`.
+/// or if `take` throws an exception; the message contains `expected`.
 void read_json_file(const std::filesystem::path& file, std::string_view expected,
                     const std::function<void(const nlohmann::ordered_json&)>& take);
 

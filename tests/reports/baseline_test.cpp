@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "reports/sections/scorecard.hpp"
+#include "reports/text/json.hpp"
 #include "tests/refused.hpp"
 #include "tests/reports/campaigns.hpp"
 

@@ -6,12 +6,12 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/headline.hpp"
+#include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
 
 namespace nearmiss {

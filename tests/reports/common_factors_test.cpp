@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
+
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 namespace {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -13,6 +12,7 @@
 #include "reports/csv.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/store/store.hpp"
+#include "reports/text/json.hpp"
 #include "tests/queries.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -236,6 +236,22 @@ TEST_F(DamageTest, APictureIsAnObject) {
   EXPECT_REFUSED(load_campaign(file("b.db")), "b.db: table picture: type must be object, but is number");
 }
 
+TEST_F(DamageTest, ACounterIsAnIntegerThatFits) {
+  Campaign one{{{}}, {}};
+  const Signature signature = signature_of(some_finding("0"));
+  one.statistics.seen[signature] = 1;
+  write_campaign(one, file("b.db"));
+  const std::string key = nlohmann::json(signature).dump();
+  for (const char* value : {"1e308", "-1", "1.0", "18446744073709551616", "true", "[]"}) {
+    const std::int64_t sum = checksum("seen", key, value);
+    Database(file("b.db"))
+        .execute("UPDATE seen SET value = '" + std::string(value) + "', checksum = " + std::to_string(sum));
+    claim_rows(file("b.db"), "seen", "1", static_cast<std::uint64_t>(sum));
+    EXPECT_THAT([&] { load_campaign(file("b.db")); },
+                ThrowsMessage<Error>(EndsWith(", expected an integer from 0 to 18446744073709551615")));
+  }
+}
+
 TEST_F(DamageTest, ARowOfAnEarlierSaveIsNoticed) {
   for (const char* name : {"old.db", "new.db"})
     Store(file(name), testing::info, shard).save(some_statistics("wang"), shard, {});

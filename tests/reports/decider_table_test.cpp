@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/report.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 namespace {

@@ -4,11 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/summary.hpp"
+#include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
 
 namespace nearmiss {

@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/headline.hpp"
+#include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
 
 namespace nearmiss {

@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "corpus/query_text.hpp"
 #include "reports/csv.hpp"
 #include "reports/report.hpp"
@@ -11,6 +9,7 @@
 #include "reports/sections/headline.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/sections/trade_off.hpp"
+#include "reports/text/json.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "ccd/query/scalar_name.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 namespace {

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "reports/text/json.hpp"
 #include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -18,8 +17,10 @@ class OtherTables : public testing::TemporaryFolder {
   template <class Load>
   void expect_refusal(const Load& load, const std::string& expected) {
     EXPECT_REFUSED(load(file("none.json")), "none.json: cannot be read");
-    for (const char* text : {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
-                             "[{\"subject\": \"a\", \"flags\": \"b\"}]"}) {
+    for (const char* text :
+         {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
+          "[{\"subject\": \"a\", \"flags\": \"b\"}]",
+          R"([{"subject": "a", "way": "b", "failure": "c", "seconds": 1, "cases": 1e308}])"}) {
       write("other.json", text);
       EXPECT_REFUSED(load(file("other.json")), "expected " + expected) << text;
     }

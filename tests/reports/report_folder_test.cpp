@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "ccd/query/error.hpp"
 #include "reports/campaign/finding_case.hpp"
 #include "reports/report.hpp"
+#include "reports/text/json.hpp"
 #include "tests/refused.hpp"
 #include "tests/reports/some_campaign.hpp"
 #include "tests/temporary_folder.hpp"

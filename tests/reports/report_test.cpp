@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
@@ -16,6 +15,7 @@
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/shown.hpp"
 #include "reports/sections/summary.hpp"
+#include "reports/text/json.hpp"
 #include "tests/reports/some_campaign.hpp"
 #include "tests/temporary_folder.hpp"
 

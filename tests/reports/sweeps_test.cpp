@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "reports/json.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 namespace {

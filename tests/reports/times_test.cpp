@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
 #include "reports/csv.hpp"
 #include "reports/sections/counts_json.hpp"
+#include "reports/text/json.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

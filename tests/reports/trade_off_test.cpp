@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
 
 namespace nearmiss {

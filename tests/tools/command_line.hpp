@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "reports/text/json.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/tools/background.hpp"
 

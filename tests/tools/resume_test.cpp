@@ -147,7 +147,7 @@ TEST_F(Resume, AStopDoesNotWaitForASubject) {
                             " --query-time 24h --query-memory 0 --db a.db --resume --time ";
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Background hanging(file(""), hangs + "24h");
-    ASSERT_TRUE(hanging.wait_for_a_change(file("a.db-wal")));
+    ASSERT_TRUE(hanging.wait_for_a_change(file("a.db.lock")));
     hanging.stop(signal);
     EXPECT_EQ(hanging.code(), 130);
     EXPECT_EQ(run("report a.db -o report").code, 0);

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/json_output.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "ccd/query/error.hpp"
 #include "corpus/readers.hpp"
@@ -14,6 +13,7 @@
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
+#include "reports/text/json.hpp"
 #include "tools/arguments.hpp"
 #include "tools/bench_comparison.hpp"
 #include "tools/bench_history.hpp"

@@ -10,7 +10,6 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "ccd/query/error.hpp"
@@ -21,6 +20,7 @@
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/sections/other_tables.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

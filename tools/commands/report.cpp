@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/store/store.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"

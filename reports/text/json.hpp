@@ -1,0 +1,50 @@
+// The JSON library, made strict about integers. Every file that needs the library includes this header, because
+// the specialization below must be the same everywhere.
+#pragma once
+
+#include <concepts>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+
+namespace nlohmann {
+
+/// Reads an integer only from an integer that fits, and throws Error for anything else. The library alone
+/// would cast any number, and 1e308 has no integer.
+template <std::integral Integer>
+requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) struct adl_serializer<Integer> {
+  template <class Json>
+  static void to_json(Json& json, Integer value) {
+    nlohmann::to_json(json, value);
+  }
+
+  template <class Json>
+  static void from_json(const Json& json, Integer& value) {
+    if (const auto* const is = json.template get_ptr<const typename Json::number_unsigned_t*>())
+      return store(*is, json, value);
+    if (const auto* const is = json.template get_ptr<const typename Json::number_integer_t*>())
+      return store(*is, json, value);
+    refuse(json);
+  }
+
+ private:
+  template <class Json>
+  static void store(std::integral auto number, const Json& json, Integer& value) {
+    if (!std::in_range<Integer>(number)) refuse(json);
+    value = static_cast<Integer>(number);
+  }
+
+  template <class Json>
+  [[noreturn]] static void refuse(const Json& json) {
+    const std::string found = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    throw nearmiss::Error("found " + nearmiss::excerpt(found) + ", expected an integer from " +
+                          std::to_string(std::numeric_limits<Integer>::min()) + " to " +
+                          std::to_string(std::numeric_limits<Integer>::max()));
+  }
+};
+
+}  // namespace nlohmann
