@@ -11,6 +11,7 @@
 #include "fuzz/trial/sample.hpp"
 #include "fuzz/trial/versions.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -81,9 +82,6 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Whether a fault is the subject's own, whatever it was asked before.
-bool is_own(Fault fault) { return fault != Fault::none && fault != Fault::time && fault != Fault::not_asked; }
-
 /// Asks the subject about a sample once more: fewer queries at once, in another order. The other answer is a
 /// fault, and a fault counts as if it had come at once. Times may differ, because rounding may depend on the
 /// place in a vector.
@@ -92,7 +90,7 @@ void ask_again(const Subject& subject, const Sample& sample, bool timed, std::ve
   ask(subject, sample.queries, timed, again);
   for (std::size_t k = 0; k < again.size(); ++k) {
     Verdict& first = verdicts[sample.numbers[k]];
-    if (is_own(again[k].fault)) first = again[k];
+    if (failure_of(Outcome{again[k]}) == FailureKind::fault) first = again[k];
     if (again[k].fault == Fault::none && again[k].hit != first.hit) first = {.fault = Fault::inconsistent};
   }
 }

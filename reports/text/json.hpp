@@ -1,5 +1,5 @@
-// The JSON library, made strict about integers. Every file that needs the library includes this header, because
-// the specialization below must be the same everywhere.
+// The JSON library, made strict about integers. Every file that needs the library includes this header,
+// because the specialization below must be the same everywhere.
 #pragma once
 
 #include <concepts>

@@ -174,7 +174,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   plan.cases = cases;
   TrialResult result;
   try {
-    const Running guard_of_end;
+    const Running this_one;
     const Stop stop(is_ending);
     const py::gil_scoped_release others_run;
     result = decide_all(plan, subjects, stop);

@@ -1,9 +1,7 @@
 #include "fuzz/subjects/isolation/worker/answering.hpp"
 
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,11 +9,9 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +24,7 @@
 #include "ccd/subjects/plugin.hpp"
 #include "ccd/subjects/stopwatch.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
+#include "fuzz/subjects/isolation/worker/memory.hpp"
 #include "fuzz/subjects/isolation/worker/program.hpp"
 
 namespace {
@@ -37,63 +34,6 @@ using namespace nearmiss::isolation;
 
 const SharedQuestions* questions = nullptr;
 SharedAnswers* answers = nullptr;
-
-}  // namespace
-
-// These functions replace the allocator for the plug-in, so that failures are noted; glibc provides the names
-// below for that purpose. (Sanitizers have their own allocators.)
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define NEARMISS_SANITIZER_ALLOCATES
-#endif
-#endif
-#ifndef NEARMISS_SANITIZER_ALLOCATES
-namespace {
-
-void note_refusal() {
-  if (answers != nullptr) answers->memory_refused.store(1, std::memory_order_relaxed);
-}
-
-void* map_pages(void* at, std::size_t size, int protection, int flags, int file, off_t offset) {
-  const long address = syscall(SYS_mmap, at, size, protection, flags, file, offset);
-  if (address == -1 && errno == ENOMEM) note_refusal();
-  return reinterpret_cast<void*>(address);
-}
-
-}  // namespace
-
-extern "C" {
-// NOLINTBEGIN(bugprone-reserved-identifier): the library's own names
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-// NOLINTEND(bugprone-reserved-identifier)
-
-void* malloc(std::size_t size) {
-  void* const block = __libc_malloc(size);
-  if (block == nullptr) note_refusal();
-  return block;
-}
-void* calloc(std::size_t count, std::size_t size) {
-  void* const block = __libc_calloc(count, size);
-  if (block == nullptr) note_refusal();
-  return block;
-}
-void* realloc(void* old, std::size_t size) {
-  void* const block = __libc_realloc(old, size);
-  if (block == nullptr && size != 0) note_refusal();
-  return block;
-}
-void* mmap(void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept {
-  return map_pages(at, size, protection, flags, file, offset);
-}
-void* mmap64(void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept {
-  return map_pages(at, size, protection, flags, file, offset);
-}
-}
-#endif
-
-namespace {
 
 template <std::size_t n>
 void copy(std::string_view text, std::array<char, n>& to) {
@@ -123,47 +63,6 @@ void prepare_for_faults() {
   // A crash must look like a crash, even if a sanitizer would turn it into an exit.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
   std::set_terminate(note_exception_and_end);
-}
-
-/// The memory of a process in bytes.
-struct Memory {
-  rlim_t addresses = 0;  ///< its address space
-  rlim_t data = 0;       ///< what it can write to, and shares with nobody
-};
-
-Memory memory_of(pid_t process) {
-  std::FILE* const statm = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "r");
-  unsigned long addresses = 0, data = 0;
-  if (statm == nullptr || std::fscanf(statm, "%lu %*u %*u %*u %*u %lu", &addresses, &data) != 2) _exit(1);
-  std::fclose(statm);
-  const auto page = static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-  return {addresses * page, data * page};
-}
-
-void limit(pid_t process, __rlimit_resource resource, rlim_t now, rlim_t later) {
-  const rlimit both{now, later};
-  prlimit(process, resource, &both, nullptr);
-}
-
-/// Limits the memory that this process, and later those that it starts, may use while the plug-in is loaded:
-/// to twice as much as a query may use. Addresses are not limited yet, because drivers of devices reserve
-/// many. No file, on a disk or in memory, may become larger than `more`; to write more is an error.
-void limit_memory_of_loading(rlim_t more) {
-  if (more == 0) return;
-  const rlim_t data = memory_of(getpid()).data;
-  limit(getpid(), RLIMIT_DATA, data + 2 * more, data + 3 * more);
-  limit(getpid(), RLIMIT_FSIZE, more, more);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
-/// Limits the memory that a process may use in addition to what it has after loading.
-void limit_memory(pid_t process, rlim_t more) {
-  if (more == 0) return;
-  rlimit data{};
-  prlimit(process, RLIMIT_DATA, nullptr, &data);
-  limit(process, RLIMIT_DATA, data.rlim_max, data.rlim_max);  // whatever loading took, `more` is left
-  const rlim_t addresses = memory_of(process).addresses + more;
-  limit(process, RLIMIT_AS, addresses, addresses);
 }
 
 /// Notes which query comes next, because the plug-in may crash in it.
@@ -341,6 +240,7 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   questions = map<const SharedQuestions>(questions_memory, PROT_READ);
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE);
   if (questions == nullptr || answers == nullptr) return 1;
+  note_refusals_in(answers->memory_refused);
   prepare_for_faults();
   Call call{};
   if (!receive(call)) return 0;

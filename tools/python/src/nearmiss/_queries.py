@@ -146,10 +146,8 @@ def _expect_doubles(values: Any, name: str) -> None:
         is_exact = abs(int(values)) <= 2**53
     elif isinstance(values, numbers.Real):
         return
-    elif hasattr(values, '__array__') or isinstance(
-        values, memoryview
-    ):  # what NumPy converts as a whole
-        array = np.asarray(values)
+    elif hasattr(values, '__array__') or isinstance(values, memoryview):
+        array = np.asarray(values)  # as a whole
         is_exact = array.dtype.kind not in 'iu' or array.size == 0 or _are_doubles(array)
     elif hasattr(values, '__len__') and hasattr(values, '__getitem__'):
         for each in values:

@@ -1,0 +1,116 @@
+#include "fuzz/subjects/isolation/worker/memory.hpp"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+namespace nearmiss::isolation {
+
+namespace {
+
+std::atomic<std::uint32_t>* refused = nullptr;
+
+}  // namespace
+
+void note_refusals_in(std::atomic<std::uint32_t>& flag) { refused = &flag; }
+
+void note_refusal() {
+  if (refused != nullptr) refused->store(1, std::memory_order_relaxed);
+}
+
+}  // namespace nearmiss::isolation
+
+// These functions replace those of glibc for the plug-in, so that failures are noted. glibc provides the names
+// below for that purpose. (Sanitizers have their own allocators.)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define NEARMISS_SANITIZER_ALLOCATES
+#endif
+#endif
+#ifndef NEARMISS_SANITIZER_ALLOCATES
+using nearmiss::isolation::note_refusal;
+
+extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier): the library's own names
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* block, std::size_t size);
+// NOLINTEND(bugprone-reserved-identifier)
+
+void* malloc(std::size_t size) {
+  void* const block = __libc_malloc(size);
+  if (block == nullptr) note_refusal();
+  return block;
+}
+void* calloc(std::size_t count, std::size_t size) {
+  void* const block = __libc_calloc(count, size);
+  if (block == nullptr) note_refusal();
+  return block;
+}
+void* realloc(void* old, std::size_t size) {
+  void* const block = __libc_realloc(old, size);
+  if (block == nullptr && size != 0) note_refusal();
+  return block;
+}
+void* mmap(void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept {
+  const long address = syscall(SYS_mmap, at, size, protection, flags, file, offset);
+  if (address == -1 && errno == ENOMEM) note_refusal();
+  return reinterpret_cast<void*>(address);
+}
+void* mmap64(void* at, std::size_t size, int protection, int flags, int file, off_t offset) noexcept {
+  return mmap(at, size, protection, flags, file, offset);
+}
+}
+#endif
+
+namespace nearmiss::isolation {
+
+namespace {
+
+/// The memory of a process in bytes.
+struct Memory {
+  rlim_t addresses = 0;  ///< its address space
+  rlim_t data = 0;       ///< what it can write to, and shares with nobody
+};
+
+Memory memory_of(pid_t process) {
+  std::FILE* const statm = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "r");
+  unsigned long addresses = 0, data = 0;
+  if (statm == nullptr || std::fscanf(statm, "%lu %*u %*u %*u %*u %lu", &addresses, &data) != 2) _exit(1);
+  std::fclose(statm);
+  const auto page = static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  return {addresses * page, data * page};
+}
+
+void limit(pid_t process, __rlimit_resource resource, rlim_t now, rlim_t later) {
+  const rlimit both{now, later};
+  prlimit(process, resource, &both, nullptr);
+}
+
+}  // namespace
+
+void limit_memory_of_loading(std::uint64_t more) {
+  if (more == 0) return;
+  const rlim_t data = memory_of(getpid()).data;
+  limit(getpid(), RLIMIT_DATA, data + 2 * more, data + 3 * more);
+  limit(getpid(), RLIMIT_FSIZE, more, more);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void limit_memory(pid_t process, std::uint64_t more) {
+  if (more == 0) return;
+  rlimit data{};
+  prlimit(process, RLIMIT_DATA, nullptr, &data);
+  limit(process, RLIMIT_DATA, data.rlim_max, data.rlim_max);
+  const rlim_t addresses = memory_of(process).addresses + more;
+  limit(process, RLIMIT_AS, addresses, addresses);
+}
+
+}  // namespace nearmiss::isolation
