@@ -19,8 +19,8 @@ struct Case {
   std::string provenance;     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
-/// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three
-/// numbers, decimal if that is exact, else hex floats; all labels except `truth`, `separation` and
+/// The format of *.case files. The lines of `why` come first, as comments. Each point is one line of three
+/// numbers, in decimal if that is exact, else as hex floats. All labels except `truth`, `separation` and
 /// `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
@@ -33,7 +33,7 @@ std::string to_text(const Case& each);
 /// Parses the format of to_text. Throws Error with file and line.
 Case parse_case(std::istream& in, const std::string& file);
 
-/// Writes the format of to_text to a file, whole or not at all. Throws Error.
+/// Writes a case to a file in the format of to_text. The file is written whole or not at all. Throws Error.
 void write_case(const Case& each, const std::filesystem::path& file);
 
 }  // namespace nearmiss

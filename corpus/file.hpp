@@ -26,8 +26,8 @@ class PartFile {
 };
 
 /// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees
-/// half of it, and a full disk leaves the old file unchanged. A pipe or a device (/dev/stdout) is written
-/// through. Throws Error.
+/// half of it, and a full disk leaves the old file unchanged. If the file is a pipe or a device
+/// (/dev/stdout), the text is written to it directly. Throws Error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
 /// Throws the Error that replace_file would throw because of the file or its folder.

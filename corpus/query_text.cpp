@@ -69,8 +69,9 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Whether the shortest decimal that is read as this value equals the value. It does if it has as many digits
-/// as the exact decimal of the value, because it is the nearest decimal with this number of digits.
+/// Whether the shortest decimal that is read as this value equals the value. They are equal if the shortest
+/// decimal has as many digits as the exact decimal of the value, because it is the nearest decimal with this
+/// number of digits.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // of any double
   std::array<char, most_digits + 10> text;
@@ -98,7 +99,7 @@ float parse_float(std::string_view text, std::string_view where) {
 
 namespace {
 
-/// Parses the first words of a line into `numbers`. Returns the number of all words.
+/// Parses the first words of a line into `numbers`. Returns the number of words in the line.
 std::size_t parse_words(std::string_view line, std::span<double> numbers, std::string_view where) {
   std::size_t count = 0;
   for (auto word = next_word(line); !word.empty(); word = next_word(line), ++count)

@@ -13,8 +13,8 @@
 namespace nearmiss {
 
 /// A sequence of random numbers that depends only on (seed, stream, index): Philox4x64-10 with the key
-/// (seed, stream) and the counter (index, number of the draw / 4). Vector registers do not make it faster,
-/// since they lack its multiplication of 64 bits: eight streams side by side took 1.6 times as long.
+/// (seed, stream) and the counter (index, number of the draw / 4). Vector instructions do not make it faster,
+/// since they lack its multiplication of 64-bit integers: eight streams side by side took 1.6 times as long.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)

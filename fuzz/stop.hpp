@@ -17,7 +17,7 @@ class Stop {
   /// `requested` must outlive the Stop.
   explicit Stop(const std::atomic<bool>& requested) : requested_(requested) {}
 
-  /// Time that is granted after the end, to shrink what was found in the last moment.
+  /// Time that is granted after the end, to shrink the last findings.
   static constexpr std::chrono::milliseconds grace{1000};
 
   /// A Stop that is never due.

@@ -39,7 +39,7 @@ class Answers {
 /// Asks all methods.
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// Asks the other methods, if the answer of the first one, a complete method, is already known.
+/// Asks all methods except the first one, which is complete, and whose answer `first` is already known.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
 /// How the method `sturm` contradicts the earliest time of a query with a collision or a tie, such as "time

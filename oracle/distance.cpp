@@ -1,4 +1,5 @@
-// Certified bounds in floating-point arithmetic, then exact comparisons if these do not resolve the distance.
+// Computes certified bounds in floating-point arithmetic. If they do not resolve the distance, compares
+// exactly.
 #include "oracle/distance.hpp"
 
 #include <algorithm>
@@ -43,8 +44,8 @@ class Narrowing {
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
   /// Compares the distance with one more number; false if no double is left between the ends. Most distances
-  /// are just below the upper end, so the first numbers are near it; later ones are in the middle between the
-  /// ends, whose distances from the base are halved in magnitude.
+  /// are just below the upper end, so the first numbers are near it. For later ones, `middle_of` is applied
+  /// to the distances of the ends from `base`.
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);
@@ -67,8 +68,8 @@ class Narrowing {
   std::uint64_t step_ = 64;  ///< how many doubles below the upper end to compare next
 };
 
-/// distance_in_units, if only the part of the distance above `base` matters: where hi <= base / unit,
-/// needed(hi) is at most base / unit, too.
+/// distance_in_units for a caller to whom only the part of the distance above `base` matters: if hi <= base /
+/// unit, needed_of(hi) is at most base / unit, too.
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // The largest double is as near to infinity as a double can be.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };

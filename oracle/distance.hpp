@@ -19,11 +19,11 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
 /// negative. Up to rounding, lo >= needed(hi).
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, and of 1e-9
-/// near 1; infinite if the unit is 0.
+/// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, or of 1e-9 if
+/// the quotient is near 1; infinite if the unit is 0.
 double closest_ratio(const Query& query, double unit);
 
-/// A time in [0, 1] at which the distance of the primitives is about smallest, for pictures.
+/// A time in [0, 1] at which the distance of the primitives is close to its minimum, for pictures.
 double closest_time(const Query& query);
 
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0. The answer is always exact.

@@ -29,7 +29,7 @@ class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
   explicit EarliestTime(const Query& query) : EarliestTime(query, KnownTimes{}) {}
-  /// Starts from what a decision of the query has found, which changes no answer.
+  /// Starts from the results of a decision of the query. This changes no answer.
   EarliestTime(const Query& query, const KnownTimes& known);
 
   /// The enclosure of t* by certified bounds in double.
@@ -39,8 +39,8 @@ class EarliestTime {
   [[nodiscard]] bool is_before(double time);
 
   /// Whether `time` is late: something happens in [0, time). For h = 0 that means t* < time. For h > 0, the
-  /// distance is below h at some time before it; a distance of exactly h does not count, because it may be
-  /// reported or not. The answer is exact.
+  /// distance is below h at some time before it; a distance of exactly h does not count, because a subject
+  /// may report it or not. The answer is exact.
   [[nodiscard]] bool makes_late(double time);
 
   /// An enclosure that is at most `width` wide, or as narrow as doubles allow; one number if t* is a double

@@ -28,8 +28,8 @@ class ApproachSearch {
     return quick.never || quick.comes ? quick : thorough(1);
   }
 
-  /// Narrows the enclosure. If the distance is known to fall below the separation, it is below it at the end
-  /// of the result.
+  /// Narrows the enclosure. If the distance is known to fall below the separation, it is below the separation
+  /// at the end of the new enclosure.
   [[nodiscard]] FirstTime narrow(const FirstTime& known, double width) const {
     constexpr double least_quick_width = 0x1p-40;  // double does not give narrower enclosures
     if (known.comes && width >= least_quick_width) {

@@ -12,8 +12,8 @@ struct KnownApproach {
   /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: it falls below h. `undecided`:
   /// neither is known.
   FilterStage stage{};
-  /// Unless the distance is always above h: contains the earliest time at which it is at most h, and the time
-  /// at which it falls below h, if there are such times.
+  /// Contains the earliest time at which the distance is at most h, and the time at which it falls below h,
+  /// if there are such times.
   Enclosure time{0, 1};
   double estimate = 1;  ///< of the earliest time; not certain
 };

@@ -33,7 +33,7 @@ struct Field {
 };
 using Fields = std::vector<Field>;
 
-/// Adds the field of a value, or the two fields of a range's ends.
+/// Adds the field of a value, or two fields for the ends of a range.
 struct AddField {
   Fields& fields;
   const std::string& heading;
@@ -93,7 +93,7 @@ void add_counters(Fields& fields, const CountsSum& sum) {
   });
 }
 
-/// The fields of a row that begins with this key; `of` is the heading of the key's family, or class.
+/// The fields of a row that begins with this key; `of` is the heading of the column with its family or class.
 Fields fields_of(const CountsKey& key, const char* of, const CountsSum& sum) {
   Fields fields{
       {"subject", field(key.subject)}, {"kind", std::string(short_name(key.kind))}, {of, field(key.family)}};
@@ -107,7 +107,7 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a file; `any` is any row, which gives the headings.
+/// The text of a file, whose headings are taken from `any`, an arbitrary row.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);
   for (const Fields& row : rows) text += line(row, &Field::text);

@@ -38,7 +38,7 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext
 ///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
 /// Replaces the files of an earlier report, and no others (report_folder.hpp). Throws Error if the folder is
-/// something else, if another file is in the way, or if the files cannot be written.
+/// not that of a report, if another file is in the way, or if the files cannot be written.
 void write_report(const Campaign& campaign, const ReportContext& context,
                   const std::filesystem::path& folder);
 

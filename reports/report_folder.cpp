@@ -54,7 +54,8 @@ Error not_a_report(const fs::path& folder) {
                   folder.string()));
 }
 
-/// Throws Error if a folder, or a file that is not the report's own, is where the report has a file.
+/// Throws Error if the path of one of the report's files is that of a folder, or of a file that nearmiss did
+/// not write.
 void expect_room(const fs::path& folder, const ReportPaths& own,
                  const std::map<std::string, std::string>& files) {
   const auto refuse = [](const fs::path& path) {
@@ -138,7 +139,7 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
     put_in_place(part, folder, own, files);
   } catch (const std::exception& error) {
     std::error_code ignored;
-    if (!is_written) {  // if it is written, the next replacement needs `part`
+    if (!is_written) {  // otherwise the next replacement needs `part`
       fs::remove_all(part, ignored);
       fs::remove(folder, ignored);  // if it is empty
     }

@@ -16,7 +16,7 @@ namespace nearmiss::testing {
 
 inline std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-/// A hundred queries. At number 40, a plug-in does what its name says.
+/// A hundred queries. At query `chosen`, a plug-in does what its name says.
 inline constexpr std::size_t chosen = 40;
 inline std::vector<Query> queries() {
   std::vector<Query> some(100, falling_vertex(0.25, 0.25, 1, -1));

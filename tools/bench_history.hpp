@@ -23,7 +23,7 @@ struct TimedRow {
 
 /// One run of nearmiss bench.
 struct BenchRun {
-  RunInfo about;  ///< what was timed where: the commit, the compiler, its flags and the processor
+  RunInfo about;  ///< the commit that was timed, the compiler, its flags and the processor
   std::map<TimedRow, std::vector<double>> times;  ///< ns per query of each pass; NaN without an answer
 };
 

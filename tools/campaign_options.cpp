@@ -55,7 +55,8 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
   return line + ", " + show_duration(std::max(left, {})) + " left";
 }
 
-/// The family of the pairs of a mesh. Throws Stopped, or Error if the time is over before it has them.
+/// The family of the pairs of a mesh. Throws Stopped if the user ends the command, and Error if the time
+/// limit ends before the pairs are found.
 Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
   const MovingMesh mesh = moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0);
   try {

@@ -28,8 +28,8 @@ class JsonOutput {
   /// Throws Error if the JSON would replace this file.
   void expect_other_file(const std::filesystem::path& file) const;
 
-  /// Writes the JSON if it is wanted, indented by `indent` blanks; a file whole or not at all. Throws Error
-  /// if it cannot be written.
+  /// Writes the JSON if it is wanted, indented by `indent` blanks. A file is written whole or not at all.
+  /// Throws Error if it cannot be written.
   void write(const nlohmann::ordered_json& json, int indent = 2) const;
 
   /// The file; empty if there is none.

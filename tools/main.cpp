@@ -71,7 +71,7 @@ void expect_subcommand(const CLI::App& app, std::string_view word) {
                   nearmiss::excerpt(word), *nearest));
 }
 
-/// The message of the command line's parser, with the long words of the user cut.
+/// The message of the command line's parser, in which long words that the user typed are cut short.
 std::string with_short_words(std::string_view text) {
   constexpr std::size_t most = 200;  // the parser's own longest word, a list of choices, is shorter
   std::string result;

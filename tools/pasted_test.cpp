@@ -57,7 +57,7 @@ std::string what_is_true(const Query& query) {
 }
 
 /// The largest double that is not a late time. Throws Error if the distance first touches h without falling
-/// below it: then it is not a failure to give a later time.
+/// below it, because a later time is then no failure.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;
@@ -134,7 +134,7 @@ std::string expectation(const Finding& finding, const std::string& arguments, Fo
   const std::string is_right =
       python ? (collision ? "" : "not ") + detects : fmt::format("{} == {}", detects, collision);
   if (!gives_invalid_time(finding)) return is_right;
-  // A report of no collision needs no time; a false positive needs one.
+  // If the CCD reports no collision, it needs no time. If it reports a false positive, it needs a valid one.
   if (python) return fmt::format("{} {} 0 <= {} <= 1", is_right, collision ? "and" : "or", time);
   return collision ? fmt::format("{0} && {1} >= 0 && {1} <= 1", is_right, time)
                    : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);

@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::size_t printed_findings = 10;
 constexpr auto save_interval = std::chrono::milliseconds(500);
-constexpr auto when_locked = std::chrono::seconds(5);           // in addition, because each try waits
+constexpr auto when_locked = std::chrono::seconds(5);           // a longer interval, because each try waits
 constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // rare, because it writes all findings
 
 std::string cpu_model() {

@@ -54,9 +54,10 @@ class Record {
 
   /// Adds a result, and replaces findings that have been shrunk since; saves at intervals.
   void add(TrialResult&& result);
-  /// Saves a picture, if there is a store. Waits half a minute for a process that has locked it.
+  /// Saves a picture, if there is a store. If another process has locked the store, waits up to half a
+  /// minute.
   void add(const ScenePicture& picture);
-  /// Saves what was added. Waits for such a process, too.
+  /// Saves what was added. Waits for a locked store in the same way.
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
@@ -82,7 +83,7 @@ class Record {
   bool saved_ = false;    // whether anything was ever saved
   bool unsaved_ = false;  // something was added since the last save
   Statistics statistics_;
-  std::set<CountsKey> set_aside_;  // slow subjects whose setting aside was already announced
+  std::set<CountsKey> set_aside_;  // already announced as too slow to be asked more
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved

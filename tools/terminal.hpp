@@ -19,8 +19,8 @@ void occupy_standard_streams();
 void end_on_signals();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that results can be saved; a second signal, at
-/// least two seconds later, ends the program at once. To be called when there is something to save, but not
-/// earlier, so that a signal need not wait for the loading of files.
+/// least two seconds later, ends the program at once. Call this only when there is something to save. Until
+/// then, a signal ends the program at once, for example while it loads files.
 void stop_on_signals();
 /// This flag.
 const std::atomic<bool>& interrupted();

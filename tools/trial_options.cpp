@@ -131,7 +131,7 @@ std::string absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// A program's command that does the same in every folder.
+/// A program's command, changed so that it does the same in any current folder.
 std::string absolute_command(const std::string& command) {
   const std::vector<std::string> words = shell_words(command);
   const bool is_absolute = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -143,7 +143,7 @@ std::string absolute_command(const std::string& command) {
                      command.starts_with("cd ") ? "" : "exec ", command);
 }
 
-/// The text that denotes a plug-in in every folder.
+/// The text that denotes a plug-in, whatever the current folder is.
 std::string absolute_text(const Subject& subject) {
   const auto [name, plugin] = SubjectText::parse(text_of(subject));
   const std::string given = name.empty() ? "" : name + "=";

@@ -23,14 +23,14 @@ struct TrialOptions {
 
   void add_to(CLI::App& command);
 
-  /// The limits of plug-ins. When `stop` is due, questions to plug-ins end, too.
+  /// The limits of plug-ins. When `stop` is due, nearmiss no longer waits for the answer of a plug-in.
   [[nodiscard]] isolation::PluginLimits plugin_limits(const Stop& stop) const;
 
   /// The subjects, wrapped so that they are asked only what their contracts allow (contracted.hpp). Throws
   /// Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
-  /// Wraps subjects in the same way that were made without regard to their contracts, and gives them distinct
-  /// names (tell_apart).
+  /// Wraps subjects that were made without regard to their contracts, as make_subjects does, and gives them
+  /// distinct names (tell_apart).
   Subjects keep_contracts(Subjects made) const;
 
   /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is

@@ -38,8 +38,8 @@ inline bool is_arithmetic_plain() {
 #endif
 }
 
-/// How this thread's arithmetic differs from plain, such as "rounds upward, flushes subnormals to zero"; ""
-/// if it is plain.
+/// How this thread's arithmetic differs from plain arithmetic, such as "rounds upward, flushes subnormals to
+/// zero"; "" if it is plain.
 std::string odd_arithmetic();
 
 /// Makes this thread's arithmetic plain.

@@ -55,7 +55,7 @@ inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
-/// Whether the 12 coordinates of a query at one time, of type T, lie one after the other.
+/// Whether the 12 coordinates of a query at one time are contiguous in memory, and of type T.
 template <class T>
 bool has_packed_points(const nearmiss_queries& queries) {
   return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
@@ -68,7 +68,7 @@ inline bool lie_in_rows(const nearmiss_queries& queries) {
          static_cast<const double*>(queries.start) + 12 == queries.end;
 }
 
-/// Reads one query after the other.
+/// Reads single queries, whose coordinates are of type T.
 template <class T>
 class Reader {
  public:
@@ -110,7 +110,7 @@ inline constexpr std::size_t block_size = 256;
 
 /// Divides the queries into blocks of at most `most`, and calls visit(block, first) for each, where `first`
 /// is the index of the block's first query. Returns the last status of `visit` that is not NEARMISS_OK, or
-/// NEARMISS_OK. `block_of` makes a block from `first` and its size.
+/// NEARMISS_OK. `block_of(first, size)` makes a block.
 template <class BlockOf, class Visit>
 int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
   int status = NEARMISS_OK;
@@ -161,8 +161,8 @@ int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   }
 }
 
-/// Calls answer(query, q) for each query that is finite, and refuse(q) for each of the others. Returns a
-/// status and throws nothing.
+/// Calls answer(query, q) for each query that can be answered, and refuse(q) for each of the others. Returns
+/// a status and throws nothing.
 template <class Answer, class Refuse>
 int for_each_query(const nearmiss_queries* queries, const Answer& answer, const Refuse& refuse) noexcept {
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {

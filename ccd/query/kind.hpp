@@ -36,7 +36,8 @@ struct VertexAndEdge {
   std::uint8_t to;      ///< its other end
 };
 
-/// The names of a kind, and its vertices, edges and pairs of them. No other place lists these.
+/// The names of a kind, the vertices and edges of its primitives, and pairs of these. No other place lists
+/// them.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
@@ -102,8 +103,8 @@ constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); 
 /// x1x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
 constexpr bool has_triangle(Kind kind) { return topology(kind).second == Primitive::triangle; }
 
-/// The number of a kind in the interfaces in C, NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE: one bit of a
-/// set of kinds.
+/// The number of a kind in the C interfaces, NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE: one bit of a set
+/// of kinds.
 constexpr int bit_of(Kind kind) { return 1 << static_cast<int>(kind); }
 
 /// The set of all kinds, as a sum of their bits.

@@ -38,7 +38,7 @@ struct Lanes {
     friend Mask operator!=(const Mask& a, const Mask& b) { return Mask(a.bits ^ b.bits); }
     friend Mask operator!(const Mask& a) { return Mask(~a.bits); }
     bool operator[](std::size_t lane) const { return std::bit_cast<EachInteger>(bits)[lane] != 0; }
-    /// The number in lanes in which the mask is true, else 0.
+    /// `number` in the lanes in which the mask is true, and 0 in the others.
     [[nodiscard]] Integers as(std::int64_t number) const { return bits & number; }
 
     friend bool any_of(const Mask& a) {
@@ -89,7 +89,7 @@ struct Lanes {
   friend Mask operator==(const Lanes& a, const Lanes& b) { return Mask(a.v == b.v); }
   friend Mask operator!=(const Lanes& a, const Lanes& b) { return Mask(a.v != b.v); }
 
-  /// a in lanes in which the mask is true, else b.
+  /// a in the lanes in which the mask is true, and b in the others.
   friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) {
     return Lanes(mask.bits ? a.v : b.v);
   }

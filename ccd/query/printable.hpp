@@ -1,4 +1,4 @@
-// Text from elsewhere, made fit for terminals, files and pages.
+// Makes text from outside safe to show on terminals, in files and on pages.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace nearmiss {
 
 /// The text as valid UTF-8 without control characters: each byte or character that is neither printable nor
-/// part of a valid sequence becomes '?', and a line end a blank.
+/// part of a valid sequence becomes '?', and each line end becomes a blank.
 std::string printable(std::string_view text);
 
 }  // namespace nearmiss

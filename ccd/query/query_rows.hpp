@@ -1,4 +1,4 @@
-// Queries in memory, as code that decides many at once reads them.
+// A view of queries in memory, for code that decides many of them at once.
 #pragma once
 
 #include <algorithm>

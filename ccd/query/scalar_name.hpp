@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The algorithm and the scalar in a subject's name, without its bound. The scalar is "", which means double,
-/// if the name has none.
+/// A subject's name split into the algorithm and the scalar; a suffix "@B" is dropped. If the name has no
+/// scalar, `scalar` is "", which means double.
 struct ScaledName {
   std::string_view algorithm, scalar;
 };

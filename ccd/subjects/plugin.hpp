@@ -24,7 +24,7 @@ bool is_file(std::string_view path);
 bool is_plugin(std::string_view name);
 
 /// A shared object as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path. The
-/// path is the shortest part up to a ':' that is a file.
+/// path is the shortest prefix that is a file and ends at a ':' or at the end of the name.
 struct PluginName {
   std::string path;
   std::string subject;  ///< one of the shared object's subjects; "" if the name leaves it open
@@ -34,7 +34,7 @@ struct PluginName {
   static PluginName parse(std::string_view name);
 };
 
-/// A detector of a shared object as a subject, run in this process.
+/// A subject that runs a detector of a shared object in this process.
 class Plugin final : public Subject {
  public:
   /// Throws Error.

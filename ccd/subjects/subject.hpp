@@ -17,7 +17,7 @@
 
 namespace nearmiss {
 
-/// What a subject says about t*, the earliest time at which the distance is at most h, for a collision.
+/// For a collision: what a subject says about t*, the earliest time at which the distance is at most h.
 enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< a time near t*
@@ -29,10 +29,10 @@ inline constexpr std::array<std::string_view, 3> time_sort_names{"none", "estima
 
 constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_cast<std::size_t>(sort)]; }
 
-/// What a subject takes for granted; it is not judged on other queries. 0 or false: no such assumption.
+/// A subject's assumptions. It is not judged on queries that violate them. 0 or false: no such assumption.
 struct Contract {
-  bool apart_at_start = false;  ///< the distance of the primitives at t = 0 is more than `apart_by` and h
-  bool one_root = false;  ///< the volume of the four vertices has one root in [0, 1] at most, a simple one
+  bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h
+  bool one_root = false;  ///< the volume that the vertices span has at most one root in [0, 1], a simple one
   double apart_by = 0;    ///< used with apart_at_start
   double grid = 0;        ///< a power of two of which every coordinate is a multiple
   double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least this long
@@ -41,7 +41,7 @@ struct Contract {
   bool operator==(const Contract&) const = default;
 };
 
-/// A subject's answer to the question for its distance bound.
+/// A subject's answer when it is asked for its distance bound.
 struct BoundAnswer {
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< as the subject gives it
   Fault fault = Fault::none;                                ///< if not `none`, there is no bound
@@ -59,7 +59,7 @@ struct BoundAnswer {
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
 /// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
-  std::size_t queries = 0;  ///< queries that were timed; a part of a batch in which a process failed is not
+  std::size_t queries = 0;  ///< timed queries, without the part of a batch in which a process failed
   std::uint64_t nanoseconds = 0;
 };
 
@@ -111,7 +111,7 @@ class Subject {
   /// What the time of a verdict means, for collisions.
   [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }
 
-  /// What the subject takes for granted.
+  /// The subject's assumptions.
   [[nodiscard]] virtual Contract contract() const { return {}; }
 
   /// Whether the subject rounds coordinates to fewer digits than those of double.
@@ -161,7 +161,7 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
 /// A name without its suffix "@B" or "@scene", and the bound that the suffix gives. If there is no suffix,
-/// the bound is the given one. The path of a plug-in never has a suffix. Throws Error if B is a number that
+/// the bound is `given_bound`. The path of a plug-in never has a suffix. Throws Error if B is a number that
 /// is not positive and finite.
 struct SplitName {
   std::string_view name;
@@ -169,7 +169,7 @@ struct SplitName {
 };
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
-/// Throws an Error that says that a subject found a coordinate that is not finite.
+/// Throws an Error: the subject `name` found a coordinate that is not finite.
 [[noreturn, gnu::cold]] void refuse_coordinates(std::string_view name);
 
 /// Throws an Error that lists the known names.

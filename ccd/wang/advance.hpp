@@ -1,5 +1,5 @@
-// Conservative advancement: whether and when two primitives come within a separation, by steps in time that
-// cannot be too long.
+// Conservative advancement: finds whether and when two primitives come within a separation, by time steps
+// that never pass that time.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +43,8 @@ struct DifferencePolygon {
   }
 };
 
-/// The polygon in a frame in which its computations neither overflow nor underflow: X is in [1, 2), unless it
-/// needs no scaling or is 0.
+/// The polygon in a frame in which computations with it neither overflow nor underflow. X is in [1, 2) there,
+/// unless X needs no scaling or is 0.
 template <Kind kind, class T>
 DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   DifferencePolygon<kind, T> polygon(query);
@@ -71,8 +71,8 @@ struct NearestPoint {
   }
 };
 
-/// The nearest to the origin of these points: the corners, the nearest point of each edge, and the origin's
-/// projection onto the polygon's plane, if it is in the polygon.
+/// The point nearest to the origin. The candidates are the corners, the nearest point of each edge, and the
+/// origin's projection onto the polygon's plane, if it is in the polygon.
 ///
 /// The direction of an edge's point is made perpendicular to the edge once more, because the direction of a
 /// point near the origin has lost digits by cancellation. For the same reason, the direction of the
@@ -119,7 +119,7 @@ template <Kind kind, class T, std::size_t size>
 inline constexpr int advance_error = 32;
 
 /// A collision is reported if the computed distance is at most h + `advance_reach` εX. This is more than h +
-/// `advance_error` εX, to which the advancement would converge without end.
+/// `advance_error` εX, which the advancement would approach forever.
 inline constexpr int advance_reach = 128;
 
 /// If a collision is reported in this way, the exact distance is at most h + `advance_bound` εX.
@@ -137,8 +137,8 @@ inline constexpr int advance_iterations = 1000;
 
 namespace detail {
 
-// Whether a coordinate separates the primitives by more than `distance`, in one direction, at t = 0 and
-// t = 1.
+// Whether a coordinate separates the primitives by more than `distance`, with the same primitive above the
+// other at t = 0 and t = 1.
 template <Kind kind, class T>
 bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   using Three = Eigen::Array<T, 3, 1>;
@@ -155,8 +155,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// The time until which, from t on, all corners stay beyond `distance` along a direction: t if a corner is not
-// beyond it at t, and at most t + 2.
+// From t until the returned time, all corners stay beyond `distance` along a direction. The returned time is
+// t if a corner is not beyond it at t, and at most t + 2.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {

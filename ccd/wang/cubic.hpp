@@ -39,8 +39,7 @@ namespace detail {
 // A time with |F| <= μ between lo and hi, found by Newton's method safeguarded by bisection. At lo and hi, F
 // has different signs, and |F| > μ. It terminates: bisection replaces a step that leaves the bracket or is
 // more than half as long as the step before it. If the bracket cannot shrink any more, the end with the
-// smaller residual is returned. That happens only if μ is smaller than `solve_cubic` requires; so does `next
-// == t`.
+// smaller residual is returned. This and `next == t` happen only if μ is smaller than `solve_cubic` requires.
 template <class T>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
   using std::abs;
@@ -84,7 +83,8 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
   }
 }
 
-// The nodes 0, critical points of F in (0, 1), and 1, and F there. Interval i is between nodes i and i + 1.
+// The nodes, which are 0, the critical points of F in (0, 1) and 1, and the values of F at them. Interval i
+// is between nodes i and i + 1.
 template <class T>
 struct Nodes {
   std::array<T, 4> time{0}, value;

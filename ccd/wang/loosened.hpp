@@ -1,4 +1,5 @@
-// How near a pair is to the other answer: by which factor the tolerances must be loosened, or tightened.
+// How near a pair is to the other answer: the factor by which the tolerances must be loosened, or tightened,
+// to get that answer.
 #pragma once
 
 #include "ccd/wang/elementary.hpp"
@@ -6,7 +7,8 @@
 
 namespace nearmiss {
 
-/// The tolerances of a rule, with the accepting ones multiplied, as lengths (D, √δ, √ψ, S, ∛μ), by s.
+/// The tolerances of a rule. The accepting ones are multiplied by s when taken as lengths: D, √δ, √ψ, S and
+/// ∛μ.
 template <class Rule>
 struct Loosened {
   Rule tolerances;
@@ -26,8 +28,8 @@ struct Loosened {
   }
 };
 
-/// The s, to about 1 %, at which hits(s), the answer with Loosened tolerances, changes from false to true. If
-/// it does not change between 2^-40 and 2^8, the nearer of the two is returned.
+/// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) is the answer with
+/// Loosened tolerances. If it does not change between 2^-40 and 2^8, the nearer of the two is returned.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   double lo = -40;

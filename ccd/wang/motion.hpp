@@ -126,8 +126,8 @@ void form_vectors(const Points& points, Pair<kind, T>& pair) {
   pair.r = motion(r);
 }
 
-/// The relative excess of B over E + W, in units of ε: `bound_margin` is what B has, `bound_needs` what the
-/// proofs need.
+/// The relative excess of B over E + W, in units of ε: B has the excess `bound_margin`, and the proofs need
+/// `bound_needs`.
 inline constexpr int bound_margin = 64;
 inline constexpr int bound_needs = 40;
 

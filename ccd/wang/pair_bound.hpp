@@ -18,8 +18,8 @@ double pair_bound(const Query& query) {
     return std::ldexp(make_pair<kind, double>(query, frame).B, -frame.total());
   };
   const double B = in(normalising_frame<kind, double>(query));
-  // Two primitives may be so far apart that their distance overflows in the frame of their B, and their
-  // velocity is NaN.
+  // Two primitives may be so far apart that their distance overflows in the frame of their B. Their relative
+  // velocity is then NaN.
   return std::isnan(B) ? in({.reduced = true}) : B;
 }
 /// The bound B of a pair whose kind is known at run time.

@@ -35,7 +35,7 @@ template <Kind kind, class Coordinate>
 // Whether one primitive lies entirely on one side of the other in the given coordinate, at t = 0 and, on the
 // same side, at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
 // at all times between them. The same holds for every convex combination, so the primitives never meet.
-// The answer is one truth value or a vector of them, as the coordinates are.
+// The answer is one truth value, or a vector of them if the coordinates are vectors.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
   const auto start = extents<kind>(coordinate, 0);
@@ -70,8 +70,8 @@ template <Kind kind, class Points>
 
 }  // namespace detail
 
-/// Whether a moving plane across an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) provably separates the
-/// primitives at all times in [0, 1], so that there is no collision.
+/// Whether a moving plane perpendicular to an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) provably
+/// separates the primitives at all times in [0, 1], so that there is no collision.
 ///
 /// The axis tests compare input coordinates. The diagonal tests compare sums and differences that were
 /// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error margin is needed.

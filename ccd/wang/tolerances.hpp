@@ -23,8 +23,8 @@ T fourth_root_of_epsilon() {
 
 /// The tolerances of §4 for a pair bounded by B. According to the paper, its closed forms are failure-proof
 /// if μ >= 33492 B³ε, which holds for double (64 e³ = 64/2^39 > 33492/2^52) and not for float. According to
-/// constraints.hpp, they are failure-proof for every scalar of 13 bits or more. Here e = ε^¼ is a number
-/// without unit, and the unit of each tolerance is the power of a length shown.
+/// constraints.hpp, they are failure-proof for every scalar of 13 bits or more. Here e = ε^¼ is
+/// dimensionless. The unit of each tolerance is the power of a length that its comment shows.
 template <class T>
 struct Tolerances {
   T delta;    ///< δ, length²: rounding error of VV's squared distance (§4.2)

@@ -27,9 +27,9 @@ enum class VeCulling : std::uint8_t {
 /// rounding to nearest, 334 is proven (proven.hpp).
 inline constexpr int evaluation_error = 865;
 
-/// Consider F with its computed coefficients between two places within an interval of `solve_cubic`. This is
-/// the most by which F leaves the range of its values at the two places, in units of B³ε: 3 · 18 plus terms
-/// of second order, for ε <= 2^-10.
+/// Consider F with its computed coefficients between two times within an interval of `solve_cubic`. This is
+/// the most by which F leaves the range of its values at the two times, in units of B³ε: 3 · 18 plus terms of
+/// second order, for ε <= 2^-10.
 inline constexpr int node_error = 60;
 
 /// Bound of |ŵ - w| / (B⁴ε) for a weight or its comparison with N·N, by Theorem 4.1, in every rounding mode.

@@ -63,7 +63,7 @@ enum class Fault : std::uint8_t {
   invalid,       ///< it gave an unknown answer, or a collision without the time that it promises
   load,          ///< it could not be loaded again after it had failed
   contract,      ///< it was not asked, because the query breaks its contract
-  inconsistent,  ///< asked once more, among other queries, it gave the other answer
+  inconsistent,  ///< it gave the other answer when asked once more, among other queries
 };
 
 inline constexpr std::size_t fault_count = 12;
@@ -81,8 +81,8 @@ struct Verdict {
   double time = std::numeric_limits<double>::quiet_NaN();
   Fault fault = Fault::none;  ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  /// The return value of an error, and of an invalid answer; the signal or negated exit code of a crash; a
-  /// number that Subject::fault_text knows for an exception and a failure to load.
+  /// For an error or an invalid answer, the return value; for a crash, the signal or the negated exit code;
+  /// for an exception or a failure to load, a number that Subject::fault_text turns into a message.
   std::int32_t fault_code = 0;
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }

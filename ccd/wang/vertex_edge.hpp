@@ -110,8 +110,8 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 ///   vertex is outside. After a concave kink G continues below the piece. If a kink of some |Q_k| comes
 ///   first, go on to the computed time of that root.
 /// Along this path F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square root of an
-/// error, because all times are nearly exact times of one function near F_0ij. The paper's 688 B²ε^½, for the
-/// distance from the computed root of one Q_k to the exact root, is not needed.
+/// error, because all times are nearly exact for one function, G, which is near F_0ij. The paper's 688
+/// B²ε^½, for the distance from the computed root of one Q_k to the exact root, is not needed.
 template <class T>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
   const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };

@@ -19,7 +19,7 @@ namespace nearmiss {
 
 /// The culling that a variant of the algorithm uses.
 struct WangOptions {
-  bool plane_culling = true;                   ///< by moving planes across axes and diagonals
+  bool plane_culling = true;                   ///< by planes perpendicular to axes and diagonals
   VeCulling ve_culling = VeCulling::per_root;  ///< before the vertex-edge tests
 };
 
@@ -79,7 +79,7 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 // test is needed.
 //
 // Let s be the sum of all squared components of p, q and r, with the part s_x of the positions and s_v of the
-// velocities. Of the bounds in motion.hpp, E <= √2 √s_x, since an edge is the difference of at most two
+// velocities. The bounds in motion.hpp satisfy E <= √2 √s_x, since an edge is the difference of at most two
 // vectors, and W <= √3 √s_v, since a relative velocity is at most p + r - q. So E + W <= √(5 s) by the
 // Cauchy-Schwarz inequality. μ is proportional to B³; let μ1 be its value at B = 1. Then μ is at most
 // 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not

@@ -22,15 +22,15 @@
 namespace nearmiss {
 
 /// Decides queries of one kind in steps: plane culling, the clearance of F, the roots of F, the tests at the
-/// roots. Each step computes the queries that the steps before left open, side by side in n lanes. Queries
-/// that need vertex-edge tests, another frame or another order of end points are left undecided. A lane
-/// computes exactly what the templates compute for its query, so n changes no verdict.
+/// roots. Each step processes the queries that the previous steps left undecided, side by side in n lanes.
+/// Queries that need vertex-edge tests, another frame or another order of end points are left undecided. A
+/// lane computes exactly what the templates compute for its query, so n changes no verdict.
 template <int n, Kind kind>
 class WangLanes {
  public:
   WangLanes(const QueryRows& queries, Verdict* verdicts) : queries_(queries), verdicts_(verdicts) {}
 
-  /// Decides the queries of its kind, among at most `wang_batch_size`.
+  /// Decides the queries of kind `kind` in a batch of at most `wang_batch_size`.
   void run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);
@@ -116,7 +116,7 @@ class WangLanes {
       const Points x = points([&](std::size_t lane) { return rows[i + lane]; });
       const auto separated =
           each(Mask(detail::separated_across_axis<kind>(x) | detail::separated_across_diagonal<kind>(x)));
-      // Four sums at a time, since each addition depends on the one before.
+      // Four independent sums, since each addition to a sum must wait for the one before.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; ++c) sums[c % 4] += x.x[c];
       const auto finite = each(Mask(abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < Real(HUGE_VAL)));
@@ -130,7 +130,7 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose F stays clear of 0. Of the others, keeps F, W and B of those that need no other
+  /// Rejects the pairs whose F stays clear of 0. Keeps F, W and B of those other pairs that need no other
   /// frame or order.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
@@ -234,7 +234,8 @@ class WangLanes {
     }
   }
 
-  /// The tests of Algorithms 3 and 4 at all candidates, and where they fail, culling of vertex-edge tests.
+  /// Tests all candidates as Algorithms 3 and 4 do. Where a candidate does not pass, checks
+  /// whether its vertex-edge tests can be skipped.
   void test_candidates() {
     pad(candidate_place_, candidate_count_);
     pad(candidate_time_, candidate_count_);
@@ -289,7 +290,7 @@ class WangLanes {
     }
   }
 
-  /// The verdict from some candidates of one query.
+  /// The verdict on a query whose candidates are `first` .. `end` - 1.
   [[nodiscard]] Verdict verdict(std::size_t first, std::size_t end) const {
     bool culled = true;
     for (std::size_t i = first; i < end; ++i) {
@@ -307,7 +308,7 @@ class WangLanes {
   QueryRows queries_;
   Verdict* verdicts_;
   Rows left_;  ///< queries whose F may have a root; a place is an index in this list
-  std::array<Column<double, wang_batch_size>, 6> columns_;  ///< a, b, c, d of F, W and B, by place
+  std::array<Column<double, wang_batch_size>, 6> columns_;  ///< a, b, c, d of F, then W and B, by place
   std::array<Column<double, most_brackets>, 4> brackets_;
   Column<std::uint8_t, most_brackets> bracket_place_;
   Column<std::uint16_t, most_brackets> bracket_candidate_;

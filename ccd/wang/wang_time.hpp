@@ -1,4 +1,4 @@
-// A lower bound of the earliest time of contact, made of the parts of wang.
+// A lower bound of the earliest time of contact, computed by parts of wang.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +59,8 @@ std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};
 }
 
-/// A time before which a moving plane across an axis or a diagonal separates the primitives: along it, the
-/// coordinates of all differences of vertices keep one sign.
+/// A time before which a moving plane perpendicular to an axis or a diagonal separates the primitives: in
+/// this direction, the components of all differences of vertices keep one sign.
 template <Kind kind, class T>
 T separated_until(const Pair<kind, T>& pair) {
   const T error = gap_error * epsilon<T>() * pair.B;
@@ -88,7 +88,7 @@ T separated_until(const Pair<kind, T>& pair) {
 /// By (2) of `solve_cubic`, there is no root between two times at which F has one sign and |F| exceeds the
 /// residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by twice
 /// the residual; the shifted cubic has the same nodes. There, `refine_root` ends with at most half of the
-/// residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals less h at the
+/// residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals minus h at the
 /// returned time.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {

@@ -25,7 +25,7 @@ Query placed_apart(Random& random, const Query& query, double separation) {
   return rescaled(random, turned(random, with_separation(query, separation)));
 }
 
-/// A velocity towards the other primitive, and sideways in two cases of three.
+/// A velocity towards the other primitive; in two of three cases, it also has a part that is sideways.
 Vector approaching(Random& random) {
   const Vector sideways = random.one_in(3) ? Vector(Vector::Zero()) : vector_in_plane(random);
   return sideways - random.integer(1, 4) * Vector::UnitZ();
@@ -33,8 +33,9 @@ Vector approaching(Random& random) {
 
 // --- at the smallest distance ---------------------------------------------------------------------------
 
-/// A pair of another family whose primitives stay apart. With d, their smallest distance rounded up to a
-/// double, h is (1 + 2^x) d, or (1 - 2^x) times the double below d. If x is -54, h is one of these.
+/// A pair of another family whose primitives stay apart. Let d be their smallest distance, rounded up to a
+/// double. Then h is (1 + 2^x) d, or (1 - 2^x) times the double below d. If x is -54, h is d or the double
+/// below d.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};
@@ -52,9 +53,8 @@ Query near_separation(Random& random, Kind kind, double x) {
   }
 }
 
-/// The smallest distance is exactly h. The closest features rest or move sideways, or the distance is h at
-/// t = 0 before they part, or at t = 1 after they come near. In half of the queries, h is then moved by x
-/// ulps.
+/// The smallest distance is exactly h. The closest features rest or move sideways; or the distance is h at t
+/// = 0 and then grows; or it decreases to h at t = 1. In half of the queries, h is then moved by x ulps.
 Query tied_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const bool is_at_end = random.one_in(3);
@@ -91,9 +91,9 @@ struct Sides {
   bool q, r;
 };
 
-/// The distance falls below h at a time inside the step. About 2^x before that, a closest point moves from an
-/// end of a side into its inside, or from the inside to an end. In the first case, the point's weight is 2^x
-/// when the distance is h. In the second case, the slope of the side is about 2^x.
+/// The distance falls below h at a time inside the step. At a time about 2^x earlier, a closest point moves
+/// from an end of a side into its interior, or from the interior to an end. In the first case, the point's
+/// weight is 2^x when the distance is h. In the second case, the slope of the side is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);

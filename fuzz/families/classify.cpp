@@ -32,10 +32,10 @@ using exact::Number;
 using exact::Polynomial;
 using exact::Root;
 
-/// Intervals, which need rounding upward. Converting a comparison that they leave open to bool throws.
+/// Intervals. They need the rounding mode `upward`. Converting an undecided comparison to bool throws.
 using Interval = CGAL::Interval_nt<false>;
 
-/// The answer in intervals, or, if they leave it open, in exact arithmetic.
+/// The answer of interval arithmetic, or that of exact arithmetic if intervals do not decide.
 template <class InIntervals, class Exactly>
 bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
   try {

@@ -12,8 +12,8 @@ namespace nearmiss {
 /// query, also in a tie. A query with a coordinate that is not finite is extreme.
 QueryClass classify(const Query& query);
 
-/// The queries of a class that are at most as exotic as one of them: some degenerate queries have coincident
-/// vertices, others have not.
+/// Accepts the queries of class `of` whose exoticness is at most `most`. For example, it can refuse those
+/// degenerate queries in which vertices coincide.
 struct NoMoreExotic {
   QueryClass of;
   int most;  ///< exoticness

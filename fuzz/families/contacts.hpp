@@ -66,7 +66,8 @@ class ContactSampler {
   double weight();
   /// A place inside, on an edge, at a vertex or slightly outside; the time is drawn in the same way.
   Aim aim(Kind kind);
-  /// Primitives of size 1 with an aim. Their sides change at the given speed, and base stays at 0.
+  /// Primitives of size 1 whose contact is drawn by aim(). Their sides change at the given speed, and base
+  /// stays at 0.
   Contact contact(Kind kind, double speed);
 
  private:
@@ -91,8 +92,8 @@ Query rescaled(Random& random, Query query);
 /// Moves one query in four by an integer vector, which is exact for integers, then calls `rescaled`.
 Query placed(Random& random, Query query);
 
-/// Turns or mirrors a query, and multiplies all lengths, and the separation, by 1, 3, 5, 7 or 9, so that the
-/// matrix has integer entries. This is exact if four bits of every coordinate are free.
+/// Turns or mirrors a query, and multiplies all lengths and the separation by 1, 3, 5, 7 or 9, so that the
+/// matrix of the rotation has integer entries. This is exact if four bits of every coordinate are free.
 Query turned(Random& random, Query query);
 
 /// The same query with the vertices of each primitive in a random order.

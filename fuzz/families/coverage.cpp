@@ -54,7 +54,7 @@ class Occurrences {
           use(fmt::format("{} {}", numbering_.name[i], numbering_.name[j]), pairs_[i * size_ + j] != 0);
   }
 
-  /// Which of the pairs that the family makes occur here.
+  /// Says which of the pairs in `made`, those that the family makes, also occur here.
   [[nodiscard]] Combinations pairs_among(const Occurrences& made) const {
     return compared(pairs_, made.pairs_, 2);
   }

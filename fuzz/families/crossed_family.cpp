@@ -82,7 +82,7 @@ std::pair<Vector, Vector> sides(Random& random, Kind kind, Shape shape) {
 
 // --- motion and roots -------------------------------------------------------------------------------
 
-/// Two vectors that span a plane with both sides, which may be zero or parallel.
+/// Two vectors whose plane contains both sides, even if these are zero or parallel.
 std::pair<Vector, Vector> plane(Random& random, const Draft& draft) {
   if (!draft.q.cross(draft.r).isZero()) return {draft.q, draft.r};
   const Vector side = draft.q.isZero() ? draft.r : draft.q;
@@ -173,7 +173,7 @@ Draft draft_of(Random& random, Kind kind, const Levels& levels, double time) {
     case Motion::slow:
       deform(random, draft, levels.roots(), time, 0x1p-10);
       break;
-    case Motion::along:  // the roots that the family makes for it put w into the plane
+    case Motion::along:  // for all roots that has_roots() allows, deform() puts w into the plane
     case Motion::deforming:
       deform(random, draft, levels.roots(), time, 1);
   }
@@ -313,7 +313,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
   constexpr int fewest_bits = 5;
   for (;;) {
     const Frame frame = frame_of(random, levels.offset());
-    // The draft depends on the time, and the time on the draft's bits. So it gets a time nearby.
+    // The draft needs the time, and the time the draft's bits, so the draft is made for a time nearby.
     const double near = time_of(random, levels.when(), fewest_bits);
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());

@@ -28,8 +28,9 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter. The contact is at a random place, or as far from the corner x1 of the
-/// triangle, or from an end of the long edge, as the short side is long.
+/// One of the sides q and r is shorter. In half of the queries, the contact is near the corner x1 of the
+/// triangle, or near an end of the long edge: its distance from there is about the length of the short side,
+/// or less.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -72,7 +73,7 @@ Query scale(Random& random, Kind kind, double x) {
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
-  const int only = random.integer(0, 5);  // the huge axis; 3 or more: each axis is huge at random
+  const int only = random.integer(0, 5);  // the only huge axis; if 3 or more, each axis is huge at random
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;

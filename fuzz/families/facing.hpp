@@ -25,12 +25,12 @@ Vector3<double> vector_in_plane(Random& random);
 /// Whether a side is part of the closest features.
 bool is_closest(Kind kind, Closest closest, bool is_side_q);
 
-/// A contact of primitives on opposite sides of the plane z = 0, apart from a translation that both share.
-/// During the whole step, their closest features lie in the plane, the rest of the first primitive is above
-/// it, and the rest of the second one below. The x and y components of sides are integers from -4 to 4; sides
-/// that leave the plane do so by `level` times 1 to 4. The weights of the points of contact are positive
-/// multiples of 1/8, or 0 for a side that is not part of the closest features. In half of the contacts, sides
-/// keep their length and direction.
+/// A contact of primitives on opposite sides of the plane z = 0, up to a common translation. During the
+/// whole step, their closest features lie in the plane, the rest of the first primitive is above it, and
+/// the rest of the second one below. The x and y components of sides are integers from -4 to 4; the z
+/// component is 0 for a side in the plane, else plus or minus `level` times an integer from 1 to 4. The
+/// weights of the points of contact are positive multiples of 1/8, or 0 for a side that is not part of the
+/// closest features. In half of the contacts, sides keep their length and direction.
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level = 1);
 
 /// The query in which the points of contact are (0, 0, gap) apart at the time of contact, and the first one

@@ -44,7 +44,8 @@ Family with_parameter(std::string name, std::string about, Parameter parameter);
 Family with_collisions(Family family);
 
 /// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so only the parameter
-/// changes along a sweep. Throws Error if the family has no parameter, or not this value.
+/// changes along a sweep. Throws Error if the family has no parameter, or if its parameter cannot have this
+/// value.
 Family at_value(const Family& family, double value);
 
 /// The family at `steps` evenly spaced values of its parameter, from the lowest to the highest. If there are
@@ -57,9 +58,9 @@ inline constexpr std::string_view drawn_separation = "drawn";
 /// Gives a query its separation. Takes random numbers only if separations are drawn.
 using ChooseSeparation = std::function<double(Random&, const Query&)>;
 
-/// Parses the separation of all queries: a positive number, or `drawn`. A drawn separation is between a
-/// millionth of the extent of the query's primitives and all of it; one in four is a power of two. Throws an
-/// Error that starts with `where` for any other text.
+/// Parses the separation of all queries: a positive number, or `drawn`. A drawn separation is between 1e-6
+/// and 1 times the extent of the query's primitives; one in four is a power of two. Throws an Error that
+/// starts with `where` for any other text.
 ChooseSeparation parse_family_separation(std::string_view text, std::string_view where);
 
 /// The family NAME~SEPARATION: the same queries with a separation (parse_family_separation). A query draws it

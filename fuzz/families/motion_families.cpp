@@ -20,9 +20,9 @@ Vector wide_vector(Random& random, int bits) {
   return v.array().floor();
 }
 
-/// Primitives at rest that touch exactly, half of them at a vertex, where rounding errors count most: contact
-/// is then at the ends of the ranges of both weights, and no neighbouring point of the primitives makes up
-/// for an error. Coordinates are multiples of 1/16 below 2^48, so they have nearly all bits of a double.
+/// Primitives at rest that touch exactly, half of them at a vertex. Rounding errors count most there: both
+/// weights are at the ends of their ranges, so no neighbouring point of the primitives makes up for an error.
+/// Coordinates are multiples of 1/16 below 2^48, so they have nearly all bits of a double.
 Query touching_at_rest(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   const auto rest = [](const Vector& v) { return Path{v, v}; };

@@ -1,4 +1,4 @@
-// Mutations that know the structure of a query, for coverage-guided fuzzers.
+// Structure-aware mutations of queries, for coverage-guided fuzzers.
 #pragma once
 
 #include <span>

@@ -17,7 +17,7 @@ struct Factor {
 };
 
 /// A point on the plane or the line of each primitive: its weights as in Contact are α / whole and β / whole.
-/// If whole is 0, there is no such point: where the factor vanishes, sign α q = -β r, so that the sides are
+/// If whole is 0, there is no such point: at the root of the factor, sign α q = -β r, so the sides are
 /// parallel.
 struct Weights {
   int whole, alpha, beta;
@@ -37,9 +37,9 @@ struct PlannedRoot {
 /// Whether the directions, and the weights, are linearly independent. Otherwise F would be 0 at all times.
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots);
 
-/// The query in which F is a multiple of the product of the factors. At its root, a factor's two points
-/// coincide, so that the primitives touch if the weights are inside. The vertex x1, or x2 of edges, follows
-/// `base`.
+/// The query in which F is a multiple of the product of the factors. At the root of a factor, its two points
+/// coincide, so the primitives touch if the weights are inside. The vertex x1 (vertex-triangle) or x2
+/// (edge-edge) follows `base`.
 ///
 /// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
 /// the factors on its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is

@@ -1,8 +1,8 @@
 // Products of coordinates at the ends of the range of double. No coordinate overflows or underflows, but
 // products of two, three, four or six differences of coordinates do, or sums of such products. The weights
 // come from a vector W whose components are sums of products of two differences. F is a sum of products of
-// three. Their squares have products of four and six. A query first consists of small numbers; then its
-// vertices and axes are scaled by powers of two, which is exact.
+// three differences. The squares of W and of F have products of four and of six. A query first consists of
+// small numbers; then its vertices and axes are scaled by powers of two, which is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -125,7 +125,7 @@ Draft any_draft(Random& random, Kind kind) {
 
 // --- sizes ------------------------------------------------------------------------------------------
 
-/// The magnitudes of x_v - x_0 for v = 1, 2, 3 along each axis, the larger one of both times.
+/// For v = 1, 2, 3 and each axis, the magnitude of x_v - x_0 at t = 0 or at t = 1, whichever is larger.
 using Differences = std::array<std::array<double, 3>, 3>;
 
 Differences differences(const Query& query) {
@@ -140,10 +140,10 @@ Differences differences(const Query& query) {
   return larger;
 }
 
-constexpr std::size_t none = 3;  ///< in place of the number of an axis
+constexpr std::size_t none = 3;  ///< stands for no axis
 
-/// The sum of the products of three differences in F, one along each axis. If an axis is left out, the sum of
-/// the products of two differences in the weights' component along that axis.
+/// The sum of the products of three differences in F, one along each axis. If an axis is left out, it is the
+/// sum of the products of two differences in the component of W along that axis.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;

@@ -25,8 +25,8 @@ Query end_contact(Random& random, Kind kind, double x) {
 /// If the weights change at the rates α' and β', the place of contact moves along a curve. The first
 /// primitive moves along a tangent of this curve, which makes a double root. The curve departs from its
 /// tangent by (β' r' + sign α' q') (t - time)². If the first primitive is moved by the value of this vector
-/// at time ± h, it meets the curve at both times; if it is moved to the other side, it never does. Half of
-/// the primitives lie in a coordinate plane at the contact time and leave it along its normal, so that the
+/// at t = time ± h, it meets the curve at these two times; if it is moved the other way, it never does. Half
+/// of the primitives lie in a coordinate plane at the contact time and leave it along its normal, so that the
 /// smallest move is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
@@ -60,8 +60,8 @@ Query even_roots(Random& random, Kind kind, double x) {
 }
 
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
-/// for a nilpotent J, it is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives touch if M0 maps the
-/// vector (1, -sign α, -β) to 0. It does, because all rows of C except the first are orthogonal to this
+/// for a nilpotent J, F(t) is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives touch if M0 maps
+/// the vector (1, -sign α, -β) to 0. It does, because all rows of C except the first are orthogonal to this
 /// vector, and J ignores the first. Finally, q and r are moved slightly, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);

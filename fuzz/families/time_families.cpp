@@ -34,15 +34,16 @@ Weights outside(Random& random, Kind kind) {
   }
 }
 
-/// Weights of a point on an edge of the triangle, or of an end of one edge inside the other; in one case of
-/// three, at a vertex of each.
+/// Weights of a point on an edge of the triangle, or of an end of one edge inside the other edge. In one of
+/// three cases, a vertex of each primitive is at the point.
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
   return !has_triangle(kind) && random.one_in(2) ? Weights{whole, 0, along} : Weights{whole, along, 0};
 }
 
-/// Draws roots until F is not zero at all times, and makes the query, in which x1 or x2 follows `base`.
+/// Draws roots until they are independent, so that F is not identically zero, and makes the query. Its vertex
+/// x1 (vertex-triangle) or x2 (edge-edge) follows `base`.
 template <class Draw>
 Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& draw) {
   std::array<PlannedRoot, 3> roots = draw();
@@ -76,8 +77,8 @@ Query close_roots(Random& random, Kind kind, double x) {
   });
 }
 
-/// The first contact is on the border in two queries of three, inside otherwise, and the sides are parallel
-/// 2^x before or after it. The second contact is inside.
+/// The first contact is on the border in two of three queries, and inside in the others. The sides are
+/// parallel 2^x before or after the first contact. The second contact is inside.
 Query border_first(Random& random, Kind kind, double x) {
   const double first = sixteenths(random, 1, 12);
   const double second = first + sixteenths(random, 1, 3);
@@ -164,9 +165,9 @@ Graze graze_face(Random& random, Kind kind, double time) {
 }
 
 /// Everything is in the plane z = 0: a vertex and an edge touch. The edge turns about the point of contact,
-/// from the direction of x towards y, and the vertex passes this point along x. It stays on one side of the
-/// edge, and the third vertex of the triangle, or the other end of the vertex's edge, keeps the primitives
-/// apart at all other times.
+/// from the direction of x towards y, and the vertex passes this point along x. The vertex stays on one side
+/// of the edge. The triangle's third vertex, or the other end of the vertex's edge, is placed so that the
+/// primitives are apart at all other times.
 Graze graze_edge(Random& random, Kind kind, double time) {
   const int length = random.integer(1, 4);
   const double turn = random_sign(random) * random.integer(1, 4);

@@ -106,7 +106,7 @@ std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
 /// The query that is asked, or a default query if the input is not a query.
 Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
 
-/// Throws Error if there is no such subject, or if the target is not for it.
+/// Throws Error if there is no such subject, or if the target cannot test it.
 void expect_subject() {
   const Subject& on_trial = subject();
   if (target.needs_lower_bounds && on_trial.time_sort() != TimeSort::lower_bound)

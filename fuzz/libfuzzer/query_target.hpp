@@ -30,9 +30,9 @@ const Subject& subject();
 /// Feedback in addition to coverage. libFuzzer keeps a query that shows a new value, and mutates it further.
 enum class Signal {
   filter_stage,  ///< the stage of the oracle's filter
-  true_stage,    ///< the stage at which the subject accepted a collision, or a miss
-  false_stage,   ///< the stage at which the subject accepted a false positive
-  margin,        ///< how much less tolerance a collision needs than the subject has
+  true_stage,    ///< the stage at which the subject decided a query that collides
+  false_stage,   ///< the stage at which the subject decided any other query
+  margin,        ///< how near the tolerance that a collision needs is to the subject's
   distance,      ///< distance of a false positive, divided by its bound
   agreement,     ///< how many digits a time has in common with the exact earliest time
   answers,       ///< the answer of each exact method of the oracle

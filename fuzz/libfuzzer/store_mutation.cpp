@@ -56,7 +56,7 @@ void collect(json& node, std::vector<json*>& nodes) {
     for (json& each : node) collect(each, nodes);
 }
 
-/// Changes an array or object in its length.
+/// Changes the length of an array or object.
 void lengthen_or_shorten(json& node, Random& random, const json& other) {
   const bool shorten = !node.empty() && random.one_in(2);
   const auto place = node.empty()
@@ -129,7 +129,7 @@ constexpr std::array row_changes{
     "UPDATE {t} SET value = zeroblob({n} % 100000) WHERE rowid = {r}",
     "UPDATE {t} SET value = '\"' || hex(zeroblob({n} % 20000)) || '\"' WHERE rowid = {r}"};
 
-/// Changes of tables. After most of them, only a salvage reads the store.
+/// Changes of tables. After most of these changes, only a salvage can read the store.
 constexpr std::array table_changes{
     "PRAGMA user_version = {n}",
     "PRAGMA application_id = {n}",
@@ -161,7 +161,7 @@ class OpenStore {
     const auto size = static_cast<sqlite3_int64>(store.size());
     sqlite3_deserialize(db_.getHandle(), "main", bytes, size, size,
                         SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_RESIZEABLE);
-    // A store may hold definitions that never end, or that fill the memory.
+    // A store may define views or columns that take endless time to read, or that fill the memory.
     constexpr int most_instructions = 100'000;
     constexpr int most_bytes = 1 << 20;
     sqlite3_progress_handler(
@@ -191,7 +191,7 @@ class OpenStore {
                          fmt::arg("n", any_size(random) >> 1U)));
   }
 
-  /// Makes the checksums of all rows right, and the numbers of rows, too, if `counts_rows`.
+  /// Corrects the checksums of all rows and, if `counts_rows`, also the recorded numbers of rows.
   void seal(bool counts_rows) {
     std::vector<std::string> names = tables();
     for (const std::string& table : names) {

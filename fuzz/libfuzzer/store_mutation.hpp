@@ -12,8 +12,8 @@ namespace nearmiss::libfuzzer {
 /// Changes a few bytes.
 using MutateBytes = std::function<std::string(std::string_view)>;
 
-/// Changes cells, rows or tables of a store, and mostly makes its checksums and numbers of rows right again.
-/// Changes the bytes of the file instead if SQLite cannot read it, and once in a while.
+/// Changes cells, rows or tables of a store, and in most cases corrects its checksums and numbers of rows. If
+/// SQLite cannot read the file, and in one case of 16, changes its bytes instead.
 std::string mutated_store(Random& random, std::string_view store, const MutateBytes& mutate_bytes);
 
 }  // namespace nearmiss::libfuzzer

@@ -17,14 +17,14 @@ std::string mesh_ending(const std::filesystem::path& file);
 ///
 /// In all formats a byte order mark before text is skipped, polygons become fans of triangles, and nothing
 /// else is changed. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no
-/// primitive. A set of points is a mesh.
+/// primitive. A set of points without primitives is a mesh, too.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// Reads an OBJ file: vertices, faces and polylines; everything else that the format has is skipped. A line
 /// that ends in a backslash goes on in the next line; a comment ends with its line. The text is the whole
 /// file, and messages call the file `name`. Throws Error with file and line for a number that is not finite,
-/// a primitive with too few vertices or a nonexistent one, and a line that is not in the format; also for a
-/// file without a point.
+/// a primitive with too few vertices or with a vertex that does not exist, and a line that is not in the
+/// format; also for a file without a point.
 Mesh parse_obj(std::string_view text, const std::string& name);
 
 /// Reads an OFF text file with a vertex or a face on each line. Comments, normals, colours and textures are

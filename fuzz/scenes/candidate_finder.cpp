@@ -13,8 +13,8 @@ namespace {
 /// Consecutive rows (candidates.hpp) that are near each other, and the partners near them.
 class Block {
  public:
-  /// Begins with a row and ends before `end`, or when the box around the rows would become larger than
-  /// `most`. Returns the first row after the block.
+  /// Begins the block with row `first`. It ends before row `end`, after 16 rows, or before the box around its
+  /// rows would become larger than `most`. Returns the first row after the block.
   std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
     first_ = first;
     bounds_ = boxes[first];
@@ -42,7 +42,7 @@ class Block {
   }
 
   /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
-  /// If `after`, only partners with a larger number than the row's count.
+  /// If `after`, skips partners whose number is not larger than that of the row.
   template <class Pass>
   void compare(bool after, const Pass& pass) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {

@@ -38,8 +38,8 @@ inline const IsOver never_over = [] { return false; };
 /// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
 /// axis (oracle/filter/box.hpp; closed boxes: touching counts). The pairs come in the order of rows
 /// (pair_rows below), and those of a row in the order of its partners: all triangles, or the edges after the
-/// row's edge. A part has some rows that follow each other; parts can be searched in any order and by any
-/// thread, and which rows they have depends only on the number of rows.
+/// row's edge. A part consists of consecutive rows, and depends only on the number of rows. Parts can be
+/// searched in any order and by any thread.
 class CandidateFinder {
  public:
   /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` says so, and
@@ -53,9 +53,9 @@ class CandidateFinder {
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes on, once, each pair of a part that has no common vertex, and returns the number of pairs that
-  /// have one. Pairs are not stored, so a scene of any size can be streamed. `is_over` is called now and
-  /// then, and ends the search.
+  /// Passes on, once, each pair of a part whose primitives have no common vertex. Returns the number of pairs
+  /// whose primitives have one. Pairs are not stored, so a scene of any size can be streamed. `is_over` is
+  /// called now and then, and ends the search.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
@@ -78,7 +78,8 @@ void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const Is
 /// vertex with all triangles, or of one edge with all edges after it.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
-/// Passes on each pair of a row that has no common vertex, and returns the number of pairs that have one.
+/// Passes on each pair of a row whose primitives have no common vertex. Returns the number of pairs whose
+/// primitives have one.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const IsOver& is_over);
 

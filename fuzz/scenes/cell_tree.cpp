@@ -24,7 +24,7 @@ struct Item {
 };
 using Items = std::span<Item>;
 
-/// Sorts boxes so that those of a group are near each other, and so are those of a group of groups. The order
+/// Sorts boxes so that the boxes of a group are near each other, and the groups of a larger group, too. The order
 /// depends only on the boxes, since the number decides between equal centres.
 class SpatialOrder {
  public:

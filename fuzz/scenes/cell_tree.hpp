@@ -48,7 +48,7 @@ class CellBoxGroup {
 
  private:
   using Places = std::array<std::int32_t, size>;
-  /// A comparison of two such vectors compares all elements at once; its elements are -1 and 0.
+  /// A comparison of two such vectors compares all elements at once. An element of the result is -1 or 0.
   using Vector [[gnu::vector_size(sizeof(Places))]] = std::int32_t;
 
   static Vector vector(const Places& places) {
@@ -68,9 +68,9 @@ class CellBoxGroup {
   Places numbers_;
 };
 
-/// The boxes of primitives in groups that are near each other, the bounds of these groups in groups, and so
-/// on. The groups are chosen at the first step of a mesh. In later steps, the boxes move and the groups stay,
-/// until the bounds of the groups have become much larger.
+/// Groups of primitives' boxes that are near each other, groups of the bounds of these groups, and so on. The
+/// groups are chosen at the first step of a mesh. In later steps, the boxes move and the groups stay, until
+/// the bounds of the groups have become much larger.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` says so.
@@ -79,7 +79,7 @@ class CellTree {
   /// Turns this into the tree of another step of the same mesh. Throws Stopped when `is_over` says so.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// The median size of the box around a group of boxes, or that of a sample of groups.
+  /// The median size of the bounds of a group of primitives' boxes, over all groups or a sample of them.
   [[nodiscard]] std::int64_t typical_group() const;
 
   /// Calls visit(number) for each box that meets the given one and has the number `least` or a larger one.
@@ -104,7 +104,8 @@ class CellTree {
   }
 
   void choose_groups(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
-  /// Computes the boxes of all levels. Returns the sum of the box sizes of each level, relative to level 0.
+  /// Computes the boxes of all levels. Returns, for each level, the sum of its boxes' sizes, divided by the
+  /// sum for level 0.
   std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
 
   std::size_t count_;

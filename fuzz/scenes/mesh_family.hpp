@@ -7,10 +7,10 @@
 
 namespace nearmiss {
 
-/// The family whose queries are pairs of a moving mesh whose swept boxes meet: unchanged, perturbed, moved by
-/// ulps, or with one primitive moved so that the two touch at a random time, as nearly as double allows. At
-/// most `most` pairs of each kind are kept; the choice only depends on the mesh. Throws Error if there is no
-/// pair of a kind, and Stopped if the stop is due before all pairs are known.
+/// The family made from a moving mesh. Its queries are pairs whose swept boxes meet: unchanged, perturbed,
+/// moved by ulps, or with one primitive moved so that the two touch at a random time, as nearly as double
+/// allows. At most `most` pairs of each kind are kept; the choice only depends on the mesh. Throws Error if
+/// there is no pair of a kind, and Stopped if the stop is due before all pairs are known.
 Family mesh_family(const MovingMesh& mesh, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
 
 }  // namespace nearmiss

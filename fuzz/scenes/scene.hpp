@@ -47,10 +47,10 @@ Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::
 /// than two meshes, or meshes with several endings, since it is unclear which are meant.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
-/// The scene with points that coincide at frame 0 (0 and -0 are equal) merged, and the primitives renumbered.
-/// Files repeat points at seams, so that neighbours without a common vertex would be tested for collision.
-/// After merging, a triangle may have a vertex twice. `points` throws Error for a frame in which merged
-/// points are apart.
+/// The scene in which points that coincide at frame 0 (0 and -0 are equal) are merged. Files repeat points at
+/// seams; without merging, neighbours there would have no common vertex, and be tested for collision. After
+/// merging, a triangle may have a vertex twice. `points` throws Error for a frame in which merged points are
+/// apart.
 Scene welded(Scene scene);
 
 }  // namespace nearmiss

@@ -18,7 +18,7 @@ class SceneTrial {
   SceneTrial(const Scene& scene, LeaveOut leave_out, Trials& trials)
       : scene_(scene), leave_out_(leave_out), trials_(trials) {}
 
-  /// Asks the subjects about all pairs of a step about which its plan says to ask. `mesh` is the mesh of the
+  /// Asks the subjects about all pairs of a step that its plan does not leave out. `mesh` is the mesh of the
   /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 

@@ -19,12 +19,12 @@ inline constexpr int search_evaluations = 2000;
 ///
 /// The search moves on the manifold of contacts, on which the primitives always meet. Half of the searches
 /// use a grid on which contact is exact; the others use all bits of a double, and the oracle decides whether
-/// the primitives still meet. The search maximises the subject's needed tolerance. If the subject gives none,
+/// the primitives still meet. The search maximises Subject::needed_tolerance(). If the subject has none,
 /// it maximises a random mixture of properties that make a contact hard: a grazing motion, a small angle
 /// between the primitives, a small weight, unequal edges, a time near 0 or 1. It starts at random points and
-/// continues from the best one so far. A search ends with a query over the subject's time limit; after a few
-/// of these, the subject is not asked any more. Making a query throws Stopped when `stop` is due. The subject
-/// and `stop` must outlive the family.
+/// continues from the best one so far. A query over the subject's time limit ends the search; after a few
+/// such searches, the subject is not asked any more. Making a query throws Stopped when `stop` is due. The
+/// subject and `stop` must outlive the family.
 ///
 /// With a separation (parse_family_separation), the family is "search-miss-NAME~SEPARATION". Each search has
 /// one separation h > 0. It moves among queries in which two points of the primitives come within h, and a
@@ -39,9 +39,9 @@ Family miss_search(const Subject& subject, const Stop& stop = Stop::never(),
 Family far_search(const Subject& subject, const Stop& stop = Stop::never(), std::string_view separation = {});
 
 /// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest
-/// time that a search found, compared with t*, the exact earliest time: the one with the largest time - t* if
-/// any time is after t*, otherwise the one with the smallest (t* - time) / t*. Misses are passed over, and so
-/// are up to 20 queries over the time limit. All else is as for miss_search.
+/// time that a search found, compared with t*, the exact earliest time. If any time is after t*, this is the
+/// one with the largest difference time - t*, otherwise the one with the smallest (t* - time) / t*. Misses
+/// are passed over, and so are up to 20 queries over the time limit. All else is as for miss_search.
 Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
                    std::string_view separation = {});
 

@@ -20,7 +20,7 @@ double Searched::objective(const Query& query, const Value& value,
   return answer.fault == Fault::time ? if_slow() : value(answer);
 }
 
-/// A query of directed search takes as long as some thousand others. The subjects' times do not count,
+/// A query of directed search takes about as long as a few thousand others. The subjects' times do not count,
 /// because batches are small, and the search leaves the caches warm only for the subject that it searches.
 Family search_family(std::string_view prefix, std::string_view about, SearchOne search_one,
                      const Subject& subject, const Stop& stop, std::string_view separation) {

@@ -27,8 +27,8 @@ struct GivenTime {
   static constexpr double least = 0x1p-50;
 };
 
-/// Late times have the highest values, the larger the later they are. Other times have larger values the
-/// nearer they are to t*, relative to t*.
+/// A late time has a higher value than any other time: the later it is, the higher. For all other times, the
+/// value is the higher the smaller (t* - time) / t* is.
 double lateness(const GivenTime& given) {
   constexpr double late = 200;
   const double least = GivenTime::least;

@@ -51,7 +51,7 @@ struct ToleranceRow {
   double tight_bound = 0;      ///< the distance bound of the smallest tolerances
   std::string_view
       paper_breaks;  ///< the first constraint that the closed forms violate; empty if there is none
-  std::string_view printed_breaks;  ///< likewise with the errors that the paper states
+  std::string_view printed_breaks;  ///< the same, but with the errors that the paper states
 };
 
 /// A row for each of 16 precisions, from 11 to 256 bits.

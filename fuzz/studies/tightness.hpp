@@ -30,10 +30,10 @@ std::vector<std::string> tightness_names();
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
 /// For a tolerance, half of the queries are drawn from all families, and directed search finds the other
-/// half: collisions that need most of the tolerance. Each collision gives a factor: if the tolerance is
-/// multiplied by less than it (or by more), the subject misses the collision. For a group of tests, false
-/// positives are measured instead, those of wang without the tests that accept from farther away. Throws
-/// Error for an unknown name.
+/// half: collisions that need most of the tolerance. Each collision gives a factor. If the tolerance is
+/// multiplied by a smaller one (a larger one if the tolerance excludes degenerate primitives), the subject
+/// misses the collision. For a group of tests, false positives are measured instead: those of wang without
+/// the tests that accept from farther away. Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

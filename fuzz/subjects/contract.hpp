@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are
+/// Whether the query has all properties that the contract requires, decided exactly. If the four vertices are
 /// coplanar at all times, F counts as having more than one root.
 bool keeps_contract(const Query& query, const Contract& contract);
 

@@ -56,7 +56,8 @@ class Contracted final : public ForwardingSubject {
     std::vector<std::size_t> places;  ///< in the batch
     std::vector<Query> queries;
 
-    /// Puts what belongs to these queries in their places, and `other` in all other places.
+    /// Puts the results `own` of these queries into their places in the batch, and `other` into all other
+    /// places.
     template <class Each>
     void spread(const std::vector<Each>& own, std::span<Each> all, const Each& other) const {
       std::fill(all.begin(), all.end(), other);

@@ -9,13 +9,13 @@
 
 namespace nearmiss {
 
-/// Makes a subject with a contract one that is asked only queries that keep the contract; all other queries
-/// get the fault `contract`. If `asks_beyond`, a second subject is asked only these others, under the name
-/// "NAME (beyond contract)" (reports/statistics/failure.hpp). A subject without a contract is returned
-/// unchanged.
+/// For a subject with a contract, makes one that is asked only queries that keep the contract; all other
+/// queries get the fault `contract`. If `asks_beyond`, makes a second subject that is asked only these
+/// others, with the name "NAME (beyond contract)" (reports/statistics/failure.hpp). A subject without a
+/// contract is returned unchanged.
 std::vector<std::unique_ptr<Subject>> keep_contract(std::unique_ptr<Subject> subject, bool asks_beyond);
 
-/// What a contract takes for granted, in words; "" if nothing.
+/// The requirements of a contract, in words; "" if it has none.
 std::string in_words(const Contract& contract);
 
 }  // namespace nearmiss

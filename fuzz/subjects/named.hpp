@@ -12,7 +12,7 @@ namespace nearmiss {
 /// Whether a text may be the NAME in NAME=SUBJECT: a letter, then letters, digits, '_', '.' and '-'.
 bool is_given_name(std::string_view text);
 
-/// A subject on the command line: [NAME=]SUBJECT. It has a NAME if the first of ':', '/' and '=' is '='.
+/// A subject on the command line: [NAME=]SUBJECT. It has a NAME if it contains '=' before any ':' or '/'.
 struct SubjectText {
   std::string name;  ///< "" if none is given
   std::string subject;

@@ -48,8 +48,8 @@ std::string file_of_program(std::string_view program) {
   return files.empty() ? "" : files.back();
 }
 
-/// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if the file's
-/// name cannot begin a name. "" if there is no file, or no such name.
+/// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if a NAME
+/// cannot begin with the file's name. "" if there is no file, or if neither text can be a NAME.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";

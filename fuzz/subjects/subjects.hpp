@@ -15,8 +15,8 @@
 namespace nearmiss {
 
 /// The plug-in that a subject's text [NAME=]SUBJECT stands for: a path or a command stands for itself, the
-/// name of a published CCD for the plug-in that was built of it (peers.hpp). Nothing for other subjects.
-/// Throws Error if the CCD is not built.
+/// name of a published CCD for the plug-in that was built from its code (peers.hpp). Nothing for other
+/// subjects. Throws Error if the CCD is not built.
 std::optional<std::string> plugin_named(std::string_view text);
 
 /// Makes the subject of a text [NAME=]SUBJECT, which gets the NAME if there is one: a built-in subject (as

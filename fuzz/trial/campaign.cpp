@@ -32,7 +32,7 @@ class CampaignRun {
     trials_.run([&] { return next(); });
     if (!is_enough_) {
       progress_.is_asking = false;
-      trials_.pass_on();  // tells the sink so before shrinking, which takes time
+      trials_.pass_on();  // tells the sink that only shrinking is left, which takes time
       trials_.finish();
     }
     progress_.complete =

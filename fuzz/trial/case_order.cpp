@@ -17,7 +17,7 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
 }
 
 /// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 and so
-/// on units, up to `largest()`, which all later rounds have, too.
+/// on units, up to `largest()`; all later rounds have `largest()` units.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {

@@ -89,7 +89,7 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 }
 
 std::optional<Failure> Judge::failure(const Query& query, const Verdict& verdict) const {
-  // A reported collision can only fail a claimed bound or a promised time.
+  // If the subject reports a collision, only a claimed bound or a promised time can be wrong.
   if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound() &&
       subject_.time_sort() != TimeSort::lower_bound)
     return std::nullopt;

@@ -192,8 +192,8 @@ Set alike(const Numbers& x, std::size_t i) {
 }
 
 /// Replacements of numbers of one magnitude: 0; a small number; another number of the query; a number so
-/// small that adding it to 1 loses it by rounding, or so large that this loses the 1; a number with fewer
-/// bits.
+/// small that its sum with 1 is rounded to 1, or so large that this sum is rounded to the number; a number
+/// with fewer bits.
 Alternatives replacements(const Numbers& numbers, Set set) {
   const double magnitude = std::abs(numbers[static_cast<std::size_t>(std::countr_zero(set))]);
   if (magnitude == 0) return {};

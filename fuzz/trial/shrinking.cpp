@@ -70,7 +70,8 @@ std::optional<Shrinking::Task> Shrinking::next() {
 }
 
 void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
-  // Every step would take as long as the time limit. Only `nearmiss shrink` shrinks such findings.
+  // For a query over the time limit, every step would take as long as that limit. Only `nearmiss shrink`
+  // shrinks such findings.
   const bool is_slow = failure_of(signature_of(task.finding)) == FailureKind::slow;
   try {
     if (is_slow)

@@ -35,8 +35,8 @@ class Shrinking {
   /// Takes on a finding, which gets the next number, from 0 on.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
-  /// Leaves the first findings of each signature and class (FirstFindings) in a result, takes them on, and
-  /// adds those that have been shrunk since the last call. Throws what shrinking threw.
+  /// Removes from a result all findings but the first ones of each signature and class (FirstFindings), which
+  /// it takes on. Adds the findings that have been shrunk since the last call. Throws what shrinking threw.
   void sift(TrialResult& result);
 
   /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.
@@ -82,7 +82,7 @@ class Shrinking {
   std::size_t under_way_ = 0;
   std::map<std::size_t, Finding> shrunk_;
   std::exception_ptr failure_;
-  bool is_hurried_ = false;  // there is nothing to ask any more
+  bool is_hurried_ = false;  // whether all queries have been asked
   int hurrying_ = 0;         // threads that shrink the rest
   bool ends_ = false;
 

@@ -45,8 +45,8 @@ class FindingShrinker {
   ~FindingShrinker();
 
   /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class that
-  /// is no more exotic: vertices come to coincide only if two of the finding's vertices do. If
-  /// the finding is `broken_since` an earlier version of the CCD, both are queries that the earlier version
+  /// is no more exotic than the finding's query: it has coincident vertices only if that query has. If the
+  /// finding is `broken_since` an earlier version of the CCD, both are queries that the earlier version
   /// answers rightly. The result depends only on the finding and the subjects, unless the time limit ends a
   /// search. A query that the subject refuses does not fail. A contradiction to a recorded truth is not
   /// shrunk, because the truth is known only for the finding's own query. Throws Stopped if the stop is due,

@@ -104,8 +104,8 @@ class Maker {
     list_.push_back({query, complexity(query)});
   }
 
-  /// Adds all queries with the present coordinates before this path, and at most `numbers` numbers from it
-  /// on.
+  /// Adds all queries that have the present coordinates in the paths before this one, and at most `numbers`
+  /// nonzero numbers (Complexity::numbers) in the other paths.
   void extend(std::size_t path, int numbers) {
     if (path == paths) {
       if (is_first_copy(x_, symmetries_)) add();

@@ -82,9 +82,9 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Asks the subject about a sample once more: fewer queries at once, in another order. The other answer is a
-/// fault, and a fault counts as if it had come at once. Times may differ, because rounding may depend on the
-/// place in a vector.
+/// Asks the subject about a sample once more: fewer queries at once, in another order. If it answers
+/// otherwise this time, that is a fault; if it has a fault this time, that fault counts. Times of impact may
+/// differ, because rounding may depend on the place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again;
   ask(subject, sample.queries, timed, again);
@@ -95,8 +95,8 @@ void ask_again(const Subject& subject, const Sample& sample, bool timed, std::ve
   }
 }
 
-/// Decides a batch, and a sample of it twice. If times count, times the subject over the whole batch, and
-/// over single queries of the sample.
+/// Decides a batch, and a sample of its queries a second time. If times count, also measures the time of the
+/// whole batch, and of each query in the sample.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts;
   const bool timed = batch.timed && !batch.queries.empty();

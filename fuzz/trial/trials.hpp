@@ -30,9 +30,9 @@ struct Work {
 /// Runs many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
 class Trials {
  public:
-  /// The sink receives results several times a second, in order, with the first findings of each signature and
-  /// class (FirstFindings), and if `shrink` is true, those that have been shrunk meanwhile. The subjects and
-  /// `stop` must outlive this object.
+  /// The sink receives results several times a second, in order, with the first findings of each signature
+  /// and class (FirstFindings). If `shrink` is true, it also receives the findings that have been shrunk
+  /// meanwhile. The subjects and `stop` must outlive this object.
   Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, bool shrink,
          TrialSink sink);
 

@@ -54,7 +54,7 @@ class Truth {
     bool exceeds;  ///< whether the ratio is above 1, decided exactly
   };
   Distance distance(double unit);
-  /// The `exceeds` of `distance`, in less time.
+  /// Computes only the `exceeds` of distance(), in less time.
   [[nodiscard]] bool exceeds(double unit) const;
 
   /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.

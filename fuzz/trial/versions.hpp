@@ -46,7 +46,7 @@ class VersionComparison {
 };
 
 /// Whether a subject is asked a query, within its contract, and answers it rightly. A version of a CCD breaks
-/// a query if it fails on the query, and this holds for the version before it.
+/// a query if it fails on the query, and the version before it answers rightly.
 class AnswersRightly {
  public:
   /// The subject must outlive this object.

@@ -22,8 +22,8 @@ struct Powers {
 };
 
 /// A root near 0 of a cubic that is not zero at 0, by Laguerre's method, which also converges fast to
-/// multiple roots; nothing if a step shows that there is no root. The value at the root is at most `accuracy`
-/// times the value at 0.
+/// multiple roots; nothing if an iteration shows that there is no root. The value at the root is at most
+/// `accuracy` times the value at 0.
 inline std::optional<double> root_near_zero(const Powers<double>& F, double accuracy = 1e-9) {
   double t = 0;
   constexpr int most_steps = 10;

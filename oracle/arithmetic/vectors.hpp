@@ -44,7 +44,7 @@ Vec<Real> cross(const Vec<Real>& v, const Vec<Real>& w) {
 
 inline double length(const Vec<double>& v) { return std::sqrt(dot(v, v)); }
 
-/// A double within a relative 2^-53 of x; x itself if it is a double.
+/// A double that approximates x with a relative error of at most 2^-53; x itself if it is a double.
 template <class Real>
 double to_double(const Real& x) {
   return static_cast<double>(x);

@@ -24,7 +24,7 @@ Approach closest_approach(const VertexDifferences& differences, const NeededDist
 
 /// When the distance first falls below a bound.
 struct FirstTime {
-  bool never = false;  ///< certainly never in [0, 1]: it even stays at or above the required distance
+  bool never = false;  ///< certainly never in [0, 1]: the distance even stays at or above `required`
   bool comes = false;  ///< it certainly falls below the bound
   Enclosure
       time;  ///< contains the first such time, if any. Earlier, the distance is at least the required one

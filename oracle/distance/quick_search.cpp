@@ -53,9 +53,9 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   return b < 0 ? c / (root - b) : -(root + b) / a;
 }
 
-/// Where to look next in a gap, as an offset from one of its ends. The gap is `open` long, and the bound
-/// beyond that end covers the length `covered`. If little is covered, the distance is small there, so the
-/// offset is short.
+/// The next time to look at in a gap, as an offset from one of its ends. The gap is `open` long, and the
+/// bound beyond that end covers the length `covered`. If little is covered, the distance is small there, so
+/// the offset is short.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }

@@ -28,8 +28,8 @@ class QuickSearch {
   /// distance is at least `required` before it. If the search gives up, neither `never` nor `comes` is set.
   FirstTime decide();
 
-  /// Narrows an enclosure that decide() or first_time_below() found to at most `width`. If the search gives
-  /// up, the enclosure remains as it is.
+  /// Narrows the enclosure in `known`, a result of decide() or first_time_below(), to at most `width`. If the
+  /// search gives up, the enclosure remains as it is.
   FirstTime narrow(const FirstTime& known, double width);
 
  private:

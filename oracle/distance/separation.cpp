@@ -28,7 +28,8 @@ bool is_not_negative(const std::array<double, 4>& b) {
   return b[0] >= 0 && b[1] >= 0 && b[2] >= 0 && b[3] >= 0;
 }
 
-/// About the first root above 0 of a cubic that is positive at 0; nothing if a step shows that there is none.
+/// An estimate of the first root above 0 of a cubic that is positive at 0; nothing if an iteration shows that
+/// there is no root.
 std::optional<double> first_root(const Powers<double>& p) {
   const auto& [c0, c1, c2, c3] = p.c;
   constexpr double accuracy = 1e-4;

@@ -97,7 +97,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
   const Vec<Real> edge = x.position(to, from);
   const Vec<double> rough_edge = to_double(edge);
   const double squared_length = dot(rough_edge, rough_edge);
-  constexpr double too_short = 0x1p-200;  // below this, k is so large that underflow is not harmless
+  constexpr double too_short = 0x1p-200;  // below this, k is so large that underflow matters
   if (!(squared_length > too_short)) return {};
   const Vec<double> key =
       (1 / squared_length) * cross(direction, rough_edge);  // e × (d × e) = |e|² d for d at right angles to e

@@ -17,7 +17,7 @@ VertexDifferences::VertexDifferences(const Query& query)
   // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their
   // magnitudes, are finite.
   const auto subtract = [&](double factor) {
-    // By component, so that the operations do not wait for each other.
+    // Each component has its own sum and maximum, so that the operations do not wait for each other.
     Vec<double> most{};
     Vec<double> sums{};
     for (std::size_t pair = 0; pair < pairs.size(); ++pair)
@@ -42,7 +42,7 @@ VertexDifferences::VertexDifferences(const Query& query)
 }
 
 void VertexDifferences::scale(int exponent) {
-  // In two factors, because 2^exponent need not be a double.
+  // Multiplies by two factors, because 2^exponent need not be a double.
   const double factor = std::ldexp(1.0, exponent / 2);
   const double other_factor = std::ldexp(1.0, exponent - exponent / 2);
   for (VertexDifference& pair : pairs_) {

@@ -94,7 +94,7 @@ class VerticesAt {
   /// x_i - x_j.
   [[nodiscard]] const Vec<Real>& position(std::size_t i, std::size_t j) const { return positions_[i][j]; }
   [[nodiscard]] const Vec<Real>& position(VertexPair pair) const { return position(pair.to, pair.from); }
-  /// The derivative of x_i - x_j by t.
+  /// The derivative of x_i - x_j with respect to t.
   [[nodiscard]] const Vec<Real>& velocity(std::size_t i, std::size_t j) const { return velocities_[i][j]; }
   [[nodiscard]] const Vec<Real>& velocity(VertexPair pair) const { return velocity(pair.to, pair.from); }
 

@@ -7,7 +7,7 @@
 
 namespace nearmiss::certified {
 
-/// Rounds to nearest. Its exponent range is far larger than that of double, so nothing here overflows or
+/// Rounds to nearest. The exponent range is far larger than that of double, so nothing here overflows or
 /// underflows.
 using Wide = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<384, boost::multiprecision::digit_base_2>,

@@ -8,7 +8,7 @@
 //
 // The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. First
 // case: at t0, the sign changes to or from -1. On that side of t0, the statement of a closest pair holds
-// strictly. At t0, by continuity, its `outside` are at most 0, and its excess is at most 0; it is not
+// strictly. At t0, by continuity, its `outside` are at most 0, and its excess is at most 0. The excess is not
 // negative, because an excess is 0 where an extent is 0. So t0 is a root of the excess, which is not
 // identically 0. Second case: at t0, the sign changes between 0 and 1. On the side where it is 0, a closest
 // pair is b apart for some time, so its excess is identically 0. On the other side, its statement does not

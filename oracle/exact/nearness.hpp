@@ -44,8 +44,8 @@ class Nearness {
   [[nodiscard]] bool holds_at(Root& t) const;
   [[nodiscard]] bool holds_strictly_at(Root& t) const;
 
-  /// Times in [0, 1], in no order and with repetitions: 0, and all times at which the sign of (distance - b)
-  /// changes. So the earliest time at which the distance is at most b is one of them.
+  /// Times in [0, 1], in no particular order and with repetitions: 0, and all times at which the sign of
+  /// (distance - b) changes. So the earliest time at which the distance is at most b is one of them.
   [[nodiscard]] std::vector<Root> candidates() const;
 
   [[nodiscard]] const std::vector<FeatureNearness>& statements() const { return statements_; }

@@ -79,7 +79,8 @@ bool are_proportional(const Polynomial& p, const Polynomial& q) {
 
 namespace {
 
-/// The remainder of c p by q, where c is |the leading coefficient of q|^(1 + the difference of degrees).
+/// The remainder of dividing c p by q, where c is |the leading coefficient of q|^(1 + the difference of
+/// degrees).
 Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
   const int side = sign(q.leading());
   const Number lead = side > 0 ? q.leading() : -q.leading();

@@ -216,7 +216,7 @@ namespace {
 /// the two polynomials are not both zero at one of the numbers. So a common divisor has the root if and only
 /// if its sign changes.
 bool have_common_root(const Polynomial& p, const Polynomial& q, const Number& lo, const Number& hi) {
-  constexpr int short_degree = 3;  // up to this, a divisor takes less time than residues
+  constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues
   if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return false;
   const Polynomial common = greatest_common_divisor(p, q);
   return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);

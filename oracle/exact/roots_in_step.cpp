@@ -53,10 +53,10 @@ struct Part {
   }
 };
 
-/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an
-/// extremum, since there is one between two close roots, and in the middle. If a few cuts do not help, it
-/// gives up unless the polynomial is known to have no multiple roots; for such a polynomial, it looks for
-/// clusters of roots between the cuts.
+/// Cuts the interval until every part has no root or one simple root. It cuts alternately near an extremum
+/// and in the middle; there is an extremum between two close roots. If a few cuts do not help, it gives up
+/// unless the polynomial is known to have no multiple roots; for such a polynomial, it looks for clusters of
+/// roots between the cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;

@@ -28,8 +28,8 @@ class BatchFilter {
   BatchFilter(const QueryRows& queries, double caution, const QueryRows& ahead)
       : queries_(queries), ahead_(ahead), caution_(caution) {}
 
-  /// Processes the queries of its kind, among at most batch_size. It sets stages[i] if it decides query i,
-  /// and leaves it `undecided` otherwise.
+  /// Processes the queries of kind `kind` in a batch of at most batch_size. It sets stages[i] if it decides
+  /// query i, and leaves it `undecided` otherwise.
   void run(FilterStage* stages) {
     const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);

@@ -44,7 +44,7 @@ bool touch_at_end(const Query& query, int time) {
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);
     const int of_3 = orientation(x, 0, 1, 3, k);
-    if (of_0 == of_1 && of_2 == of_3) continue;  // perhaps parallel, or seen as a line
+    if (of_0 == of_1 && of_2 == of_3) continue;  // perhaps parallel, or projected onto one line
     return of_0 * of_1 <= 0 && of_2 * of_3 <= 0;
   }
   return false;

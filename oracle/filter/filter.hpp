@@ -17,7 +17,7 @@ namespace nearmiss {
 /// The stage that decided a query.
 enum class FilterStage : std::uint8_t {
   boxes,        ///< no: the swept boxes do not meet
-  planes,       ///< no: a moving plane across an axis or a diagonal separates the primitives, by more than h
+  planes,       ///< no: a moving plane (planes.hpp) separates the primitives, by more than h
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: two weights have opposite signs at every time at which F may vanish
   sign_change,  ///< yes: F changes its sign where all weights are inside

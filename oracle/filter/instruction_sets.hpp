@@ -12,8 +12,8 @@ namespace nearmiss::certified {
 inline constexpr std::size_t batch_size = 128;
 
 /// Decides at most batch_size queries, with every error bound multiplied by `caution`, or leaves them
-/// `undecided`. All instruction sets give the same stages. At the same time, the queries in `ahead`, of which
-/// there are as many, are prefetched.
+/// `undecided`. All instruction sets give the same stages. At the same time, the queries in `ahead` are
+/// prefetched; `ahead` must have the size of `queries`.
 using FilterBatch = void(const QueryRows& queries, double caution, FilterStage* stages,
                          const QueryRows& ahead);
 

@@ -1,4 +1,4 @@
-// Separation by moving planes across the axes and the diagonals, which only needs comparisons.
+// Separation by moving planes perpendicular to the axes and the diagonals. These tests only need comparisons.
 #pragma once
 
 #include <algorithm>
@@ -24,12 +24,12 @@ struct HeightRange {
   }
 };
 
-/// Whether the first primitive is above the second one at both ends of the step, or below it at both, for the
-/// heights `height(time, vertex)` in some direction; `is_above(lo, hi)` compares the lowest vertex of one
-/// with the highest one of the other. If so, all differences of heights between the primitives have one sign
-/// at both ends and, because they are linear, at every time. Their convex combinations have this sign, too,
-/// so the primitives never meet. If `is_above` asks for a difference of more than g, the heights of the
-/// primitives always differ by more than g.
+/// Whether the first primitive is above the second one at both ends of the step, or below it at both.
+/// `height(time, vertex)` gives the heights of the vertices in some direction, and `is_above(lo, hi)`
+/// compares the lowest vertex of one primitive with the highest vertex of the other. If so, all differences
+/// of heights between the primitives have one sign at both ends and, because they are linear, at every time.
+/// Their convex combinations have this sign, too, so the primitives never meet. If `is_above` asks for a
+/// difference of more than g, the heights of the primitives always differ by more than g.
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
@@ -58,9 +58,9 @@ struct IsAbove {
   }
 };
 
-/// Whether a plane across an axis separates the primitives throughout the step, so that they do not collide.
-/// The points `x(time, vertex, k)` must be finite. Heights along an axis are coordinates, so comparing them
-/// is exact.
+/// Whether a plane perpendicular to an axis separates the primitives throughout the step, so that they do not
+/// collide. The points `x(time, vertex, k)` must be finite. Heights along an axis are coordinates, so
+/// comparing them is exact.
 template <Kind kind, class Points, class Above = IsAbove>
 [[gnu::always_inline]] inline auto separated_across_axes(const Points& x, const Above& is_above = {}) {
   const auto axis = [&](std::size_t k) {
@@ -70,10 +70,10 @@ template <Kind kind, class Points, class Above = IsAbove>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// Whether a plane across a diagonal x ± y, y ± z or z ± x separates the primitives throughout the step.
-/// Heights along a diagonal are sums or differences of two coordinates, rounded once. Rounding is monotone,
-/// so fl(a) > fl(b) implies a > b for numbers of every size. An overflowing sum is infinite; it is above
-/// every finite sum, as the exact sum is, and not above another infinite sum of its sign.
+/// Whether a plane perpendicular to a diagonal x ± y, y ± z or z ± x separates the primitives throughout the
+/// step. Heights along a diagonal are sums or differences of two coordinates, rounded once. Rounding is
+/// monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An overflowing sum is infinite; it is
+/// above every finite sum, as the exact sum is, and not above another infinite sum of its sign.
 template <Kind kind, class Points, class Above = IsAbove>
 [[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x, const Above& is_above = {}) {
   const auto both = [&](std::size_t k, std::size_t l) {
@@ -95,7 +95,7 @@ struct IsFartherAbove {
   bool operator()(double lo, double hi) const { return lo - hi > h; }
 };
 
-inline constexpr double root_of_two = 1.4142136;  ///< rounded up by a relative 2^-25
+inline constexpr double root_of_two = 1.4142136;  ///< rounded up, with a relative error below 2^-25
 inline constexpr double height_rounding =
     0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
 
@@ -105,8 +105,8 @@ inline constexpr double height_rounding =
 /// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact.
 /// D = fl(A - B) is at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact
 /// heights differ by at least A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The right side below computes
-/// √2 h + 4 u (|A| + |B|). Its roundings may make it smaller by a relative 3 u, which the margins of its
-/// constants cover. Underflow in its products may make it smaller by twice the smallest double, which is
+/// √2 h + 4 u (|A| + |B|). Its roundings may make it smaller by a relative error of 3 u, which the margins of
+/// its constants cover. Underflow in its products may make it smaller by twice the smallest double, which is
 /// added. If a sum or D is infinite, the right side is infinite or NaN, and the answer is false.
 struct IsFartherAboveDiagonally {
   double h;
@@ -116,7 +116,8 @@ struct IsFartherAboveDiagonally {
   }
 };
 
-/// Whether planes across the axes and the diagonals show that the primitives are always more than h apart.
+/// Whether planes perpendicular to the axes and the diagonals show that the primitives are always more than h
+/// apart.
 template <Kind kind>
 bool farther_apart_than(double h, const Query& query) {
   const auto x = coordinates(query);

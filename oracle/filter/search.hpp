@@ -17,7 +17,8 @@ namespace nearmiss::certified {
 /// A subinterval that becomes a part of its own is widened by this on both sides.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// What is asked: whether there is a contact, or also its first time, roughly or to neighbouring doubles.
+/// The question to a search: whether there is a contact, or also its first time, roughly or to neighbouring
+/// doubles.
 enum class Asked : std::uint8_t { whether, when, when_precisely };
 
 /// Searches a part of the step, from its beginning to its end. It drops an interval if F has one sign or two
@@ -92,7 +93,8 @@ class ContactSearch {
   /// The Bernstein coefficients of F as seen from the other end of an interval.
   static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
 
-  /// About the fraction of an interval after which F is clear of its error, whichever term makes it rise.
+  /// Estimates where in an interval, as a fraction of its length, |F| begins to exceed its error by the factor
+  /// `clear`. The term that rises fastest decides.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
     const Powers<double> F = in_powers(f);
     const double rise = clear * F_.error;
@@ -101,9 +103,9 @@ class ContactSearch {
     return part < 0.25 ? part : 0.5;
   }
 
-  /// About the time at which F, given by its Bernstein coefficients, has an extremum in an interval; the
-  /// middle if it has none. If the extremum is at an end to double precision, the result is a time near that
-  /// end.
+  /// An estimate of the time at which F, given by its Bernstein coefficients, has an extremum in an interval;
+  /// the middle of the interval if there is none. If the extremum is at an end to double precision, the
+  /// result is a time near that end.
   [[nodiscard]] static double turn(const Enclosure& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
@@ -177,7 +179,7 @@ class ContactSearch {
     return FilterStage::weights;
   }
 
-  /// Whether F certainly has no root in an interval outside `near`.
+  /// Whether F certainly has no root in the part of `interval` that is outside `near`.
   [[nodiscard]] bool is_only_root(const Enclosure& near, const Enclosure& interval) const {
     return F_.sign_on(interval.lo, near.lo) != 0 && F_.sign_on(near.hi, interval.hi) != 0;
   }
@@ -244,7 +246,7 @@ class ContactSearch {
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
   /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the
-  /// error of four roundings of numbers up to 1. The additional range is still inside the step.
+  /// error of four roundings of numbers up to 1. The widened interval is still inside the step.
   [[nodiscard]] Enclosure in_step(const Enclosure& interval, double rounding) const {
     const double length = part_.end - part_.begin;
     return {std::max(part_.begin, part_.begin + interval.lo * length - rounding),
@@ -257,7 +259,7 @@ class ContactSearch {
     return true;
   }
 
-  static constexpr double clear = 8;  ///< F counts as clear of its error from this multiple of the error on
+  static constexpr double clear = 8;  ///< F is clear of its error if |F| exceeds it by this factor
 
   Kind kind_;
   const StepPart<Real>& whole_;

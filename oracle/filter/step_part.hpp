@@ -43,8 +43,8 @@
 //   They add 9 U M with M = Σ A_k w_k. Three levels of de Casteljau's algorithm add 9.1 U (M + L). The sum is
 //   at most 18.3 U M + (1 + 9.1 U) L (16 is proven, and 17 in double words). The code uses 20 U M + 1.01 L.
 //
-// - w, l, M and L are computed in double and may be too small by a relative 12 · 2^-53. This is far less than
-//   the margin above.
+// - w, l, M and L are computed in double and may be too small by a relative error of 12 · 2^-53. This is far
+//   less than the margin above.
 //
 // - Underflow adds at most H, `product_underflow` times the smallest double, to the error of a product, a
 //   halving or a division by 3; sums are exact in that range. For W it adds 2 H or, in the middle, 3 H, and 2
@@ -113,7 +113,8 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   return motion;
 }
 
-/// The motion over the part [lo, hi] of what `whole` covers. It has 3 roundings: 1 - t, products, sum.
+/// The motion over the part [lo, hi] of the time that `whole` covers. It has 3 roundings: 1 - t, products,
+/// sum.
 template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;

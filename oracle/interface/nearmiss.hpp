@@ -68,7 +68,7 @@ class Queries {
     return Queries(nearmiss_packed_float(to_c(kind), x.size() / 24, x.data()));
   }
 
-  /// Pairs of a moving mesh: four numbers of vertices for each pair, and three coordinates for each vertex at
+  /// Pairs of a moving mesh: four vertex numbers for each pair, and three coordinates for each vertex at
   /// t = 0 and t = 1.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const double* start,
                          const double* end) noexcept {

@@ -134,8 +134,8 @@ bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h
   return false;
 }
 
-/// Whether the origin is on a flat patch whose plane contains it. If so, it is on the segment from a(t) to
-/// b(t), the sides s = 0 and s = 1, at some t.
+/// Whether the origin is on a flat patch whose plane contains it. If so, the origin is at some t on the
+/// segment from a(t), on the side s = 0, to b(t), on the side s = 1.
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -157,7 +157,7 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
 /// the side on which the left product is larger.
 struct Position {
   bool on_patch = false;
-  bool in_plane = false;    ///< in the plane of a flat patch; rays out of the plane never cross the patch
+  bool in_plane = false;    ///< the origin is in a flat patch's plane; rays out of it never cross the patch
   bool other_pair = false;  ///< the triangles with the diagonal p10 p01, not p00 p11, replace the patch
 };
 
@@ -247,7 +247,7 @@ IntegerVector difference(const Query& query, int i, int j, std::size_t time, con
   return {along(0), along(1), along(2)};
 }
 
-/// The images of the faces. A triangle is a patch with a side of length 0.
+/// The images of the faces of the domain. A triangle is stored as a patch with a side of length 0.
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>

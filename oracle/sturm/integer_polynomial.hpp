@@ -16,8 +16,8 @@ struct Dyadic {
 
 bool operator<(const Dyadic& a, const Dyadic& b);
 
-/// A polynomial by its coefficients, the constant first and without trailing zeros, so the zero polynomial
-/// has none.
+/// A polynomial, given by its coefficients. The constant comes first, and there are no trailing zeros, so the
+/// zero polynomial has no coefficients.
 class IntegerPolynomial {
  public:
   IntegerPolynomial() = default;
@@ -31,8 +31,8 @@ class IntegerPolynomial {
   [[nodiscard]] int sign_at(const Dyadic& t) const { return scaled_value(t).sign(); }
   /// The sign on all of [lo, hi], for 0 <= lo < hi, if interval arithmetic shows it; else 0.
   [[nodiscard]] int sign_on(const Dyadic& lo, const Dyadic& hi) const;
-  /// The number of roots in (0, 1), counted with multiplicity, or more than that by an even number
-  /// (Descartes' rule of signs).
+  /// An upper bound of the number of roots in (0, 1), counted with multiplicity. It is equal to this number,
+  /// or exceeds it by an even number (Descartes' rule of signs).
   [[nodiscard]] int most_roots_inside() const;
   [[nodiscard]] IntegerPolynomial derivative() const;
 
@@ -59,7 +59,8 @@ class IntegerPolynomial {
 /// prime do not show it.
 bool are_surely_coprime(const IntegerPolynomial& f, const IntegerPolynomial& g);
 
-/// The signed remainder sequence of f and g, which must not be zero, each up to a positive factor.
+/// The signed remainder sequence of f and g, which must not be zero. Each polynomial is given up to a
+/// positive factor.
 std::vector<IntegerPolynomial> remainder_sequence(const IntegerPolynomial& f, const IntegerPolynomial& g);
 
 /// The number of changes of sign along the sequence at t, zeros left out.

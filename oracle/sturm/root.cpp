@@ -203,7 +203,7 @@ void SturmRoot::set_polynomial(IntegerPolynomial f) {
 bool SturmRoot::is_common_root(const IntegerPolynomial& g) {
   IntegerPolynomial common = common_factor(f_, g);
   if (common.degree() == 0) return false;
-  // A factor of f has at most this root, a simple one, between the ends, and is not zero at these.
+  // Between the ends, a factor of f has no root or only this simple one. It is not zero at the ends.
   const bool is_root = common.sign_at(lo_.t) != common.sign_at(hi_.t);
   set_polynomial(is_root ? std::move(common) : f_.quotient(common));
   return is_root;

@@ -1,17 +1,19 @@
-// A pair of features, such as a vertex and an edge, is described by polynomials in t: `excess`, a positive
-// multiple of d² - h², where d is the distance of the features after edges are extended to lines, and triangles
-// to planes; `inside`, none of which is negative where the closest points of the extended features lie in the
-// features themselves; and `extent`, which is positive unless the features are degenerate. At every time, the closest points of the primitives are those of such a pair, or of a vertex of
-// each.
+// A pair of features, such as a vertex and an edge, is described by polynomials in t:
+// - `excess` is a positive multiple of d² - h², where d is the distance of the features after edges are
+//   extended to lines, and triangles to planes.
+// - None of `inside` is negative where the closest points of the extended features lie in the features
+//   themselves.
+// - `extent` is positive unless the features are degenerate.
+// At every time, the closest points of the primitives are those of such a pair, or of a vertex of each.
 //
-// The distance is at most h at some time iff it is so at t = 0, or at a root of the excess of a pair or, if
-// that is identically 0, of one of its `inside`: at the first such time, the conditions of the closest pair
-// begin to hold.
+// The distance is at most h at some time iff it is at most h at t = 0 or at a root of the excess of a pair
+// or, if that excess is identically 0, at a root of one of the pair's `inside`. The reason is that the
+// conditions of the closest pair begin to hold at the first such time.
 //
-// The distance is below h at some time iff it is so in an open interval, where one pair has the closest
-// points, and none of its polynomials changes its sign. Such an interval of greatest length begins at 0 or at
-// a root of one of these polynomials. So it is enough to know the signs right after 0 and right after these
-// roots. Each is the sign of the first derivative that is not 0 there.
+// The distance is below h at some time iff it is below h in an open interval in which one pair has the
+// closest points and none of its polynomials changes its sign. Such an interval of greatest length begins at
+// 0 or at a root of one of these polynomials. So it is enough to know the signs right after 0 and right after
+// these roots. Each is the sign of the first derivative that is not 0 there.
 #include "oracle/sturm/separation.hpp"
 
 #include <algorithm>

@@ -32,12 +32,12 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    if (name != "again")  // it repeats the other facts
+    if (name != "again")  // the command that repeats the other facts
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 
-/// The facts of a run without its losses: a salvaged run has the queries of the original.
+/// The facts of the original of a salvaged run: those that a salvage adds are removed.
 RunInfo original_of(RunInfo info) {
   info.erase(salvaged_fact);
   info.erase(origin_fact);
@@ -105,7 +105,7 @@ std::vector<Finding> Campaign::findings() const {
 
 namespace {
 
-/// Throws Error if the campaign has results of an unknown run: merged, they could count twice.
+/// Throws Error if the campaign has results of an unknown run, which a merge could count twice.
 void expect_known_runs(const Campaign& campaign, const std::string& name) {
   if (std::any_of(campaign.runs.begin(), campaign.runs.end(),
                   [](const Run& run) { return run.info.contains(origin_fact); }))
@@ -178,7 +178,7 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
 
 namespace {
 
-/// How far an incomplete run of one shard has come.
+/// Says after how many of its cases an incomplete run of one shard stopped.
 std::string how_far(const Run& run) {
   const Shard& shard = run.shards.front();
   const std::string after = "stopped after " + with_separators(shard.cases);

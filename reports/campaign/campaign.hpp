@@ -16,8 +16,8 @@
 
 namespace nearmiss {
 
-/// A key by which findings are sorted for display: those of the least exotic class come first, and of these
-/// the shrunk ones.
+/// A key by which findings are sorted for display: the least exotic class comes first, and within a class the
+/// shrunk findings.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }
@@ -43,8 +43,8 @@ struct DifferentFact {
 };
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
-/// Name of the fact of a run that says what was lost when its store was salvaged. The fact makes it another
-/// run, so that no command resumes it.
+/// Name of the fact of a run that says what was lost when its store was salvaged. A run with this fact is a
+/// different run, so that no command resumes it.
 inline constexpr const char* salvaged_fact = "salvaged";
 /// Name of the fact that a salvage gives to all runs if rows about runs were lost: some results may then
 /// belong to an unknown run.
@@ -85,10 +85,10 @@ struct Campaign {
   Statistics statistics;
 
   /// The findings of all runs in the order of display. Failures of the oracle come first, since they put all
-  /// other findings in doubt; those of failures that count only on request (--fail-on) last. The rest is sorted
-  /// by the class of the query, ordinary first; then by how often the signature was seen; then the simplest
-  /// first. If several findings of a signature and class are shrunk
-  /// to the same query, only the first of them is listed.
+  /// other findings in doubt. Failures that count only on request (--fail-on) come last. The rest are sorted
+  /// by the class of the query, ordinary first; then by how often the signature was seen; then by simplicity.
+  /// If several findings of a signature and class are shrunk to the same query, only the first of them is
+  /// listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 

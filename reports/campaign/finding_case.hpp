@@ -17,7 +17,8 @@ Finding of_shrunk(const Finding& finding);
 Case to_case(const Finding& finding);
 
 /// A name for the case's file: what failed, the subject, and an `id` that distinguishes it. Subjects with
-/// similar names, such as "a b" and "a;b", have the same name, so the id must distinguish their cases too.
+/// similar names, such as "a b" and "a;b", get the same file name, so the id must distinguish their cases
+/// too.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
 /// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A

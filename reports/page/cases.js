@@ -132,8 +132,9 @@ function drawExtremeTimes() {
   const rows = report.extreme_times;
   if (rows.length === 0) return;
   show("extreme-times-section");
-  // A time after t* is not late if the distance of the primitives only touches h. If a subject has times of
-  // both sorts, the report does not say which sort this time is, so it is not called late.
+  // A time after t* is not late if the distance of the primitives only touches h. If a subject gives both
+  // lower bounds and estimates, the report does not say which of them this time is, so the page does not call
+  // it late.
   const isLate = ({ subject, kind, side }) => {
     const { late, after_histogram: after } = report.subjects[subject][kind];
     return side === "after" && late === after.reduce((a, b) => a + b, 0);

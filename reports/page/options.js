@@ -1,5 +1,4 @@
-// Draws how the values of a subject's option trade misses, false positives, earliness and run time for one
-// another.
+// Draws how misses, false positives, earliness and run time depend on the value of a subject's option.
 "use strict";
 
 /**

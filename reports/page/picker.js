@@ -1,5 +1,5 @@
-// Chooses the subjects for charts that have a row or a line for each subject: all subjects, or a selection if
-// there are many.
+// Lets the reader choose the subjects in charts that have a row or a line for each subject, if there are many
+// subjects. At first, as many are chosen as there are colours.
 "use strict";
 
 const subjectNames = Object.keys(report.subjects);

@@ -30,7 +30,8 @@ function fraction(x) {
 }
 /** How far a false positive is; `row` says whose bound is the unit. */
 function timesTheBound(x, row) {
-  const isClaim = row.bound_of_distances === undefined || isOfClaim(row); // a refuted bound was claimed
+  // A row without this field is a refuted bound, and only a claimed bound can be refuted.
+  const isClaim = row.bound_of_distances === undefined || isOfClaim(row);
   const whose = isClaim ? "its" : "wang's";
   const text = x === Infinity ? `beyond ${isClaim ? "a" : "wang's"} bound of 0` : x > 1 ? `${fraction(x)} times ${whose} bound` : `at ${fraction(x)} of ${whose} bound`;
   return isClaim ? text : `${text} (it claims none)`;

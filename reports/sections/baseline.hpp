@@ -42,14 +42,14 @@ inline constexpr double false_alarm_risk = 1e-3;
 Campaign add_up(std::span<const Campaign> campaigns);
 
 /// Compares a campaign with earlier ones, given from the oldest. Rates and signatures are compared with the
-/// sum of those that are like the last one (`compare_rates`, `compare_signatures`), run times with each campaign
-/// (`compare_times`).
+/// sum of those earlier campaigns that resemble the last one (`compare_rates`, `compare_signatures`), and run
+/// times with each earlier campaign (`compare_times`).
 Changes changes(const Campaign& now, std::span<const Campaign> baseline);
 
 /// Compares a campaign with one earlier campaign.
 Changes changes(const Campaign& now, const Campaign& baseline);
 
-/// A line for each new way to fail whose failure is in `failing`, and for each rate that is worse.
+/// A line for each new way to fail whose kind of failure is in `failing`, and for each rate that is worse.
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 

@@ -26,7 +26,7 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// The sum of the last proportion and of those before it that differ from it only as chance explains.
+/// The sum of the last proportion and of those before it that differ from it by no more than chance explains.
 Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   Proportion sum;
   for (const Proportion& each : all)
@@ -65,9 +65,9 @@ constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 using RateName = std::pair<std::string, std::string_view>;
 
 /// The pairs (now, before) that have at least one failure and at most `few` in both campaigns together, by
-/// the rate's name. Of the steps of a sweep, which share their draws and so are no independent samples, there
-/// is only the one with the most failures. Selecting pairs by the sum of both counts favours neither campaign,
-/// so the later test stays valid.
+/// the rate's name. The steps of a sweep share their draws, and so are no independent samples. Therefore only
+/// the step with the most failures is included. Selecting pairs by the sum of both counts favours neither
+/// campaign, so the later test stays valid.
 std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_few(
     const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
@@ -83,8 +83,8 @@ std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_fe
   return found;
 }
 
-/// The rates of each subject over all families and kinds with few failures. The function takes the number in
-/// `fews` that gives the smallest p, and multiplies this p by the length of `fews`.
+/// For each subject, the rates summed over all families and kinds with few failures. The function takes the
+/// number in `fews` that gives the smallest p, and multiplies this p by the length of `fews`.
 std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
   std::map<RateName, ChangedRate> best;
   for (const std::uint64_t few : fews)

@@ -30,13 +30,13 @@ struct ComparedRates {
   std::size_t compared = 0;
 };
 
-/// Compares the rates of all families that a campaign and its baseline have, by Fisher's exact test. The rate
-/// before is that of the last campaign of the baseline, and of those whose rate differs from it only as chance
-/// explains: campaigns in which a fault was absent for some time do not make it new again. For each subject it
-/// also compares the sum over all families and kinds with few failures in both campaigns, to notice a new way
-/// to fail that is spread over many families. The steps of a sweep share their
-/// random draws, so of each sweep that sum has only the step with the most failures. Cases and meshes are left
-/// out, because they are not random samples.
+/// Compares the rates of all families that a campaign and its baseline have, by Fisher's exact test. The
+/// earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
+/// differs from it by no more than chance explains. Therefore campaigns in which a fault was absent for some
+/// time do not make it new again. For each subject it also compares the sum over all families and kinds with
+/// few failures in both campaigns, to notice a new way to fail that is spread over many families. The steps
+/// of a sweep share their random draws, so the sum includes only the step of each sweep with the most
+/// failures. Cases and meshes are left out, because they are not random samples.
 ///
 /// @param risk the probability that a rate is found to have changed although none has; each comparison has an
 ///             equal part of it (Bonferroni)

@@ -102,15 +102,16 @@ struct Chances {
   std::uint64_t before = 0;  ///< number of such random queries in the baseline
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
   double most = 0;           ///< the largest such ratio
-  /// How often one random draw was asked, at most. The steps of a sweep share their draws: a failure that was
-  /// seen 40 times in 20 steps may have been drawn twice. To be safe, the tests count draws and not queries.
+  /// The largest number of times that one random draw was asked. The steps of a sweep share their draws: a
+  /// failure that was seen 40 times in 20 steps may have been drawn twice. To be safe, the tests count draws
+  /// and not queries.
   std::uint64_t repeats = 1;
 
   [[nodiscard]] bool known() const { return before != 0; }
   [[nodiscard]] std::uint64_t now(double ratio) const {
     return static_cast<std::uint64_t>(ratio * static_cast<double>(before));
   }
-  /// The least number of draws that so many queries may be.
+  /// The smallest number of draws from which this many queries may come.
   [[nodiscard]] std::uint64_t draws(std::uint64_t queries) const { return queries / repeats; }
   /// The proportion of the draws that fail.
   [[nodiscard]] Proportion proportion(std::uint64_t failures, std::uint64_t queries) const {
@@ -118,7 +119,7 @@ struct Chances {
   }
 };
 
-/// The chances of each sort of failure, computed on demand.
+/// The Chances of each sort of failure, computed on demand.
 class AllChances {
  public:
   AllChances(const Statistics& now, const Statistics& before) : now_(now), before_(before) {}
@@ -195,9 +196,9 @@ class Frequency {
     for (const Campaign& each : baseline) since_.emplace_back(baseline.back().statistics, each.statistics);
   }
 
-  /// Whether a signature is seen more often than before, by a test at a level. Campaigns in which it was rarer
-  /// than in the last one, by more than chance explains, are no reason: those in which a fault was absent for
-  /// some time do not make it new again.
+  /// Whether a signature is seen more often than before, by a test at a level. A second test leaves out
+  /// campaigns in which the signature was rarer than in the last one by more than chance explains. Therefore
+  /// campaigns in which a fault was absent for some time do not make it new again.
   [[nodiscard]] bool is_higher(const Signature& signature, double level) {
     const Sort sort{signature.what, signature.subject};
     const std::uint64_t times = now_.times_seen(signature);
@@ -208,7 +209,7 @@ class Frequency {
   }
 
  private:
-  /// The sum of the campaigns in which a signature was not rarer than in the last one.
+  /// The sum of the campaigns, without those in which a signature was rarer than in the last one.
   [[nodiscard]] Statistics without_rarer(const Signature& signature) {
     const Sort sort{signature.what, signature.subject};
     const std::uint64_t last = baseline_.back().statistics.times_seen(signature);
@@ -224,7 +225,7 @@ class Frequency {
   const Statistics& before_;
   AllChances chances_;
   double level_;
-  std::vector<AllChances> since_;  // of the last campaign, compared with each
+  std::vector<AllChances> since_;  // chances in the last campaign, compared with each one
 };
 
 /// Finds out which of the signatures that are seen now are new.

@@ -38,11 +38,11 @@ struct Sightings {
 struct ChangedSignatures {
   /// Ways to fail that are new, or more frequent than chance explains; in order.
   std::vector<Signature> new_signatures = {};
-  /// Signatures of a failing subject that are missing in the baseline and no more frequent than chance
-  /// explains.
+  /// Signatures that are missing in the baseline, of a subject that already failed there, and that are no
+  /// more frequent than chance explains.
   std::vector<Signature> unseen_signatures = {};
   double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
-  /// Signatures that only the baseline has, although it is unlikely by chance that they were not seen again.
+  /// Signatures that only the baseline has, and whose absence now is unlikely to be chance.
   std::vector<Signature> gone_signatures = {};
   /// For each gone signature whose subject's code has changed since the signature was last seen: "in version
   /// 2", or "since sha256 0123456789ab".
@@ -65,11 +65,12 @@ struct ChangedSignatures {
 /// gone if the same test finds it less frequent, or if the subject has no failure of that sort any more and
 /// the test finds all failures of the sort together less frequent.
 ///
-/// A new signature must also be more frequent than in those campaigns in which it was not rarer than in the
-/// last one by more than chance explains: campaigns in which a fault was absent do not make it new again.
+/// A new signature must also be more frequent than in the rest of the baseline, after those campaigns are
+/// left out in which it was rarer than in the last one by more than chance explains. Therefore campaigns in
+/// which a fault was absent do not make it new again.
 ///
 /// The steps of a sweep share their random draws, so that the queries of a campaign with sweeps are no
-/// independent samples. The test counts draws, as few as the queries may be.
+/// independent samples. Therefore the test counts draws: the smallest number from which the queries may come.
 ///
 /// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
 /// different ratios for different families, and the families in which a signature was seen are not recorded.

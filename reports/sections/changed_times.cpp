@@ -19,11 +19,12 @@ namespace {
 /// Logarithms of times, or of ratios of times.
 using Logs = std::map<CountsKey, double>;
 
-/// A subject's families are compared with each other if they and the kinds make at least this many times.
+/// A subject's families are compared with each other if there are at least this many pairs of family and
+/// kind.
 constexpr std::size_t fewest_families = 8;
-/// Standard deviations of the logarithm of a ratio between two nights, in addition to the spread that a
-/// family's batches show. The ratios are: a family's time to those of the subject's other families (at least
-/// this much); a subject's time to those of other subjects; and a time without anything to compare it with.
+/// Assumed standard deviations of log(time now / time before) if nothing has changed, in addition to the
+/// spread of a family's batches: for a family compared with the subject's other families (at least this
+/// much), for a subject compared with other subjects, and for a time that nothing can be compared with.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
@@ -85,7 +86,8 @@ struct Variance {
   [[nodiscard]] double degrees_of_freedom() const { return std::min(square(value) / weight, 1e6); }
 };
 
-/// The logarithm of a time per query in ns: its mean over all batches, weighted by their numbers of queries.
+/// The logarithm of the time per query in ns, averaged over all batches, weighted by their numbers of
+/// queries.
 struct LogTime {
   double mean = 0;
   Variance variance =
@@ -134,8 +136,8 @@ struct Ratios {
 
   [[nodiscard]] double change() const { return mean(own); }
   [[nodiscard]] double campaigns() const { return static_cast<double>(own.size()); }
-  /// The variance of the difference between a time and the mean of the campaigns, divided by that of one
-  /// time.
+  /// The variance of the difference between a time and its mean in the earlier campaigns, divided by the
+  /// variance of a single time.
   [[nodiscard]] double of_difference() const { return 1 + 1 / campaigns(); }
 };
 

@@ -15,11 +15,10 @@ namespace nearmiss {
 struct ChangedTime {
   /// ChangedTime::all_families, and "vt, ee", for a subject as a whole.
   std::string subject, kind, family;
-  double before = 0;  ///< ns in the baseline: the geometric mean over its campaigns
-  double expected =
-      0;  ///< ns that would be expected now: `before`, times how much slower everything else has become
-  double now = 0;  ///< ns
-  double p = 1;    ///< the probability of such a difference if nothing has changed
+  double before = 0;    ///< ns in the baseline: the geometric mean over its campaigns
+  double expected = 0;  ///< ns expected now: `before` multiplied by the slowdown of everything else
+  double now = 0;       ///< ns
+  double p = 1;         ///< the probability of such a difference if nothing has changed
 
   static constexpr std::string_view all_families = "all families";
 

@@ -14,7 +14,7 @@ std::string to_text(const CommonFactors& common);
 /// A line for each subject, kind and family with factors and misses.
 std::string common_factors_lines(const Statistics& statistics);
 
-/// An array with an object for each of these lines.
+/// An array with an object for each line of common_factors_lines().
 nlohmann::ordered_json common_factors_json(const Statistics& statistics);
 
 }  // namespace nearmiss

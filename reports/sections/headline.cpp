@@ -68,8 +68,8 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
 
 bool is_not_asked(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::not_asked); }
 
-/// Says which subjects failed, which were asked nothing, and which did not fail. If one subject failed, it
-/// says how; otherwise in which class of queries, the least exotic class first.
+/// Says which subjects failed, which were asked nothing, and which did not fail. If only one subject failed,
+/// it says how. If several failed, it says in which class of queries, the least exotic class first.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
   std::vector<std::string> not_asked;

@@ -64,7 +64,7 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
 /// For each algorithm, the fit over all origins, and the fit for each single origin.
 std::vector<Fit> fits(const Statistics& statistics);
 
-/// A fit in a line, for people.
+/// Describes a fit in one line of text.
 std::string describe(const Fit& line);
 
 /// An object with "rungs" and "fits"; nothing unless an algorithm has at least two precisions.

@@ -26,8 +26,8 @@ struct Measure {
   std::string_view key;              ///< in report.json
   Value (*value)(const CountsSum&);  ///< as files show it
   std::string_view heading = "";     ///< in tables on the terminal
-  std::string_view csv_after = "";   ///< counter after whose column CSV files have it; "" for no column
-  std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal, if it is not the value as text
+  std::string_view csv_after = "";   ///< CSV files show it after this counter; "" if they do not
+  std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the value
 };
 
 /// The measures that report.json shows of every sum, in its order.

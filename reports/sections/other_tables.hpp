@@ -32,7 +32,7 @@ struct Environment {
   std::uint64_t queries = 0, collisions = 0, missed = 0, false_positives = 0, refuted_bounds = 0, faults = 0;
   std::optional<std::string> first = {};  ///< the first failure, with its query's provenance
 
-  /// The guarantee is that no collision is missed. "gives no answer" means: to some queries.
+  /// The guarantee is that no collision is missed. "gives no answer" means that some queries got no answer.
   [[nodiscard]] std::string_view verdict() const {
     return missed > 0 ? "misses" : faults > 0 ? "gives no answer" : "keeps it";
   }

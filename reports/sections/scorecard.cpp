@@ -51,8 +51,8 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of the failure with the least exotic query, one that counts if there is one; of several, the
-/// gravest.
+/// The index of the failure with the least exotic query, or of the gravest of several. Failures that count
+/// come before all others.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings,
                                const Failures& failing) {
   const auto rank = [&](const Finding& finding) {

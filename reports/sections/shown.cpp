@@ -53,7 +53,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  std::map<std::string, std::size_t> number;  // how many files have this name, apart from their number
+  std::map<std::string, std::size_t> number;  // files so far, by their names without number and case
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (first.take(finding))

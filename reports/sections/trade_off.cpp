@@ -32,8 +32,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The largest set of subjects with a common family; of several such sets, the one with the most common
-/// families.
+/// The largest set of subjects that were asked about a common family. If there are several, the one that has
+/// the largest number of families in common.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];

@@ -27,7 +27,7 @@ struct TradeOff {
     return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: it did not fail, apart from what fails only on request.
+  /// Whether the subject may be on a front: it has no failure, except failures that count only on request.
   [[nodiscard]] bool sound() const {
     return in_common(failures_of(subject, all.counts), usual_failures()).empty();
   }

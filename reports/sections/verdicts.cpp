@@ -86,9 +86,9 @@ std::string class_and_kind(QueryClass of, Kind kind) {
                                         : fmt::format("{} {}", name(of), short_name(kind));
 }
 
-/// "53 of 504 ordinary vt collisions": how often a subject failed in families of a class, for each kind with
-/// failures, of which some queries have this class if classes are `known`; "" if there are none. Adds these
-/// kinds to `said`.
+/// "53 of 504 ordinary vt collisions": how often a subject failed in families of a class, for each kind that
+/// failed there; if the classes of queries are `known`, only for each kind that failed on queries of this
+/// class. Returns "" if there is no such kind, and adds these kinds to `said`.
 std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
@@ -108,7 +108,7 @@ std::string said_of_families(const Parts& parts, const FailureInfo& failure, Que
 }
 
 /// "12 ordinary vt collisions in degenerate families": on how many queries of a class a subject failed, for
-/// each kind that was not said; "" if there are none.
+/// each kind that is not in `said`; "" if there is none.
 std::string said_of_queries(const Parts& parts, const FailureInfo& failure, QueryClass of,
                             const std::set<Kind>& said) {
   std::map<Kind, std::uint64_t> by_kind;
@@ -131,9 +131,9 @@ std::string said_of_queries(const Parts& parts, const FailureInfo& failure, Quer
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// The least exotic class of queries on which a subject failed in this way, or that of families if the class
-/// of the queries is not known; and how often it did: "missed 53 of 504 ordinary vt collisions, and 12 ordinary
-/// ee collisions in degenerate families".
+/// The least exotic class of the queries on which a subject failed in this way, and how often it did: "missed
+/// 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate families". If the class of
+/// the queries is not known, the class is that of their families.
 std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const FailureInfo& failure) {
   const auto of_queries = class_of_queries(subject, failure);
   const QueryClass of = of_queries.value_or(least_exotic_part(subject.parts, failure)->first);
@@ -204,7 +204,7 @@ std::string not_asked_text(const Counts& counts) {
 }
 
 /// "3 of the missed queries are ordinary", or "all missed queries are extreme", if the least exotic class of
-/// the queries on which a subject failed is not that of the families; "" otherwise.
+/// the queries on which a subject failed differs from that of their families; "" otherwise.
 std::string other_class(const OfSubject& subject, const FailureInfo& failure, std::string_view participle) {
   const auto of = class_of_queries(subject, failure);
   const QueryClass in = least_exotic_part(subject.parts, failure)->first;

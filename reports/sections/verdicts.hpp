@@ -15,18 +15,18 @@ namespace nearmiss {
 struct SubjectVerdict {
   std::string subject;
   Failures failures;  ///< all failures of the subject
-  bool clean = true;  ///< whether none of them is among those that count
+  bool clean = true;  ///< whether none of `failures` counts
   std::string text;   ///< "no miss in 1,234 collisions" and so on
   /// For each failure that counts: how the subject failed in the least exotic class with this failure, such
   /// as "missed 53 of 504 ordinary vt collisions".
   std::map<FailureKind, std::string> said;
   QueryClass least_exotic = QueryClass::unclassified;  ///< the least exotic class with a failure that counts
 
-  /// The gravest of the failures that count in the least exotic class, in words; "" for a clean subject.
+  /// Among the failures that count, the gravest one in the least exotic class, in words; "" if none counts.
   std::string first = {};
 };
 
-/// A verdict on each subject, in the order of their names, if `failing` are the failures that count.
+/// A verdict on each subject, in the order of their names. `failing` are the failures that count.
 std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics,
                                              const Failures& failing = usual_failures());
 

@@ -19,10 +19,10 @@ namespace nearmiss {
 
 namespace {
 
-/// A number that is shown of two versions.
+/// A number that is shown for each pair of versions.
 struct VersionMeasure {
   std::string_view key;   ///< in report.json
-  std::string_view text;  ///< behind the number; "" if the terminal does not show it
+  std::string_view text;  ///< follows the number; "" if the terminal does not show it
   std::uint64_t (*value)(const VersionCounts&);
 };
 

@@ -71,7 +71,7 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     expected += both * static_cast<double>(now.total) / static_cast<double>(now.total + before.total);
     seen += static_cast<double>(now.count);
   }
-  if (std::abs(seen - expected) < 1) return {};  // too near for the theorem; nothing has changed
+  if (std::abs(seen - expected) < 1) return {};  // too near for the theorem, so both p-values are 1
   return tails(Binomial(trials, expected / trials), seen, 0.0);
 }
 

@@ -20,7 +20,7 @@ struct Counter {
   Member Owner::*member;
   std::string_view json_key = name;
   std::string_view json_object =
-      "";  ///< key of the object in report.json that contains it; "" for the object of the owner
+      "";  ///< key of the object that contains it in report.json; "" if the owner's object does
 };
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
@@ -34,7 +34,7 @@ struct NamedCounts {
   std::string_view
       json_key;  ///< key of an object with an entry for each name; "" if the entries are in the object of
                  ///< the owner
-  std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv, where Counts are shown
+  std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv, for members of Counts
   std::size_t first = 0;          ///< index of the first entry that is counted and shown
   bool shows_zeros = false;       ///< whether report.json shows zero entries
 };

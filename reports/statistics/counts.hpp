@@ -38,8 +38,8 @@ void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 struct TimeError {
   double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
   double after = 0;  ///< time - t* if that is positive, likewise
-  /// The early time as a distance: an upper bound of how far a vertex of one primitive moves between `time`
-  /// and t*, relative to a vertex of the other, divided by the pair's bound B; rounded.
+  /// How early the time is, as a distance: an upper bound of how far a vertex of one primitive moves between
+  /// `time` and t*, relative to a vertex of the other, divided by the pair's bound B; rounded.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below h, before a promised lower bound
@@ -76,15 +76,15 @@ struct Counts {
   QueryClassCounts missed_by_class{};  ///< false negatives by the class of the query
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
-  QueryClassCounts refuted_by_class{};              ///< the same, by the class of the query
+  QueryClassCounts refuted_by_class{};              ///< `refuted_bounds` by the class of the query
   std::uint64_t measured_by_wang = 0;               ///< false positives for which the subject claims no bound
   std::uint64_t times_given = 0;                    ///< true positives for which the subject gives a time
   std::uint64_t times_promised = 0;                 ///< given times that are promised to be lower bounds
   std::uint64_t late = 0;                           ///< promised times that are too late
-  QueryClassCounts late_by_class{};                 ///< the same, by the class of the query
+  QueryClassCounts late_by_class{};                 ///< `late` by the class of the query
   std::uint64_t stuck = 0;                          ///< given times that are 0 although t* is not
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
-  QueryClassCounts faults_by_class{};  ///< those of FailureKind::fault, by the class of the query
+  QueryClassCounts faults_by_class{};  ///< faults that are a FailureKind::fault, by the class of the query
   SubjectTimes times;                  ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
@@ -143,7 +143,7 @@ struct Counts {
   void merge(const Counts& other) { merge_counters(*this, other); }
 
   [[nodiscard]] std::uint64_t faults_total() const;
-  /// Queries without an answer for this reason.
+  /// The number of queries that have no answer for this reason.
   [[nodiscard]] std::uint64_t without_answer(Fault why) const {
     return faults[static_cast<std::size_t>(why)];
   }
@@ -157,7 +157,7 @@ struct Counts {
   [[nodiscard]] double false_negative_rate() const {
     return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
   }
-  /// Whose bound divides the distances.
+  /// The unit of the distances: the bound by which they are divided.
   [[nodiscard]] DistanceUnit distance_unit() const {
     if (measured_by_wang == 0) return DistanceUnit::claimed_bound;
     return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
@@ -166,7 +166,7 @@ struct Counts {
   /// The error of the earliest time, and of the latest one; 0 if there is none.
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// The least ratio with which another case would be kept in a list: 0 until the list is full.
+  /// The ratio that another case must reach to be kept in a list: 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
@@ -189,8 +189,8 @@ struct Counts {
   /// The bin of a quantile of |time - t*|, over all times.
   [[nodiscard]] Bin time_error_quantile(double part) const;
   [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
-  /// The bin of the smallest ratio such that a fraction `part` of the false positives does not exceed it. The
-  /// bin's upper end is at most the largest ratio.
+  /// The bin of a quantile of distance / bound: a fraction `part` of the false positives have at most this
+  /// ratio. The bin's upper end is at most the largest ratio.
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};

@@ -22,7 +22,7 @@ struct Extreme {
 
   Of of{};
   std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< a factor applies only to this tolerance; all others are the paper's
+  double value = 0;           ///< a factor multiplies only this tolerance; all others are the paper's
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried

@@ -60,9 +60,9 @@ struct CommonFactors {
 };
 
 /// For each subject, kind and family with misses: among the values and pairs of values that at least half of
-/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). Of values
-/// with equal lifts, the result is the one that more misses have; if these numbers are equal too, a single
-/// value rather than a pair, and then the first in alphabetical order.
+/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). If several have
+/// the same lift, the one that more misses have wins; then a single value rather than a pair; then the first
+/// in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
 }  // namespace nearmiss

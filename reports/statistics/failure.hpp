@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// The kinds of failure, from the gravest. The last three fail only on request (--fail-on).
+/// The kinds of failure, from the gravest. The last three count only on request (--fail-on).
 enum class FailureKind : std::uint8_t {
   oracle_disagreement,  ///< the exact methods disagree
   wrong_truth,          ///< the oracle disagrees with a recorded truth
@@ -32,7 +32,7 @@ enum class FailureKind : std::uint8_t {
 struct FailureInfo {
   FailureKind kind;
   std::string_view name;  ///< in files, in reports, and for --fail-on
-  bool on_request;        ///< whether it fails only on request
+  bool on_request;        ///< whether it counts only on request
   /// In "missed 3 of 50 ordinary vt collisions", the verb, and the noun for one and for many; "" for the
   /// oracle.
   std::string_view verb, one, many;
@@ -48,7 +48,7 @@ inline std::string_view name(FailureKind kind) { return failure_info(kind).name;
 /// Kinds of failure, the gravest first.
 using Failures = std::set<FailureKind>;
 
-/// All kinds of failure, and those that need no request (--fail-on).
+/// All kinds of failure; and those that count without a request (--fail-on).
 const Failures& all_failures();
 const Failures& usual_failures();
 
@@ -63,13 +63,13 @@ constexpr bool breaks_promise(FailureKind kind) { return kind <= FailureKind::be
 /// slow.
 std::optional<FailureKind> failure_of(const Outcome& outcome);
 
-/// The kind of failure that a signature shows; and the sort of finding that a failure makes, or nothing if it
-/// makes none.
+/// The kind of failure that a signature shows.
 FailureKind failure_of(const Signature& signature);
+/// The sort of finding that a failure makes; nothing if it makes none.
 std::optional<Finding::What> finding_of(FailureKind kind);
 
-/// Follows the name of a subject that is asked only queries that break its contract. Only its answers can
-/// fail.
+/// The end of the name of a subject that is asked only queries that break its contract. It is no failure if
+/// such a subject is asked nothing.
 inline constexpr std::string_view beyond_contract = " (beyond contract)";
 
 /// The failures in a subject's counters.

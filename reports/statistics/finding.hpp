@@ -36,13 +36,13 @@ struct Finding {
   /// The simplest known query that fails in the same way and is of the class of `query`. It may be `query`
   /// itself.
   Query shrunk = {};
-  std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
+  std::uint64_t place = 0;  ///< position of its case in the order of the whole campaign
   double time = 0;          ///< the subject's time for the shrunk query, if it is late
-  bool is_shrunk = false;   ///< whether shrinking has come to its end
+  bool is_shrunk = false;   ///< whether shrinking is finished
   QueryClass query_class = QueryClass::unclassified;
   Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
   QueryClass simplest_class = QueryClass::unclassified;
-  /// The earlier version of the subject's CCD if that does not fail on `query`; "" otherwise.
+  /// The earlier version of the subject's CCD, if that version does not fail on `query`; "" otherwise.
   std::string broken_since = {};
 
   bool operator==(const Finding&) const = default;
@@ -77,7 +77,7 @@ inline constexpr std::size_t findings_kept = 3;
 /// which an earlier version of the CCD does not fail are counted separately.
 class FirstFindings {
  public:
-  /// Counts the finding. Returns its number among those of its signature and class, from 1 on.
+  /// Counts the finding. Returns its number among the findings of its signature and class, from 1 on.
   std::size_t count(const Finding& finding) {
     return ++counted_[{signature_of(finding), finding.query_class, finding.broken_since}];
   }

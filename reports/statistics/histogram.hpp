@@ -34,8 +34,8 @@ struct Histogram {
   static double lower_border(double ratio);
   /// The number of ratios that are at least 1. This number is exact, because 1 is a border.
   [[nodiscard]] std::uint64_t at_least_one() const;
-  /// The bin of the smallest ratio such that a fraction `part` of all ratios, in (0, 1], does not exceed it;
-  /// (0, 0) if all bins are empty.
+  /// The bin of the smallest ratio that a fraction `part`, in (0, 1], of all ratios does not exceed; (0, 0)
+  /// if all bins are empty.
   [[nodiscard]] Bin quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;

@@ -16,7 +16,7 @@ enum class QueryClass : std::uint8_t {
   ordinary,     ///< what a simulation meets in every step
   degenerate,   ///< what it meets now and then
   extreme,      ///< what no simulation should send
-  unclassified  ///< unknown; as families, cases, directed searches, and those unknown to this program
+  unclassified  ///< unknown, as for cases, directed searches, and families that this program does not know
 };
 
 /// Names in files and reports, in order.

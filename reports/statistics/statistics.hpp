@@ -1,4 +1,5 @@
-// The counters of a campaign. Statistics merge in any order, from any number of shards, to the same bytes.
+// The counters of a campaign. Merging statistics gives the same bytes, whatever the order and the number of
+// shards.
 #pragma once
 
 #include <cstdint>

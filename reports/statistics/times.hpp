@@ -1,4 +1,4 @@
-// Run times of subjects. Times merge in any order to the same bytes.
+// Run times of subjects. Merging times gives the same bytes in any order.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace nearmiss {
 
-/// Run times per query of batches of queries, rounded to three significant digits. Times are at least 1 ns,
-/// because a clock cannot distinguish shorter times from an empty subject's.
+/// The run times of batches of queries, given per query and rounded to three significant digits. Times are at
+/// least 1 ns, because a clock cannot distinguish shorter times from an empty subject's.
 class BatchTimes {
  public:
   void add(const BatchTime& time);
@@ -49,7 +49,7 @@ struct TimeHistogram {
   void add(std::uint64_t nanoseconds);
   void merge(const TimeHistogram& other);
   [[nodiscard]] std::uint64_t total() const;
-  /// A quantile in ns, as the upper border of its bin: a fraction `part` of all queries, in (0, 1], did not
+  /// A quantile in ns, as the upper border of its bin: a fraction `part`, in (0, 1], of all queries did not
   /// exceed it. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> quantile(double part) const;
 

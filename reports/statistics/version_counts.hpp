@@ -24,7 +24,7 @@ struct VersionKey {
   }
 };
 
-/// Counts the queries that both versions were asked, by which of the two fails. To fail is to miss a
+/// Counts the queries that both versions were asked, according to which versions fail. To fail is to miss a
 /// collision, to give a late time, to exceed the claimed bound, or to give no answer.
 struct VersionCounts {
   std::uint64_t fixed = 0;    ///< only the earlier version fails

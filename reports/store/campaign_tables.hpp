@@ -15,7 +15,7 @@ namespace nearmiss {
 
 /// The rows that belong to runs. Runs are numbered from 0.
 using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;      ///< by run and index
-using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;  ///< by run and place in it
+using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;  ///< by run and place in the run
 using Pictures =
     std::map<std::pair<std::uint64_t, std::string>, nlohmann::json::object_t>;  ///< by run and step
 

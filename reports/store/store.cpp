@@ -40,8 +40,8 @@ auto naming(const fs::path& file, const Act& act) {
   }
 }
 
-/// The log with this ending, which SQLite keeps beside a store while the store is written; a killed writer
-/// leaves it there.
+/// The path of the log with this ending. SQLite keeps the log beside a store while the store is written; a
+/// killed writer leaves it there.
 fs::path log_of(const fs::path& file, std::string_view ending) {
   fs::path log = weakly_canonical(file);  // SQLite, too, follows links
   log += ending;
@@ -114,8 +114,8 @@ bool is_damage(const std::exception& error) {
   return reason != nullptr && reason->getErrorCode() == SQLITE_CORRUPT;
 }
 
-/// If SQLite fails because it cannot write in the folder of a store whose writer was killed, the log beside
-/// the store; otherwise "".
+/// The name of the log beside a store, if SQLite fails because the store's writer was killed and SQLite
+/// cannot write in the folder; otherwise "".
 std::string locked_log(const fs::path& file, const std::exception& error) {
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
   if (reason == nullptr) return "";
@@ -160,7 +160,7 @@ struct Connection {
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
     try {
-      db.setBusyTimeout(patience_ms / 3);       // results are saved, and the program should end
+      db.setBusyTimeout(patience_ms / 3);       // shorter, because results are already saved
       db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
     } catch (const SQLite::Exception&) {
       return;  // nothing is lost: the log stays next to the file

@@ -31,7 +31,7 @@ class Store {
   /// Makes a new file. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
   /// Opens a file to resume its run. Throws Error unless the file is a store of one shard of one run, and no
-  /// other process writes it. What the file has is put into `found`, if it is given.
+  /// other process writes it. If `found` is given, it receives the contents of the file.
   explicit Store(const std::filesystem::path& file, Campaign* found = nullptr);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;

@@ -21,7 +21,7 @@ namespace nearmiss {
 /// read.
 inline constexpr int store_version = 21;
 
-/// The store is not as it was written. The message says which part.
+/// Thrown if a store is not as it was written. The message says which part is damaged.
 class Damage : public Error {
  public:
   using Error::Error;

@@ -13,8 +13,8 @@
 
 namespace nlohmann {
 
-/// Reads an integer only from an integer that fits, and throws Error for anything else. The library alone
-/// would cast any number, and 1e308 has no integer.
+/// Reads an integer only from an integer that fits, and throws Error for anything else. The library itself
+/// would cast any number, even 1e308, which fits into no integer.
 template <std::integral Integer>
 requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) struct adl_serializer<Integer> {
   template <class Json>

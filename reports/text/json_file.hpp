@@ -1,4 +1,4 @@
-// JSON from outside: of stores, and of files that one command writes and another reads.
+// Reads JSON from outside: from stores, and from files that one command writes and another reads.
 #pragma once
 
 #include <exception>

@@ -1,8 +1,8 @@
-// Counts how often a report with a baseline raises an alarm. Each campaign is compared with the next one,
-// which differs only in its seed, so that every alarm is false; and with one that has a planted defect. The
-// defect is one wrong answer in 3,000 queries, by a subject without failures or by one that already fails; or
-// a family that takes 1.5 times as long. Campaigns have a number of cases, or a time such as 20s. The counts
-// so far are printed after every ten pairs.
+// Counts how often a report with a baseline raises an alarm. Each campaign is compared with two others. One
+// differs only in its seed, so that every alarm is false. The other also has a planted defect: one wrong
+// answer in 3,000 queries, by a subject without failures or by one that already fails; or a family that takes
+// 1.5 times as long. CASES is a number of cases, or a time such as 20s. The counts so far are printed after
+// every ten pairs.
 //
 //     node tests/alarms/run.mjs [--jobs N] NEARMISS PLUGINS [PAIRS [CASES [equal|wang|basic|slower]]]
 import { execFileSync, spawnSync } from "node:child_process";

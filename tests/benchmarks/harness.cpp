@@ -1,5 +1,5 @@
-// The call by which the harness itself asks a subject, as a C function: tests/python/speed.py compares the
-// interfaces with it.
+// The harness's own way to ask a subject, as a C function. tests/python/speed.py compares the interfaces with
+// it.
 #include <algorithm>
 #include <cstddef>
 #include <memory>

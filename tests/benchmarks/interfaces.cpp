@@ -18,7 +18,7 @@
 namespace nearmiss {
 namespace {
 
-/// The same queries in each layout.
+/// Some queries, in each layout that the interfaces accept.
 struct Input {
   std::vector<Query> queries;
   std::vector<double> x, start, end;

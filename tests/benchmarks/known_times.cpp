@@ -64,7 +64,7 @@ void time_plain_loop(benchmark::State& state, int steps) {
   }
 }
 
-/// The subject of that name in a plug-in, which stays loaded in this process.
+/// Loads a plug-in, which stays loaded in this process, and returns its subject of this name.
 const nearmiss_subject& load(const std::string& object, const std::string& name) {
   void* const handle = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw std::runtime_error(dlerror());
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
     add_measured("loop/" + name, [=](benchmark::State& state) {
       try {
         time_plain_loop(state, load(object, name));
-      } catch (const std::exception& exception) {  // by the published CCD, or because it cannot be loaded
+      } catch (const std::exception& exception) {  // thrown by the published CCD, or if it cannot be loaded
         state.SkipWithError(exception.what());
       }
     });

@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// Queries of one kind of the uniform family. Take some ten thousand: as in a campaign, branch predictors
-/// cannot memorise so many.
+/// Queries of one kind of the uniform family. Use about ten thousand of them: as in a campaign, branch
+/// predictors cannot memorise that many.
 inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
   const Family uniform = find_family("uniform");
   std::vector<Query> queries;
@@ -22,7 +22,7 @@ inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
   return queries;
 }
 
-/// Registers a benchmark that measures the time of each pass itself.
+/// Registers a benchmark whose function measures the time of each pass itself.
 inline void add_measured(const std::string& name, const std::function<void(benchmark::State&)>& measure) {
   constexpr int passes = 2;
   constexpr int repetitions = 15;

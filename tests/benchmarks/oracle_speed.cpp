@@ -1,7 +1,7 @@
 // Measures how long the oracle takes to judge a subject, in ns of processor time per query whose swept boxes
-// meet. The benchmark `decision` only decides the queries. The others also ask what a trial asks about the
-// time that a subject gives for a collision: an enclosure of the earliest time t*, and whether the given time
-// is late. The given times are
+// meet. The benchmark `decision` only decides the queries. The others also ask two questions about the time
+// that a subject gives for a collision, as a trial does: what encloses the earliest time t*, and is the given
+// time late? The given times are
 //   early   t* - 1e-6, at least 0, as those of a conservative CCD;
 //   exact   the largest double that is not after t*, as the subject `exact` gives it, which is the hardest to
 //           judge;
@@ -32,10 +32,10 @@
 namespace nearmiss {
 namespace {
 
-/// The queries of one kind with a separation whose swept boxes meet.
+/// Queries of one kind with a separation; only those whose swept boxes meet.
 struct Input {
   std::vector<Query> queries;
-  std::vector<Enclosure> times;  ///< enclose each t* as narrowly as doubles allow; made when they are needed
+  std::vector<Enclosure> times;  ///< an enclosure of each t*, as narrow as doubles allow; made when needed
 
   Input(const std::vector<Query>& of_kind, double h) {
     for (const Query& contact : of_kind)
@@ -60,7 +60,7 @@ double processor_nanoseconds() {
   return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
-/// Decides all queries, and judges the times of collisions if they are given.
+/// Decides all queries. If `give` is set, also judges the times that it gives for collisions.
 std::size_t judge(const Input& input, GiveTime give, std::vector<Decision>& decisions) {
   decide(input.queries, decisions);
   std::size_t late = 0;

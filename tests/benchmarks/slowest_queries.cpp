@@ -32,7 +32,7 @@
 namespace nearmiss {
 namespace {
 
-/// A part of the oracle's work, which begins when the decision is known.
+/// A part of the oracle's work; its time is measured after the decision is known.
 struct Part {
   std::string_view name;
   std::string_view about;

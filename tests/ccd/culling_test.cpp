@@ -53,7 +53,7 @@ bool culled(double slope, double weight) {
   return excludes_collision<culling>(unit_pair(), line(slope), with_weight(weight), 0.5, tolerances());
 }
 
-// A line of slope 1 has h = 4 threshold. A weight may then move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
+// For a line of slope 1, h is 4 * threshold. A weight may then move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
 TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRounding) {
   const double slack = 2 * std::sqrt(3.0) * 4 * threshold + rounding;
   for (const double outside : {-slack, 1 + slack}) {

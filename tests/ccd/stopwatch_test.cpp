@@ -53,7 +53,7 @@ void compute_for(std::uint64_t time) {
 }
 
 TEST(Stopwatch, TheBestTimeIsTheShortest) {
-  int calls = 0;  // the first one shows that the work is long
+  int calls = 0;  // the first call shows that the work is long
   const auto short_once = [&] { compute_for(++calls == 3 ? millisecond / 10 : 20 * millisecond); };
   EXPECT_LT(best_time_of(CLOCK_THREAD_CPUTIME_ID, short_once), 5 * millisecond);
   EXPECT_EQ(calls, 4);

@@ -81,8 +81,8 @@ TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
 }
 
 TEST(VertexEdge, Case2AtTheMinimumOfOnePiece) {
-  // A vertex grazes a turning edge. No component of the cross product comes near zero, because this would be
-  // case 4. The pair was found by random search; its bound B is 2.64.
+  // A vertex grazes a turning edge. No component of the cross product comes near zero; otherwise this would
+  // be case 4. The pair was found by random search; its bound B is 2.64.
   const Vector vertex(-0x1.5d08p+0, 0x1.3c7p-2, 0x1.075cp-2);
   const Vector vertex_end(0x1.4418p-2, -0x1.629p-4, -0x1.50ap-4);
   const Vector edge(-0x1.ebc8p-1, 0x1.6ce8p-2, 0x1.7e48p-2);

@@ -55,8 +55,8 @@ TEST(WangTime, IsZeroIfNoPlaneSeparatesMotionInOnePlane) {
   EXPECT_EQ(decide(query).time, 0);
 }
 
-// The plane of the triangle is z = t y. The vertex is in it at t = 1/4, beside the triangle, and at t = 3/4,
-// inside.
+// The plane of the triangle is z = t y. At t = 1/4, the vertex is in this plane beside the triangle; at t =
+// 3/4, it is inside the triangle.
 TEST(WangTime, LeavesOutARootThatIsNoContact) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0);
   const Query query = make_query(Kind::vertex_triangle, {{0.875, 1.5, 0.1875}, o, a, {0, 3, 0}},

@@ -94,7 +94,7 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.name, "x.case");
 }
 
-/// The case that is read from the text of `each` if other text is put before and behind each line.
+/// Writes `each` as text, puts other text before and behind each line, and reads the case back.
 Case read_with(const Case& each, const std::string& before, const std::string& behind) {
   std::istringstream lines(to_text(each));
   std::string text;

@@ -44,7 +44,8 @@ std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   return allocations - before;
 }
 
-/// A campaign asks slices of 1,024 cases of both kinds. A slice needs about 60 allocations for each kind.
+/// A campaign asks in slices of 1,024 cases, which contain both kinds. A slice needs about 60 allocations for
+/// each kind.
 class Allocations : public ::testing::TestWithParam<const char*> {};
 TEST_P(Allocations, AreThoseOfSlices) {
   constexpr std::uint64_t slices = 100;

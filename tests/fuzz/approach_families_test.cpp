@@ -118,7 +118,7 @@ TEST(TiedSeparation, TheDistanceIsReachedAtTheStartInsideAndAtTheEnd) {
 TEST(TiedSeparation, PrimitivesRestOrSlide) {
   const auto rests = [](const Query& query) { return at_rest(query, 0) == query; };
   expect_more("tied-separation", 10, rests);
-  expect_more("tied-separation", 15, [&](const Query& query) {  // these slide at the distance h
+  expect_more("tied-separation", 15, [&](const Query& query) {  // queries that slide at the distance h
     const double h = query.separation;
     return !rests(query) && is_tie(at_rest(query, 0), h) && is_tie(at_rest(query, 1), h);
   });
@@ -170,8 +170,8 @@ Closest closest_at(const Query& query, double time) {
   return approach_features(with_separation(now, minimum_distance(now, 0).hi))->closest;
 }
 
-// In the other queries, another edge of the triangle, or another of two parallel edges, was closest before,
-// so that the features' dimension stays the same; or a side has no length.
+// In the remaining queries, the closest feature before was another edge of the triangle, or another of two
+// parallel edges, so that the features' dimension stays the same; or a side has no length.
 TEST(ChangedFeatures, MostChangeToFeaturesOfAnotherDimensionShortlyBefore) {
   constexpr int x = -24;
   int same_last = 0;

@@ -37,8 +37,9 @@ TEST(Audit, KnowsWhatIsProvenThoughTheTheoremDoesNotShowIt) {
   EXPECT_THAT(names_of(&RoundingConstant::needs_proof), ElementsAre("VV of EE: delta"));
 }
 
-// §4.1: "B is also an upper bound on the relative positions at any time", and x20 is the closest pair. Here
-// x1 and x2 are the closest end points at t = 0, at distance 1.5. At t = 1 their distance is 5. B is 1 + 3.5.
+// §4.1 says that "B is also an upper bound on the relative positions at any time", where x20 belongs to the
+// closest pair of end points. Here x1 and x2 are the closest end points at t = 0, at distance 1.5. At t = 1
+// their distance is 5. B is 1 + 3.5.
 TEST(Audit, EdgesMayMoveOutOfTheBoundOfTheirClosestPair) {
   const auto x = [](double a) { return Vector3<double>(a, 0, 0); };
   const Query query =

@@ -34,7 +34,7 @@ CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const 
   return plan;
 }
 
-/// A campaign of wang, and also of basic, which misses collisions, if the test needs findings.
+/// A campaign of wang and, if the test needs findings, also of basic, which misses collisions.
 Ran run(const CampaignPlan& plan, bool with_basic = false, const Stop& stop = Stop::never(),
         std::unique_ptr<Subject> another = nullptr) {
   Subjects subjects;

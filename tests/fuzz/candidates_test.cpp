@@ -1,4 +1,5 @@
-// Finding the pairs of a moving mesh whose swept boxes meet, in meshes of every sort, and from step to step.
+// Tests the search for the pairs of a moving mesh whose swept boxes meet, in meshes of every sort, and from
+// step to step.
 #include "fuzz/scenes/candidates.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +27,7 @@ std::vector<Candidate> found_candidates(const MovingMesh& mesh) {
   return found;
 }
 
-/// All pairs whose boxes meet, row by row, which must be the same list.
+/// All pairs whose boxes meet, row by row. The finder must give the same list.
 std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
   std::vector<Candidate> found;
   for (const Kind kind : kinds)
@@ -188,8 +189,8 @@ TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   }
 }
 
-// The distance between a vertex and a triangle rounds to the separation. The midpoint between them lies on
-// the border of two cells, because the grid extends from -2 to 2 times the midpoint.
+// The distance between a vertex and a triangle rounds to the separation. The midpoint between the vertex and
+// the triangle lies on the border of two cells, because the grid extends from -2 to 2 times this midpoint.
 TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
   std::size_t found = 0;
   Random random(1, 0, 0);

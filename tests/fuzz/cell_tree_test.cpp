@@ -30,7 +30,8 @@ bool meet(const CellBox& a, const CellBox& b) {
   return true;
 }
 
-/// Searches the tree for the boxes that meet each of some boxes, and compares with a search through the list.
+/// For each of some boxes: searches the tree for all boxes that meet it, and compares with a search through
+/// the list.
 void expect_finds_what_meets(const CellTree& tree, const std::vector<CellBox>& boxes) {
   std::size_t all = 0;
   for (std::size_t i = 0; i < boxes.size(); i += 1 + boxes.size() / 100)

@@ -53,8 +53,8 @@ TEST(Classify, SubnormalCoordinatesAmongOthersAreOrdinary) {
   EXPECT_TRUE(is_ordinary(query));
 }
 
-/// An edge of length 1 + 2^-60 above another edge, whose length is 1e8 times that, minus 2^-60 times
-/// `change`. Neither length is a double.
+/// An edge of length 1 + 2^-60 above a second edge, which is 1e8 times as long, minus 2^-60 times `change`.
+/// Neither length is a double.
 Query long_edge(double change) {
   const double tiny = 0x1p-60;
   const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);

@@ -30,7 +30,7 @@ using testing::queries;
 
 struct Intrusion {
   std::string name;
-  Fault fault;  ///< of the query at which the plug-in intrudes; none if the intrusion is harmless
+  Fault fault;  ///< the fault of the query at which the plug-in intrudes; none if that is harmless
 };
 
 void PrintTo(const Intrusion& each, std::ostream* out) { *out << each.name; }

@@ -1,4 +1,4 @@
-// Which queries a subject with a contract is asked.
+// Tests which queries are put to a subject that has a contract.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::falling_vertex;
 
-/// Misses everything, notes what it is asked, and takes a contract for granted.
+/// A subject that misses everything, records what it is asked, and has this contract.
 std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& asked) {
   const auto note = [&](const Query& query) {
     asked.push_back(query);

@@ -116,7 +116,8 @@ TEST_P(Containment, EndsAllProcessesWhenThisProcessIsKilled) {
     EXPECT_GT(copied.processes(), 0);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // The processes notice the kill at once, but nothing waits for them. The test fails after a minute.
+    // The plug-in's processes notice the kill at once, but no process waits for their end. The test fails
+    // after a minute.
     constexpr int tries = 6000;
     for (int i = 0; i < tries && copied.processes() > 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));

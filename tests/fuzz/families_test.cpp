@@ -131,8 +131,8 @@ TEST_P(EveryFamily, IsFiniteAndOfBothKinds) {
     for (const Family& step : sweep(GetParam(), 3)) expect_finite_and_of_both_kinds(step);
 }
 
-// A family is useless if its queries hardly ever collide, or always collide, unless they are planted
-// collisions.
+// Only planted collisions may always collide. Any other family is useless if its queries hardly ever collide
+// or always collide.
 TEST_P(EveryFamily, HasCollisionsAndMisses) {
   const auto count = static_cast<int>(count_of(GetParam(), 1000));
   int collisions[2] = {0, 0};

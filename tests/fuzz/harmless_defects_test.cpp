@@ -21,7 +21,7 @@ Tolerances<double> changed(const NamedTolerance& tolerance, double factor) {
   return tol;
 }
 
-/// Moves to D² as much of δ as the constraints allow. No answer changes: VV uses only their sum.
+/// Moves as much of δ into D² as the constraints allow. No answer changes: VV uses only the sum of both.
 Tolerances<double> with_least_delta(Tolerances<double> tol) {
   const double least = full_errors(eps, tol.S, tol.rho).delta;
   tol.D2 += tol.delta - least;
@@ -29,7 +29,7 @@ Tolerances<double> with_least_delta(Tolerances<double> tol) {
   return tol;
 }
 
-/// Whether the tolerances miss nothing, by the constraints with two refinements:
+/// Whether the constraints, with two refinements, show that the tolerances miss nothing:
 /// - The collisions that VE must report are those within s/√8 of an edge, for any s <= S. At such a time t_E,
 ///   F_0ij with S is at most (s - S) ‖e‖∞, and ‖e‖∞ >= λ/√3 unless the edge is short. So F_0ij is at most
 ///   `path` from t_E to the candidate.

@@ -1,4 +1,4 @@
-// Plug-ins in worker processes. Whatever they do, every other query is answered.
+// Plug-ins in worker processes. Whatever a plug-in does at one query, all other queries are answered.
 #include <gmock/gmock.h>
 #include <sched.h>
 
@@ -158,7 +158,7 @@ TEST(Isolation, ComputingCountsEvenIfThePluginDoesItBeforeItIsTimed) {
 }
 
 TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
-  for (const char* each : {"eat_while_loaded", "too_large"})
+  for (const char* each : {"eat_while_loaded", "too_large", "too_large_mapping"})
     EXPECT_REFUSED(make_isolated_plugin(plugin(each), limits_for(Fault::memory)),
                    "It was refused memory: expected at most twice --query-memory");
 }
@@ -227,8 +227,8 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
   EXPECT_GE(chosen, 2);
 }
 
-// The plug-in crashes at every 100th query. A call of 40 queries that crashes is repeated query by query, and no
-// query crashes then.
+// The plug-in crashes at every 100th query. If a call of 40 queries crashes, it is repeated query by query,
+// and then no query crashes.
 TEST(Isolation, ACrashThatDoesNotRepeatCounts) {
   const auto subject = make_isolated_plugin(plugin("several") + ":wearing");
   std::map<Fault, int> answers;

@@ -56,14 +56,15 @@ inline MovingMesh grids(int n) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// A scene of one step, which is the mesh's own. The mesh must outlive the scene.
+/// A scene with one step, which is the motion of the mesh. The mesh must outlive the scene.
 inline Scene scene_of(const MovingMesh& mesh) {
   return {.name = "grids",
           .mesh = {mesh.start, mesh.triangles, mesh.edges},
           .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
 }
 
-/// What becomes of a plan's pairs, and which collide. The oracle decides those that the plan asks about.
+/// The fates of a plan's pairs, and the pairs that collide. The oracle decides those that the plan asks
+/// about.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

@@ -131,7 +131,7 @@ TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
   EXPECT_EQ(seen_kinds.size(), 2);
 }
 
-/// A hash of the queries that a mutation makes from some others.
+/// A hash of the queries that a mutation makes from the first queries of some families.
 std::uint64_t fingerprint(const Mutation& kind) {
   testing::BitHash hash;
   for (const char* family : {"uniform", "small-integer", "planted"}) {

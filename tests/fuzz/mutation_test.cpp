@@ -33,7 +33,7 @@ const Mutation& mutation(std::string_view name) {
 
 using BeforeAndAfter = std::function<bool(const Query& before, const Query& after)>;
 
-/// For how many of 1000 queries of a family something holds between the query and its mutation.
+/// The number of queries, among 1000 of a family, for which `holds` accepts the query and its mutation.
 int count_of_1000(std::string_view name, std::string_view family, const BeforeAndAfter& holds) {
   int count = 0;
   std::uint64_t number = 0;
@@ -45,8 +45,8 @@ int count_of_1000(std::string_view name, std::string_view family, const BeforeAn
   return count;
 }
 
-/// Applies a sort of mutation to queries of a family. The check must hold for all changed queries, and at
-/// least half must change.
+/// Applies a mutation to queries of a family. The check must hold for all changed queries, and at least half
+/// must change.
 void expect_of(std::string_view name, std::string_view family, const BeforeAndAfter& holds) {
   int number = 0;
   const int changed = count_of_1000(name, family, [&](const Query& before, const Query& after) {
@@ -132,7 +132,7 @@ TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
   });
 }
 
-// Contact is also planted next to borders and to ends of the step, where rounding removes half of it.
+// Contact is also planted next to borders and next to ends of the step; there, rounding undoes half of it.
 TEST(Mutation, PlantAndRestoreMakeCollisionsByMovingOnePosition) {
   for (const char* name : {"plant", "restore"})
     for (const char* family : {"uniform", "uniform-slow", "sliver"}) {

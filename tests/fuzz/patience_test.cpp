@@ -29,7 +29,7 @@ std::unique_ptr<Subject> late(const std::function<bool(const Query&)>& is_chosen
       testing::Claims{.time_sort = TimeSort::lower_bound});
 }
 
-/// Chooses every 20th query or so.
+/// Chooses about one query in 20.
 bool is_late(const Query& query) { return std::fmod(1e4 * std::abs(query.x[2]), 1) < 0.05; }
 
 std::uint64_t faults(const Counts& counts, Fault fault) { return counts.without_answer(fault); }

@@ -55,9 +55,9 @@ TEST(Peers, BulletDecidesVertexTriangleOnlyAndInFloatWhereItIsBuiltSo) {
   }
 }
 
-// Bullet looks for an axis along which the triangle is on one side of the vertex. For an axis perpendicular
-// to the vertex's path, it takes the triangle for separated if no corner has the vertex's coordinate,
-// whichever side the corners are on.
+// Bullet looks for an axis along which the triangle is on one side of the vertex. If the axis is
+// perpendicular to the vertex's path, Bullet finds them separated when no corner has the vertex's coordinate,
+// whichever side each corner is on.
 TEST(Peers, BulletMissesAVertexThatFallsStraightDown) {
   const Query falls = testing::falling_vertex(0.25, 0.25, 1, -1);
   ASSERT_TRUE(collides(falls));

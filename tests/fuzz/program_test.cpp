@@ -16,8 +16,8 @@ using testing::answers_of;
 
 class ProgramTest : public testing::TemporaryFolder {
  protected:
-  /// A program that runs the code `then` for each request, whose queries are `rows`, and reports all of them
-  /// at t = 0.5. `lines` are added to its description.
+  /// A program that reports every query at t = 0.5. For each request, it first runs the code `then`, which
+  /// can read the queries in `rows` and change `answers`. `lines` are added to its description.
   [[nodiscard]] std::string program(const std::string& then, const std::string& lines = "") const {
     return command("say('nearmiss 2\\nname p\\nkinds vt ee\\nbatch 64\\n" + lines + R"(\n')
 while header := sys.stdin.buffer.read(24):
@@ -46,7 +46,7 @@ while header := sys.stdin.buffer.read(24):
     return plugin_identity(*make_any_subject("pipe:" NEARMISS_PYTHON " '" + file + " p.py'"))->sha256;
   }
 
-  /// Asks three queries, and expects this fault, code and text for the last, at which `then` acts.
+  /// Asks three queries. `then` acts at the last one, which must have this fault, code and text.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto subject =
         make_any_subject(program(then), std::nullopt, {.time = std::chrono::milliseconds(200)});

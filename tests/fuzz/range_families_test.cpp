@@ -18,8 +18,9 @@ using testing::count_of_400;
 using ::testing::HasSubstr;
 using testing::largest_coordinate;
 
-/// The sum of the magnitudes of F's products of three differences from x0. If an axis is left out: of the
-/// products of two in the weights' component for that axis. It does not overflow an x87 long double.
+/// The sum of the magnitudes of F's products of three differences from x0. If `left_out` is an axis, the
+/// products are those of two differences in the weights' component for that axis. It does not overflow an x87
+/// long double.
 long double sum_of_products(const Query& query, std::size_t left_out) {
   const auto difference = [&](std::size_t vertex, std::size_t k) -> long double {
     const auto v = static_cast<int>(vertex);
@@ -37,7 +38,7 @@ long double sum_of_products(const Query& query, std::size_t left_out) {
   return sum;
 }
 
-/// Whether one of these sums of products, or its square, has the magnitude that the parameter gives.
+/// Whether one of these sums, or its square, has the magnitude that the parameter gives.
 bool products_are_about(const Query& query, int x) {
   const auto is_about = [](long double sum, int exponent) {
     const long double size = std::ldexp(sum, -exponent);

@@ -86,7 +86,7 @@ TEST(SceneTrial, ThePictureMarksWhatCollides) {
   EXPECT_EQ(numbers("dots"), (std::vector{0, 1}));
   const std::vector<int> points = numbers("points");
   ASSERT_EQ(points.size(), 6 * 5);
-  EXPECT_EQ(points[6], 8888);  // x = 8 of the far end, scaled so that 9 becomes 9999
+  EXPECT_EQ(points[6], 8888);  // the far end has x = 8; the scale turns 9 into 9999
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     hash.add_all(shrunk.x);
   }
   EXPECT_EQ(hash.value(), 0x42897e50a3c443da)
-      << std::hex << hash.value();  // shrinking gives what it always gave
+      << std::hex << hash.value();  // the shrunk queries are still the same
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
             4);  // most have few distinct numbers; all except the coplanar queries had about 20
@@ -195,7 +195,7 @@ TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   finding.signature = "vt";
   asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               {.time = 12 * takes});  // three batches of small queries (1, 2 and 4), and the finding's own
+               {.time = 12 * takes});  // batches of 1, 2 and 4 small queries, and the finding itself
   EXPECT_GE(asked, 1);
   EXPECT_LE(asked, 1 + 2 + 4 + 1);
 }
@@ -225,7 +225,7 @@ TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
 
 TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   const auto basic = make_subject("basic");
-  std::vector<std::pair<std::size_t, bool>> calls;  // the size of each, and whether it took too long
+  std::vector<std::pair<std::size_t, bool>> calls;  // size of each call, and whether it took too long
   const auto hang_at_zero = [&](std::span<const Query> queries, std::span<Verdict> verdicts) {
     bool is_slow = false;
     for (std::size_t i = 0; i < queries.size(); ++i)
@@ -287,7 +287,7 @@ TEST(Complexity, CountsWhatThereIsToSay) {
   EXPECT_EQ(complexity(with_separation(Query{}, 99)).awkward, 1);
   EXPECT_EQ(complexity(with_separation(Query{}, 100)).awkward, 2);
   const Complexity falling = complexity(falling_vertex(0.25, 0.375, 1, -1));
-  // The vertex moves only in z, from 1 to -1, and the triangle has two ones.
+  // The vertex moves only in z, from 1 to -1, and two coordinates of the triangle are 1.
   EXPECT_EQ(
       falling,
       (Complexity{

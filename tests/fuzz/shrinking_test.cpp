@@ -31,7 +31,7 @@ std::vector<Finding> missed(const Subjects& subjects) {
   return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
-/// The findings after those that are kept have been shrunk.
+/// All findings; those that shrinking keeps have been shrunk.
 std::vector<Finding> after_shrinking(const Subjects& subjects, std::vector<Finding> findings,
                                      const Stop& stop = Stop::never(), bool shrinks = true) {
   Shrinking shrinking(subjects, 2, stop, shrinks);
@@ -57,7 +57,7 @@ TEST(Shrinking, KeepsTheFailureAndIsNoMoreExotic) {
   EXPECT_EQ(shrunk_among(findings), kept);
   EXPECT_LT(kept, findings.size());
   const Judge judge(*subjects.front());
-  std::size_t more_exotic = 0;  // of the simplest queries, if a more exotic one may be simpler
+  std::size_t more_exotic = 0;  // number of findings whose simplest query is more exotic
   for (const Finding& finding : findings) {
     if (!finding.is_shrunk) continue;
     const int own = exoticness(finding.query, finding.query_class);
@@ -90,7 +90,7 @@ TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
   const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always at t = 1/2
   const Query early = falling_vertex(0.3, 0.3, 0.1, -1);
   Finding finding{Finding::What::late, "always", "f", early, "f:1:0", 0.4, contact_signature(early), early};
-  finding.time = 0.25;  // another one, to see that it is replaced
+  finding.time = 0.25;  // another time, to see that it is replaced
   const Finding shrunk = after_shrinking(subjects, {finding}).front();
   EXPECT_NE(shrunk.shrunk, early);
   EXPECT_EQ(shrunk.time, 0.5);
@@ -124,7 +124,8 @@ class Patient final : public ForwardingSubject {
   mutable std::size_t left_;
 };
 
-/// The shrinker waits for all queries here. If one waited for the shrinker too, this test would not end.
+/// Here, the shrinker waits until all queries are answered. If a query waited for the shrinker, too, this
+/// test would not end.
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};

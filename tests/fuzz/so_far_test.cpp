@@ -1,4 +1,4 @@
-// What trials know from the cases counted so far, and which queries they sample.
+// Tests what trials know from the cases counted so far, and which queries they sample.
 #include "fuzz/trial/so_far.hpp"
 
 #include <gtest/gtest.h>

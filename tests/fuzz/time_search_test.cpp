@@ -28,7 +28,7 @@ MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
            .takes_separation = true}};
 }
 
-/// How far a collision is from one with the time 0.4 whose last edge has the length 0.77 at t = 0.
+/// How far a collision's time is from 0.4 and the length of its last edge at t = 0 from 0.77.
 double off(const Query& query, double time) {
   return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
 }
@@ -53,7 +53,8 @@ MadeUpSubject early_in_a_region() {
   });
 }
 
-/// time - t*, and whether the time is late. Nothing if the query is no reported collision.
+/// The error time - t* of a reported time, and whether the time is late. There is none if the query is not a
+/// reported collision.
 struct Error {
   double after;
   bool is_late;

@@ -22,7 +22,7 @@ using testing::one;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Gives one answer to all queries. A subject with an infinite bound claims none.
+/// A subject that gives the same answer to all queries. If its bound is infinite, it claims none.
 std::unique_ptr<Subject> told(std::string name, bool hit, double bound = infinity) {
   const Verdict verdict{hit, hit ? Stage::unspecified : Stage::none, 0};
   return std::make_unique<testing::MadeUpSubject>(

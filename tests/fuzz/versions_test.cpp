@@ -108,7 +108,7 @@ TEST(Predecessors, AreTheFirstSubjectsWhosePluginsExportTheSameName) {
       ElementsAre(std::nullopt, std::optional(3UL), std::optional(0UL), std::nullopt, std::optional(0UL)));
 }
 
-/// Collisions with these first coordinates.
+/// Collisions whose first number, the x of x0 at t = 0, has these values.
 Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_triangle) {
   std::vector<Query> queries;
   for (const double x : places)

@@ -103,7 +103,7 @@ TEST(WangInLanes, LeavesCoordinatesThatAreNotFinite) {
   for (const double c : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever number i is
+      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever the value of number i
       queries.back().x[i] = c;
     }
     for (const Instructions instructions : all_instructions)

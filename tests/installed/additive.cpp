@@ -1,5 +1,5 @@
 // Implements the CCD interface of the ipc-toolkit (its base class, from the headers of additive CCD) with the
-// oracle, and calls it as that library's contact code does: with Eigen's vectors, in space and in the plane.
+// oracle. Calls it as the toolkit's contact code does: with Eigen's vectors, in space and in the plane.
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdio>

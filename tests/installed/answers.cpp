@@ -71,7 +71,7 @@ void ask(const nearmiss::Queries& queries, const Block& block, const char* layou
   compare("wang", answers, block.wang);
 }
 
-/// Checks that random queries that need no exact arithmetic are answered without memory from the heap.
+/// Checks that random queries that need no exact arithmetic are answered without allocating memory.
 void allocates_nothing() {
   using nearmiss::Queries;
   constexpr std::size_t n = 10000;
@@ -113,7 +113,7 @@ void ask_in_all_layouts(const Block& block) {
   mesh.layout().vertex_stride = 4 * sizeof(double);
   ask(mesh, block, "mesh");
 
-  // An array [2][4][3][n], as a structure of arrays has it.
+  // An array [2][4][3][n], as in a structure of arrays.
   std::vector<double> turned(24 * n);
   for (std::size_t q = 0; q < n; ++q)
     for (std::size_t c = 0; c < 24; ++c) turned[c * n + q] = block.x[24 * q + c];

@@ -47,7 +47,7 @@ answers() {
 }
 
 get update
-install g++ cmake make netbase  # Python 3.13 needs netbase, which leaves the /etc/hosts that it makes
+install g++ cmake make netbase  # Python 3.13 needs netbase; it makes /etc/hosts, and never removes it
 files >"$folder/before"
 install "$(cd "$root" && ls ./libnearmiss1_*.deb)"
 debian sh -c 'ldconfig -p | grep -q libnearmiss.so.1' || fail "the linker does not know the library"
@@ -70,7 +70,7 @@ files >"$folder/after"
 diff "$folder/before" "$folder/after" >&2 || fail "files are left, or lost"
 echo "the packages leave no file"
 
-# To build the library, these packages must be enough.
+# These packages must be enough to build the library.
 install libeigen3-dev libcgal-dev libboost-dev libgmp-dev libmpfr-dev
 debian sh -c 'cd /nearmiss && cmake -B build && cmake --build build -j "$(nproc)" && cmake --install build && ldconfig' >"$folder/log" 2>&1 ||
   fail "$(tail -20 "$folder/log")"

@@ -15,7 +15,7 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
 quietly cmake --install "$build" --prefix "$folder/first"
-# The target `product` builds all of this, so that a user of tools/run can install.
+# The target `product` must build all of these files, so that a user of tools/run can install.
 ninja -C "$build" -t commands product >"$folder/product"
 while read -r each; do
   grep -q -- "-o \S*${each##*/} " "$folder/product" || fail "the target product does not build $each"
@@ -47,7 +47,7 @@ check() {
 check g++ g++ gcc "" ${peers:+-DIPC="$peers/additive/src"}
 check clang++ clang++ clang ""
 check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
-# On some processors, clang 19 warns that it knows their vectors by another name.
+# On some processors, clang 19 warns that it takes their vector instructions for another set.
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native -Wno-unknown-warning-option -Wno-invalid-feature-combination" -DWITH_TEMPLATES=OFF
 
 # The templates refuse unsafe flags. With clang++, headers can recognise only the first two of them.

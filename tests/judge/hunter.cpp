@@ -71,7 +71,7 @@ void catch_all_ends() {
   constexpr rlim_t memory = rlim_t{2} << 30;
   const rlimit bytes{memory, memory};
   setrlimit(RLIMIT_AS, &bytes);
-  constexpr rlim_t minutes = 5;  // all queries take a few seconds
+  constexpr rlim_t minutes = 5;  // all queries together take a few seconds
   const rlimit seconds{60 * minutes, 60 * minutes + 1};
   setrlimit(RLIMIT_CPU, &seconds);
 }
@@ -110,7 +110,7 @@ std::vector<Family> hunted_families() {
 
 std::string hunt_until(std::uint64_t most) {
   constexpr std::uint64_t of_contact = 50;
-  constexpr std::uint64_t with_a_separation = 10;  // exact answers about these take longer
+  constexpr std::uint64_t with_a_separation = 10;  // fewer, because exact answers take longer
   const std::vector<Family> hunted = hunted_families();
   for (std::uint64_t block = 0;; ++block)
     for (const Family& family : hunted) {

@@ -62,7 +62,7 @@ std::optional<Contradiction> filters_disagree(std::span<const Query> queries, co
   return std::nullopt;
 }
 
-/// Of this many queries, one is asked each exact question. Each number divides the next one, so that a query
+/// One query in this many is asked each exact question. Each number divides the next one, so that a query
 /// that is asked a slower question is also asked the faster ones.
 struct SamplingRates {
   std::uint64_t exact, others, distance;

@@ -61,7 +61,7 @@ std::string distance_disagreement(const Query& query, bool collision) {
     if (!comparisons_agree(query, bound)) return "distance: comparisons";
   if (d.hi < 0x1p-900) return "";
   if (closest_ratio(query, d.hi) < d.lo / d.hi * (1 - rounding)) return "distance: ratio";
-  // distance_in_units with a precision of a factor of two has a search of its own.
+  // With a precision of only a factor of two, distance_in_units uses a separate search.
   const Enclosure wide = distance_in_units(query, d.hi, [](double hi) { return hi / 2; });
   if (wide.lo > 1 + rounding || wide.hi < d.lo / d.hi * (1 - rounding)) return "distance: enclosures apart";
   if (2 * wide.lo < wide.hi) return "distance: too wide";

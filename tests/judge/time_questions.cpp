@@ -20,7 +20,7 @@ using exact::Number;
 using exact::Root;
 using Rational = boost::multiprecision::mpq_rational;
 
-/// The exact times at which the distance is first at most h, and first below h, by the first exact method.
+/// The exact times at which the distance is first at most h and is first below h, by the first exact method.
 /// For contact (h = 0), both are the time of contact.
 std::optional<exact::FirstApproach> exact_times(const Query& query) {
   if (query.separation > 0) return exact::first_approach(query);
@@ -30,8 +30,8 @@ std::optional<exact::FirstApproach> exact_times(const Query& query) {
   return exact::FirstApproach{contact->time, contact->time};
 }
 
-/// What certified bounds show about the earliest time; an invalid enclosure, [1, 0], if they show that there
-/// is no such time.
+/// The earliest time, as far as certified bounds show it; an invalid enclosure, [1, 0], if they show that
+/// there is no such time.
 KnownTime known_time(const Query& query, double width) {
   if (query.separation > 0) return {known_approach(query, width).time};
   return time_of_contact(query, width).value_or(KnownTime{{1, 0}});

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from suite import run_tests
 
 KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that ended at a limit
-BUDGET = 120  # seconds of one core for the tests of a mutant, by their times without one
+BUDGET = 120  # limit in seconds of one core for a mutant's tests, from their times without it
 
 
 @dataclass
@@ -39,7 +39,7 @@ def batches(steps, folder):
 
 
 def by_group(batch, folder):
-    """The steps of a batch as a list for each executable."""
+    """Divides a batch into lists of steps, one for each executable."""
     groups = {}
     for step in batch:
         groups.setdefault(step.group, []).append(step)

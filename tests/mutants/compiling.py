@@ -44,7 +44,7 @@ class Mutants:
         FORMS_FILE.write_text(json.dumps({**known_forms(), **self.forms}, indent=0))
 
     def at(self, places):
-        """The mutants in the form of a switch on any of these lines."""
+        """The mutants on any of these lines that are compiled as switches."""
         found = []
         for name in {name for name, _ in places} & set(self.by_file):
             text = read(ROOT / name)

@@ -135,7 +135,7 @@ class Switches(unittest.TestCase):
 
 
 class Blame(unittest.TestCase):
-    """Tests which mutants an error of the compiler is attributed to."""
+    """Tests that an error of the compiler is attributed to the right mutants."""
 
     @classmethod
     def setUpClass(cls):

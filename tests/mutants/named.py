@@ -48,7 +48,7 @@ class Place:
 
 @dataclass
 class NamedEdit:
-    """An entry of a list, which a survey treats as a mutant with its group as its operator."""
+    """An entry of a list. A survey treats it as a mutant whose operator is the entry's group."""
 
     title: str
     about: str
@@ -124,8 +124,8 @@ def matching(pattern, seed, count=None):
 
 
 def complaints(edits, root=ROOT):
-    """Yields complaints about edits that have no description or another edit's title, do not fit
-    the sources, or change nothing."""
+    """Yields complaints about edits that have no description, have the title of another edit, do
+    not fit the sources, or change nothing."""
     titles = set()
     for edit in edits:
         if not edit.about:

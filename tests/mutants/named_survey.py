@@ -13,7 +13,7 @@ from survey import Survey, say
 # because it is built soonest and notices most. The proofs notice halved bounds, which random
 # queries do not show.
 GROUPS = {'judge_hunter': 'judge_hunter', 'oracle': 'oracle_tests', 'proofs': 'proofs_tests'}
-QUERIES = 100000  # of the hunter; they take half a minute of a core
+QUERIES = 100000  # number of the hunter's queries; they take half a minute of a core
 MOST_SECONDS = 1800  # tests that take longer without an edit, even on a busy machine, are left out
 
 
@@ -88,8 +88,8 @@ class NamedSurvey(Survey):
 
 
 def contradictions(results):
-    """A line for each edit that contradicts its list: a test notices it in spite of its reason,
-    no test notices it although it has none, or it does not compile."""
+    """A line for each edit that contradicts its list. Such an edit does not compile, has a reason
+    although a test notices it, or has no reason although no test notices it."""
     lines = []
     for edit, result in results:
         verdict = result['verdict']

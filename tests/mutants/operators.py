@@ -202,7 +202,7 @@ def is_statement(node):
 
 @operator
 def statement_left_out(text, node):
-    """Leaves out an assignment, a count, a call or a jump."""
+    """Leaves out an assignment, an increment, a call or a jump."""
     if not is_statement(node):
         return
     rest = text[node.end : node.end + 200]

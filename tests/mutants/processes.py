@@ -80,10 +80,10 @@ def limits(cpu=None, memory=None):
 
 
 def seal():
-    """The words to put before a command that isolate its processes. They cannot see or kill
-    other processes, and none of them survives the command. The first process of an isolation
-    ignores signals, so it is a shell; if a signal ends the command, the shell's exit code is 128
-    plus the number of the signal.
+    """Words to put before a command to isolate its processes. They cannot see or kill other
+    processes, and none of them survives the command. The first process in an isolation ignores
+    signals, so a shell takes this place; if a signal ends the command, the shell's exit code is
+    128 plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     return [

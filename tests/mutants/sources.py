@@ -1,4 +1,4 @@
-"""Reads the product's C++ files, one character a byte, because the compiler counts bytes."""
+"""Reads the product's C++ files; a character is one byte, because the compiler counts bytes."""
 
 import hashlib
 import json

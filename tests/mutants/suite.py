@@ -103,7 +103,7 @@ def measured(step, most_seconds):
 
 
 def state():
-    """A hash of those executables of the tests that are built."""
+    """A hash of the tests' executables, as far as they are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_hunter']

@@ -116,7 +116,8 @@ class DrawnSurvey(Survey):
         return mutation, result
 
     def ask_alone(self, number):
-        """The result of a mutant in a separate build. It stays until the next build."""
+        """The result of a mutant in a separate build. This build stays in the copy until the next
+        one."""
         mutation = self.drawn[number - 1]
         if (result := self.known(mutation)) is None:
             copied.make_copy(self.mutants.text_of)

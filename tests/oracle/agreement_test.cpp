@@ -78,7 +78,7 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   EXPECT_FALSE(missed(false, std::nullopt));
 }
 
-// To add a method is to add an entry to the table. If it gives a single wrong answer, it is caught and named.
+// A new method is a new entry of the table. If it gives a single wrong answer, it is caught and named.
 TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
   const Query lied_about = testing::falling_edge(1, -1);
   std::vector<Method> more(methods().begin(), methods().end());

@@ -55,7 +55,7 @@ class Hostile : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Arithmetic, Hostile,
                          ::testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
 
-/// What the oracle says about subnormal times, with and without a separation.
+/// The oracle's answers about subnormal times, with and without a separation.
 std::vector<double> answers_about_times() {
   std::vector<double> all;
   for (const double z : {0.0, 0x1p-1030, 0x1p-1074, 0x1.8p-60})
@@ -86,7 +86,7 @@ TEST_P(Hostile, ArithmeticChangesNoAnswerAndStaysAsItWas) {
     const std::string before = odd_arithmetic();
     const auto found = all_answers();
     EXPECT_EQ(odd_arithmetic(), before);
-    make_arithmetic_plain();  // the comparison needs it, too
+    make_arithmetic_plain();  // EXPECT_EQ needs plain arithmetic, too
     EXPECT_EQ(found, expected) << before;
   }
 }

@@ -41,7 +41,7 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // No search shows lo = hi, but the exact comparisons enclose the ratio as narrowly as doubles allow.
+  // No search ends with lo = hi, but the exact comparisons enclose the ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);

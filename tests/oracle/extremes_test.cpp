@@ -67,7 +67,7 @@ void expect_collision(const Query& query, bool collision) {
   expect_consistent(query, slowest);
 }
 
-/// Checks queries whose coordinates `coordinate` makes.
+/// Checks queries with coordinates that `coordinate` draws.
 void expect_consistency(std::size_t count, const std::function<double(Random&)>& coordinate) {
   Slowest slowest;
   std::size_t collisions = 0;

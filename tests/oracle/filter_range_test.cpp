@@ -71,13 +71,13 @@ Query stretched(Query query, int xy, int z) {
   return query;
 }
 
-/// Collisions with small numbers, between t = 0 and t = 1, which F's change of sign shows.
+/// Collisions of small numbers. Contact is between t = 0 and t = 1, and a change of F's sign shows it.
 std::vector<Named> plain_collisions() {
   return {{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)}, {"falling edge", falling_edge(1, -1)}};
 }
 
-/// The edges meet at t = 0.3219, at an end of one of them. Multiplied by 2^340, no product of three
-/// differences overflows, but F's second coefficient, a sum of such products, overflows. F's first and last
+/// The edges meet at t = 0.3219, at an end of one of them. If the query is multiplied by 2^340, no product of
+/// three differences overflows, but F's second coefficient, a sum of such products, does. F's first and last
 /// coefficients are positive.
 Query crossing_edges() {
   return make_query(Kind::edge_edge, {{2, 0, 0}, {0, 2, 0}, {1.5, 0, -1}, {0, 0, 0}},

@@ -109,7 +109,7 @@ TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
 }
 
 // If the filter guessed worse where to look for contact, its answers would still be right, but it would leave
-// more queries to exact arithmetic, which is slow. The limit is about what it leaves now.
+// more queries to exact arithmetic, which is slow. The limit is about the number that it leaves now.
 TEST(Filter, LeavesAsFewQueriesAsItDid) {
   std::vector<FilterStage> stages;
   for (const Query& query : hard_queries(5, 50000)) stages.push_back(filter(query));
@@ -145,7 +145,7 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, even before its number i is added
+      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, even before number i is replaced
       query.x[i] = c;
       queries.push_back(query);
       EXPECT_EQ(filter(query), FilterStage::undecided);

@@ -57,7 +57,7 @@ TEST(Separation, ThatIsReachedAtTheEndOfTheStepIsReachedAtOne) {
 }
 
 TEST(Separation, IsThatOfTheClosestFeatures) {
-  // Beside an edge of the triangle, 3 away from it, and 4 above its plane at t = 1/2.
+  // The vertex is beside an edge of the triangle: 3 away from it, and 4 above its plane at t = 1/2.
   EXPECT_EQ(first_time(falling_vertex(0.5, -3, 8, 0), 5), "0.500000");
   // Beside the vertex (0, 0, 0): 2 and 1 away along the axes, and 2 above.
   EXPECT_EQ(first_time(falling_vertex(-2, -1, 4, 0), 3), "0.500000");

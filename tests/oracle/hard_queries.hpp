@@ -16,7 +16,7 @@ class Hard : public Random {
  public:
   Hard(std::uint64_t seed, std::size_t index) : Random(seed, 0, index) {}
 
-  /// A number in ±2^exponent, with an exponent from `lowest` to `highest`.
+  /// A number between -2^exponent and 2^exponent, with an exponent drawn from `lowest` to `highest`.
   double small(int lowest, int highest) {
     const double mantissa = uniform(-1, 1);
     return std::ldexp(mantissa, integer(lowest, highest));

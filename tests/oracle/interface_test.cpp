@@ -134,7 +134,7 @@ TEST(Interface, DistancesIgnoreSeparations) {
 }
 
 #ifndef _GLIBCXX_ASSERTIONS  // the sanitizers, whose preset defines this, need a larger stack
-/// Of all queries that were tried, this one takes the deepest stack.
+/// This query takes the deepest stack of all queries that were tried.
 TEST(Interface, WorksOnASmallStack) {
   static constexpr std::array deepest{-0x1p+0,
                                       0x1.87e92154ef7acp-665,

@@ -1,4 +1,4 @@
-// The third exact method, and all three together.
+// Tests the third exact method, and all three methods together.
 #include "oracle/parity/parity.hpp"
 
 #include <gtest/gtest.h>

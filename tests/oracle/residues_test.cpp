@@ -47,7 +47,7 @@ TEST(Residues, DoNotDependOnPowersOfTwo) {
 
 TEST(Residues, ShowNothingIfThePrimeDividesALeadingCoefficient) {
   const Number prime(2147483647.0);
-  const Polynomial factor({Number(1), prime});  // modulo the prime, the constant 1
+  const Polynomial factor({Number(1), prime});  // the constant 1 modulo the prime
   EXPECT_FALSE(are_coprime_by_residues(factor, factor * factor));
 }
 

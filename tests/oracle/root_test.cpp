@@ -110,7 +110,7 @@ TEST(Root, PartsClustersOfRoots) {
     const auto times_3 = [](const Number& a) { return Polynomial({-a, Number(3)}); };  // its root is a / 3
     const Polynomial inside = times_3(1) * times_3(Number(1) + gap) * times_3(Number(1) - Number(3) * gap);
     EXPECT_EQ(roots_in_step(inside * times_3(2)).size(), 4) << exponent;
-    // Two of these are outside.
+    // Two of these roots are outside the step.
     const Polynomial at_end = times_3(Number(3) - gap) * times_3(Number(3) - Number(2) * gap) *
                               times_3(Number(3) + gap) * times_3(Number(3) + Number(7) * gap);
     EXPECT_EQ(roots_in_step(at_end * times_3(2)).size(), 3) << exponent;
@@ -208,8 +208,8 @@ class Integers {
  public:
   explicit Integers(std::uint64_t index) : random_(1, 0, index) {}
 
-  /// A product of factors with small coefficients, some of them repeated. One product in four is scaled and
-  /// increased by 1, a small change.
+  /// A product of factors with small coefficients, some of them repeated. One product in four is scaled, and
+  /// then changed slightly by adding 1.
   Both polynomial(int degree) {
     Both p{Polynomial({Number(1)}), Reference(1)};
     while (p.here.degree() < degree) {

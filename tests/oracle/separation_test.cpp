@@ -16,9 +16,9 @@
 
 namespace nearmiss::certified {
 
-/// A scalar that counts roundings. A number is a sum of products, and `count` is the largest number of
-/// roundings of a product. A vertex difference is a sum of two doubles here; it counts as one rounding, which
-/// it has in double.
+/// A scalar that counts roundings. A number stands for a sum of products; `count` is the largest number of
+/// roundings in any product. A vertex difference is a sum of two doubles here; it counts as one rounding, as
+/// in double.
 struct RoundingCount {
   int count = 0;
 
@@ -169,7 +169,7 @@ TYPED_TEST(SeparationErrors, NormalsProductsAreWithinTheirErrors) {
                                 Rational(dot(cross(v, w), u))};
       if ((F[0] < 0) != (separation.products[0].coefficients[0] < 0) &&
           abs(F[0]) > Rational(separation.products[0].errors[0]))
-        for (Rational& c : F) c = -c;  // the sign of the distance
+        for (Rational& c : F) c = -c;  // the distance has the other sign
       if (abs(F[0]) > Rational(separation.products[0].errors[0])) expect_within(separation.products[0], F);
       EXPECT_GE(Rational(separation.length[0]) * Rational(separation.length[0]),
                 dot(cross(q, r), cross(q, r)));

@@ -75,7 +75,7 @@ Mpzf dyadic(const DoubleWord& x) { return Mpzf(x.hi) + Mpzf(x.lo); }
 
 /// |x| / y in double, for a positive y.
 double ratio(const Mpzf& x, double y) {
-  const int exponent = std::ilogb(y);  // in two factors, because the inverse may overflow
+  const int exponent = std::ilogb(y);  // in two factors, because 2^-exponent may overflow
   const Mpzf scaled =
       x * Mpzf(std::ldexp(1.0, -exponent / 2)) * Mpzf(std::ldexp(1.0, -exponent - -exponent / 2));
   return std::abs(CGAL::to_double(scaled)) / std::ldexp(y, -exponent);
@@ -99,7 +99,7 @@ MpzfVector cross(const MpzfVector& v, const MpzfVector& w) {
 
 Mpzf dot(const MpzfVector& v, const MpzfVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 
-/// The value of the polar form whose arguments are hi, `times_hi` times, and otherwise lo.
+/// The value of the polar form with `times_hi` arguments hi and all other arguments lo.
 template <std::size_t n>
 Mpzf exact_blossom(std::array<Mpzf, n> row, double lo, double hi, std::size_t times_hi) {
   for (std::size_t level = 0; level < n - 1; ++level) {
@@ -109,7 +109,7 @@ Mpzf exact_blossom(std::array<Mpzf, n> row, double lo, double hi, std::size_t ti
   return row[0];
 }
 
-/// The largest error / bound of the coefficients, of the coefficients on [lo, hi], and of the value at lo.
+/// The largest error / bound among the coefficients, the coefficients on [lo, hi] and the value at lo.
 /// `exact` has the exact coefficients, multiplied by `factor`.
 template <class Real, std::size_t n>
 double error_over_bound(const Bernstein<Real, n>& computed, const std::array<Mpzf, n>& exact, int factor,

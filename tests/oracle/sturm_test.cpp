@@ -53,7 +53,7 @@ IntegerPolynomial with_roots(std::initializer_list<std::pair<Integer, Integer>> 
 
 TEST(SturmRoot, SeparatesClustersOfRoots) {
   const Integer large = Integer(1) << 900;
-  // Near 1/3, near 0 and near 1; of the last cluster, two roots are outside.
+  // Clusters near 1/3, near 0 and near 1. Two roots of the last cluster are outside.
   const IntegerPolynomial clusters[] = {
       with_roots({{large, 3 * large}, {large + 1, 3 * large}, {large + 5, 3 * large}, {3, 5}}),
       with_roots({{1, large}, {2, large}, {1, large * large}, {-1, large}, {1, 2}}),
@@ -124,7 +124,7 @@ TEST(SturmRoot, KeepsTheFactorThatItIsARootOf) {
 }
 
 TEST(SturmRoot, ComparesRootsWithNumbers) {
-  // (2t - 1) (9t² - 2): the roots are 1/2 and √2/3 = 0.4714..., of which a double is nearest to the second.
+  // (2t - 1) (9t² - 2): the roots are 1/2 and √2/3 = 0.4714..., whose nearest double is `nearest`.
   auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({-1, 2}) * IntegerPolynomial({-2, 0, 9}));
   ASSERT_EQ(roots.size(), 2);
   if (roots[0].is_below({1, 1})) std::swap(roots[0], roots[1]);
@@ -140,7 +140,7 @@ TEST(SturmRoot, ComparesRootsWithNumbers) {
     EXPECT_TRUE(irrational.is_below(sturm::to_dyadic(std::nextafter(nearest, 1))));
   };
   expect_order();
-  // These questions narrow the intervals.
+  // These calls narrow the intervals of the roots.
   EXPECT_EQ(half.sign(IntegerPolynomial({-1, 2})), 0);
   EXPECT_EQ(irrational.sign(IntegerPolynomial({-2, 0, 9})), 0);
   expect_order();

@@ -1,4 +1,4 @@
-// Compares the decisions for rest and translation with exact arithmetic.
+// Compares the decisions for primitives at rest or in translation with exact arithmetic.
 #include "oracle/translation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-"""A complete example of a subject that is a program: whether the axis-aligned boxes around the moving
-primitives meet.
+"""A complete example of a subject that is a program. It reports a query if the axis-aligned boxes
+around the moving primitives meet.
 
     build/release/nearmiss fuzz --subject 'pipe:python3 tests/plugin/example.py' --cases 100000
 """

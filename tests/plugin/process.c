@@ -123,7 +123,8 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes so much memory when it is loaded, and USED_MIB for each query. */
+/* Takes LOADED_MIB of memory when it is loaded (from mmap(2) or malloc(3)), and USED_MIB for each
+ * query. */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);
@@ -132,7 +133,14 @@ static void* taken(size_t mib) {
 }
 
 static void* loaded;
-__attribute__((constructor)) static void begin(void) { loaded = taken(LOADED_MIB); }
+__attribute__((constructor)) static void begin(void) {
+#if defined(MAPPED)
+  loaded = mmap(NULL, (size_t)LOADED_MIB << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (loaded == MAP_FAILED) abort();
+#else
+  loaded = taken(LOADED_MIB);
+#endif
+}
 
 static int answer(void) {
   void* volatile const block = taken(USED_MIB);

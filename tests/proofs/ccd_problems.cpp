@@ -57,7 +57,7 @@ Traced threshold(Problem& problem, const char* name) {
   return input;
 }
 
-/// The problem of a comparison that a test has made: left <= right.
+/// Sets both sides of the problem to those of a comparison, left <= right, that a test has made.
 void choose(Problem& problem, const Branch& comparison) {
   problem.left = Traced(comparison.left);
   problem.right = Traced(comparison.right);
@@ -217,7 +217,7 @@ Problem near_edge(Reach reach, bool F) {
   return problem;
 }
 
-/// The squared distance of two vertices, at a time that is an input instead of the computed one.
+/// The squared distance of two vertices. The time is an input of the problem, not the computed one.
 Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
   Tolerances<Traced> any_distance{};
   any_distance.D2 = std::numeric_limits<double>::infinity();
@@ -292,8 +292,8 @@ Problem vertex_edge(Reach reach, EdgePart part) {
       break;
     case EdgePart::inside:
       break;
-    // F = (‖x_0i × x_ji‖₁ - S ‖x_ji‖∞)(1 + δ). Each part has a last rounding, which the addition of 0 stands
-    // for.
+    // F = (‖x_0i × x_ji‖₁ - S ‖x_ji‖∞)(1 + δ). Each part ends with a rounding; the addition of 0 stands for
+    // it.
     case EdgePart::F_without_S:
       problem.left = Traced(difference.left) + 0;
       problem.right = 0;

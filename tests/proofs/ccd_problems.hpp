@@ -7,7 +7,8 @@
 namespace nearmiss::proofs {
 
 /// Bounds of the vectors of a pair. For edges, p is within B only at t = 0, because the closest end points
-/// come first, and within 2B at all other times. The paper has all vectors within B at all times.
+/// come first, and within 2B at all other times. The paper assumes that all vectors are within B at all
+/// times.
 enum class Reach : std::uint8_t {
   near,  ///< all vectors are within B
   far,   ///< p of two edges, x_0i in a VE test, and x_ji in a VV test are within 2B

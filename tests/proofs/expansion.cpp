@@ -135,7 +135,7 @@ class Expander {
 
 // --- bounds over times ------------------------------------------------------------------------------------
 
-/// Maps the powers of t and 1 - t for each time to their coefficient.
+/// A polynomial in some times: maps the powers of t and 1 - t for each time t to a coefficient.
 using InTimes = std::map<std::vector<int>, Rational>;
 
 int degree_in(const InTimes& polynomial, std::size_t time) {

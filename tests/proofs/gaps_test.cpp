@@ -10,8 +10,8 @@ namespace nearmiss::proofs {
 namespace {
 
 /// The script of the claim that the computed end of a gap after t is not above the exact one, t + a. The code
-/// rounds t + a, subtracts `rounding`, and rounds again. t is a time, and a is how far a bound of the
-/// distance reaches.
+/// rounds t + a, subtracts `rounding`, and rounds again. t is a time, and a is the time from t on for which a
+/// bound of the distance holds.
 std::string ahead(double rounding) {
   return fmt::format(
       "@double = float<ieee_64, ne>;\n"

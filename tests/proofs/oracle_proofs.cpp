@@ -25,8 +25,8 @@ double largest_end(const std::set<std::string>& scripts) {
 
 std::string quotient(const std::string& a, const std::string& b) { return fmt::format("({}) / ({})", a, b); }
 
-/// The largest number of roundings of any term in the bounds. So roundings make a bound too small by at most
-/// a factor with this many roundings.
+/// The largest number of roundings of any term in the bounds. The roundings of a bound reduce it by at most a
+/// factor with this many roundings.
 int most_roundings(const std::vector<Bounded>& results) {
   int most = 0;
   for (const Bounded& each : results)

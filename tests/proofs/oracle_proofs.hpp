@@ -7,13 +7,12 @@ namespace nearmiss::proofs {
 
 using Results = std::vector<Bounded> (*)(Trace&, Leaves);
 
-/// The required factor of U w or U M in the bound, such that it covers the rounding errors of all results,
-/// for exact leaves.
+/// The factor of U w or U M with which the bound covers the rounding errors of all results, for exact leaves.
 template <class Real>
 double proven_rounding(Results results);
-/// The required factor of u w or u M if this many leaves are rounded once.
+/// The factor of u w or u M that is required if this many leaves are rounded once.
 double proven_leaves(int leaves, Results results);
-/// The required factor of l and L, which compensates for the roundings of their bound.
+/// The factor of l and L that compensates for the roundings of their bound.
 double proven_leaf_growth();
 /// How many times H must be added to a bound to cover underflow.
 double proven_underflow_products();
@@ -29,7 +28,7 @@ double proven_slope_errors();
 double proven_end_rounding();
 double proven_upper_halves();
 
-/// The error of the ends of a part of a part of the step, in units of 2^-52.
+/// The error of the ends of a part within a part of the step, in units of 2^-52.
 double proven_zoom_rounding();
 
 /// The relative errors of a rounding in units of 2^-53, and of a product of double words in units of 2^-103.

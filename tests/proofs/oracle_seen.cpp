@@ -44,7 +44,7 @@ double seen_end(const Inputs& in) {
                                 : ratio(abs(Rational(in.at("t") - in.at("h")) - exact), Rational(0x1p-54));
 }
 
-/// The rounding error of the beginning of a part of a part, in units of 2^-52.
+/// The rounding error of the beginning of a part within a part of the step, in units of 2^-52.
 double seen_zoom(const Inputs& in) {
   const double b = in.at("b");
   const double e = in.at("e");

@@ -13,7 +13,7 @@ double seen_leaves(const Inputs& inputs);
 double seen_growth(const Inputs& inputs);
 /// The rounding error of t - h, in units of 2^-54.
 double seen_end(const Inputs& inputs);
-/// The rounding error of the beginning of a part of a part, in units of 2^-52.
+/// The rounding error of the beginning of a part within a part of the step, in units of 2^-52.
 double seen_zoom(const Inputs& inputs);
 /// The change of P on [t, t + h] from its value at t, divided by the bound in `error_near`, for exact b.
 double seen_spread(const Inputs& inputs);

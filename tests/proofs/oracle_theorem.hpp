@@ -34,7 +34,7 @@ struct Bounded {
 /// The parts of a value's error and of its bound, as sums over monomials in the magnitudes and errors of the
 /// leaves.
 struct Needs {
-  BoundTerms values;            ///< magnitudes of terms in exact arithmetic, which roundings multiply
+  BoundTerms values;            ///< magnitudes of terms in exact arithmetic; roundings multiply them
   BoundTerms leaves;            ///< contribution of given errors of leaves, in exact arithmetic
   BoundTerms underflows;        ///< contribution of underflow, in units of H
   BoundTerms bound;             ///< the bound, without its own roundings
@@ -42,9 +42,9 @@ struct Needs {
 };
 Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 
-/// The scripts, one for each monomial. The goal of a script is that the bound's share, which belongs to this
-/// monomial, is at least the error's share. Together they prove |value - exact value| <= error for all leaves
-/// and times. A share of the error is
+/// The scripts, one for each monomial. A script proves that the share of the bound that belongs to its
+/// monomial is at least the share of the error. All scripts together prove |value - exact value| <= error for
+/// all leaves and times. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + leaves + underflow,
 /// with Π (1 + δ) over the roundings of a term, and Π (1 + λ) over its leaves if these are rounded once.
 std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);

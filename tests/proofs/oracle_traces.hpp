@@ -9,7 +9,7 @@
 
 namespace nearmiss::proofs {
 
-/// A double word as a traced expression. It has the operations of Traced, with other errors.
+/// A double word as a traced expression. It has the operations of Traced, with the errors of double words.
 struct TracedWord {
   Traced x;
 

@@ -12,8 +12,8 @@ namespace {
 
 /// A script whose numbers are in units of |A| + |B|, where A and B are the rounded sums: the lowest height of
 /// one primitive and the highest of the other. `eA` to `e3` are the relative errors of the operations: exact
-/// heights are A (1 + eA) and B (1 + eB). The conclusion: if the code says that they differ by more than √2
-/// h, they do.
+/// heights are A (1 + eA) and B (1 + eB). The conclusion: if the code says that the heights differ by more
+/// than √2 h, the exact heights do.
 std::string script(double root_of_two, double height_rounding) {
   constexpr const char* rounded = "in [-1b-53, 1b-53]";
   return fmt::format(

@@ -96,7 +96,7 @@ Number result_of(const Instruction& one, const std::vector<Number>& results,
 }
 
 /// The results of all instructions in the arithmetic of `Number`: rounded for floating-point numbers, exact
-/// for rational ones. `given` has the results of some instructions.
+/// for rational ones. The results in `given` are not computed.
 template <class Number>
 std::vector<Number> evaluate(const Program& program, const std::map<std::string, Number>& inputs,
                              const Number& epsilon, const std::map<int, Number>& given = {}) {

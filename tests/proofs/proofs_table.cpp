@@ -13,7 +13,7 @@ using namespace nearmiss::proofs;
 
 namespace {
 
-/// The known witness with the largest error of a claim, among its own and those of other claims with the same
+/// The known witness with the largest error of a claim: its own, or that of another claim with the same
 /// inputs.
 std::optional<Witness> best_known(const CcdClaim& claim, const std::map<std::string, Witness>& witnesses) {
   const Measure measure(claim);

@@ -45,8 +45,8 @@ std::vector<double> places_between(const Coefficients& k, double left, double ri
   return places;
 }
 
-/// How far F, at a place between two others, leaves the range of its values at these two; the maximum over
-/// all places.
+/// The largest amount by which F, at a place between two others, is outside the range between its values at
+/// these two.
 double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   double most = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -172,8 +172,8 @@ TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
   }
 }
 
-/// The largest |F̂| at a returned time, divided by the μ that step (3) of the proof requires, where F̂
-/// changes its sign between neighbouring numbers.
+/// The largest |F̂| at a returned time, divided by μ. The proof requires this μ in step (3), where F̂ changes
+/// its sign between neighbouring numbers.
 double residual_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));

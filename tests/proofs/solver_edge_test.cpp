@@ -101,8 +101,8 @@ double rise_to_candidate(Iterator from, Iterator end) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// The largest rise to a candidate, on the side where it is smaller, divided by the bound. Coefficients below
-/// ρ are dropped.
+/// For each checkpoint, takes the side on which F rises less to the nearest candidate. Returns the largest of
+/// these rises, divided by the bound. Coefficients below ρ are dropped.
 double rise_ratio(const EdgeProblem& p, int bits, double rho) {
   const auto checkpoints = checkpoints_of(p, rho);
   double rise = 0;
@@ -125,8 +125,8 @@ double highest_rise(int bits, double rho, const ClimbEffort& climb) {
 }
 
 // The rise is a multiple of u, not of u^½. If it contained the square root of a rounding error, the ratio
-// would grow with the bits like u^-½, by 2^12 from 8 to 32 bits. (With few bits, u^½ is about as large as the
-// bound, 470 u.)
+// would grow with the number of bits like u^-½: by 2^12 from 8 to 32 bits. (With few bits, u^½ is about as
+// large as the bound, 470 u.)
 TEST(ProofsSolverEdge, FRisesByRoundingsAlone) {
   for (const int bits : {8, 11, 16, 24, 32}) {
     const double found = highest_rise(bits, 2 * roundoff(bits), {.rounds = 5, .steps = 2500});
@@ -168,8 +168,8 @@ TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
   EXPECT_GT(largest, 2.8);
 }
 
-/// A vertex within R of an edge at some time, with numbers in the thread's precision. Nothing if rounding
-/// moves the vertex farther away.
+/// A vertex within R of an edge at some time, with numbers in the thread's precision. Returns nothing if
+/// rounding moves the vertex farther away.
 std::optional<EdgeProblem> within_R(Random& random, double R) {
   EdgeProblem p = drawn(random);
   const auto edge = p.moving<double>(6);

@@ -12,7 +12,7 @@ namespace {
 
 const RationalFunction u = RationalFunction::variable();
 const Fraction largest(1, 1024);
-/// The share of underflow, for which the closed forms allow 1 u.
+/// The part of an error that underflow causes; the closed forms allow 1 u for it.
 const RationalFunction underflow = u * Fraction(9, 10);
 
 bool holds(const RationalFunction& less, const RationalFunction& more) {

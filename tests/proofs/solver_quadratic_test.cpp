@@ -1,4 +1,4 @@
-// The quadratic solver's computed times are, up to a factor near 1, exact roots of the given polynomial
+// Up to a factor near 1, the times that the quadratic solver computes are exact roots of the given polynomial
 // with another constant c' in place of c.
 #include <gtest/gtest.h>
 
@@ -33,8 +33,9 @@ WideReal constant_of_roots(const QuadraticCoefficients& p) {
   return c * of_product * of_square;
 }
 
-/// The errors of the solver, divided by the bounds in its comment: of c' relative to c, and of returned times
-/// relative to the roots of a t² + b t + c' in [0, 1]. A value above 1 refutes a bound.
+/// The errors of the solver, divided by the bounds in its comment: the relative difference of c' from c, and
+/// the largest relative difference of a root of a t² + b t + c' in [0, 1] from the nearest returned time. A
+/// value above 1 refutes a bound.
 struct Distances {
   double constant = 0;
   double factor = 0;
@@ -94,7 +95,7 @@ TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
   EXPECT_GT(worst.factor, 0.1);
 }
 
-/// The largest value of one distance that the search finds.
+/// The largest value of the distance `which` that the search finds.
 double highest_distance(int bits, double Distances::*which) {
   const MpfrFloat::PrecisionScope precision(bits);
   const auto rounded = [](QuadraticCoefficients p) {

@@ -26,8 +26,8 @@ inline FractionPolynomial product(const FractionPolynomial& a, const FractionPol
   return c;
 }
 
-/// The Bernstein coefficients of a polynomial on [0, end]. There its values lie between the smallest and the
-/// largest of them.
+/// The Bernstein coefficients of a polynomial on [0, end]. On this interval, the polynomial's values lie
+/// between the smallest and the largest of them.
 inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, const Fraction& end) {
   const std::size_t degree = p.size() - 1;
   FractionPolynomial all(p.size());

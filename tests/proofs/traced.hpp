@@ -1,4 +1,4 @@
-// A scalar that records the operations on it. A template that is run with it yields its own formula.
+// A scalar that records the operations on it. A template that computes with it yields its own formula.
 #pragma once
 
 #include <Eigen/Core>
@@ -165,7 +165,7 @@ struct std::numeric_limits<nearmiss::proofs::Traced> : std::numeric_limits<doubl
   static nearmiss::proofs::Traced max() { return std::numeric_limits<double>::max(); }
 };
 
-/// Costs are those of double, so that Eigen adds in the same order as it adds doubles without vector
+/// The costs are those of double, so that Eigen adds in the order in which it adds doubles without vector
 /// instructions.
 template <>
 struct Eigen::NumTraits<nearmiss::proofs::Traced> : Eigen::NumTraits<double> {

@@ -50,8 +50,8 @@ TEST(ProofsTraced, MaximaAreNodesAndComparisonsAreRecorded) {
   EXPECT_EQ(trace.branches().size(), 1);  // constants make no branch
 }
 
-// The templates of ccd/ compute the same with recording scalars as with doubles, except that sums of three
-// doubles are added in another order if the processor adds two at a time.
+// The templates of ccd/ give the same results with recording scalars as with doubles, except that sums of
+// three doubles are added in another order if the processor adds two at a time.
 TEST(ProofsTraced, EvaluatesAsTheTemplatesDo) {
   Trace trace;
   std::map<std::string, double> inputs;

@@ -28,7 +28,8 @@ struct Witness {
 std::map<std::string, Witness> read_witnesses(const std::filesystem::path& file);
 void write_witnesses(const std::filesystem::path& file, const std::map<std::string, Witness>& witnesses);
 
-/// Measures the rounding errors of a problem that is computed in double. B is the smallest value for which the inputs are within bounds.
+/// Measures the rounding errors of a problem that is computed in double. B is the smallest value for which
+/// the inputs are within bounds.
 class Measure {
  public:
   explicit Measure(const CcdClaim& claim);

@@ -123,7 +123,7 @@ class Answers(unittest.TestCase):
 
     def test_of_arrays_are_read_where_they_are(self):
         x = BLOCKS[0].x
-        huge = np.broadcast_to(x[0], (10**8, 2, 4, 3))  # a copy would have 19 GB
+        huge = np.broadcast_to(x[0], (10**8, 2, 4, 3))  # a copy would need 19 GB
         with self.assertRaisesRegex(ValueError, 'query 0 has the separation -1.0'):
             nearmiss.collides(BLOCKS[0].kind, huge, -1)
 
@@ -172,7 +172,7 @@ class Options(unittest.TestCase):
         swapped = near.astype('>f4')
         ends = [near[0].astype(np.float32), near[0]]
         plain = nearmiss.queries('near-underflow', 'vt', 50)[0]
-        for mode in (0x8040, 0x2000, 0x4000, 0x6000):  # flush to zero, or round otherwise
+        for mode in (0x8040, 0x2000, 0x4000, 0x6000):  # flush to zero, or another rounding mode
             with processor_mode(mode):
                 hits = [
                     nearmiss.collides('vt', near, h),

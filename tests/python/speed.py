@@ -1,8 +1,9 @@
 """Measures how much time each interface adds to the harness's own call, in ns of processor time per query.
 
 The Python package and the C function are called on the same memory, for a million queries of the uniform
-family. All take turns. Prints medians of 15 runs, and their ratios to the harness. Times of impact, which the
-harness asks one by one, and float32, which it does not take, are compared with the C function instead.
+family. All take turns. Prints medians of 15 runs, and their ratios to the harness. Two
+measurements are compared with the C function instead: times of impact, which the harness asks one
+by one, and float32, which it does not take.
 Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 

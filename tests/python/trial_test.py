@@ -19,7 +19,8 @@ NEARMISS = sys.argv.pop()
 
 
 def sampled(kind, x, separation):
-    """A CCD that looks at 16 times of the step, and takes primitives for touching if their boxes do."""
+    """A CCD that samples the step at 16 times, and reports a query if the boxes touch at one of
+    them."""
     split = 1 if kind == 'vt' else 2
     hits = np.zeros(len(x), bool)
     for t in np.linspace(0, 1, 16):

@@ -26,7 +26,8 @@ class Asked:
     impact: Impact
 
     def enclosed(self, name):
-        """The numbers whose histogram has this key in reports; NaN for a query without one."""
+        """For each query, the number that the histogram with this key counts; NaN if it has
+        none."""
         return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property
@@ -65,7 +66,7 @@ class Answers:
         return sorted(set(self.family[kind]))
 
     def classes(self, kind, lines):
-        """The classes of queries, which are lines."""
+        """The classes of queries, which are given as lines."""
         known = self._classes[kind]
         if unknown := [line for line in dict.fromkeys(lines) if line not in known]:
             known.update(zip(unknown, self.classify(kind, unknown)))
@@ -117,7 +118,7 @@ def _queries(nearmiss, seed, counts):
 
 
 def _numbers(kind, count):
-    """Which queries among 0 to count - 1 are of this kind: even numbers are vt."""
+    """The numbers below `count` of the queries of this kind: even numbers are vt."""
     return range(KINDS.index(kind), count, 2)
 
 
@@ -155,7 +156,7 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
 
 
 class Known:
-    """Enclosures of some number of each query, which is asked for only once."""
+    """Enclosures of a number of each query; every query is asked about only once."""
 
     def __init__(self, ask_about):
         self._ask_about, self._known = ask_about, {}

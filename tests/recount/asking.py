@@ -45,7 +45,8 @@ class Nearmiss:
         return done.stdout
 
     def report(self, folder, cases, seed, subjects, families):
-        """Runs a campaign and writes its report into folder/report. Misses are no error here."""
+        """Runs a campaign and writes its report into folder/report. Exit code 1, for misses, is no
+        error here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
         command = f'fuzz --family {families} --cases {cases} --seed {seed} -q'
         options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
@@ -75,7 +76,8 @@ class Nearmiss:
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Ends of enclosures of collisions' earliest times: neighbouring doubles, or equal."""
+        """Lower and upper ends of collisions' earliest times: neighbouring doubles, or equal
+        ones."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):

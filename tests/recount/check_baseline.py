@@ -22,7 +22,7 @@ ALL = 'all families'
 
 @dataclass
 class Night:
-    """What a store says about a campaign."""
+    """The data of a campaign in a store."""
 
     times: dict = field(default_factory=dict)
     counts: dict = field(default_factory=dict)
@@ -67,7 +67,7 @@ def _log_time(bins):
 
 
 def _median(values):
-    """The median; of the two middle values, the one nearer to 0."""
+    """The median; if there are two middle values, the one nearer to 0."""
     values = sorted(values)
     return min(values[(len(values) - 1) // 2], values[len(values) // 2], key=abs)
 
@@ -135,7 +135,7 @@ class _Times:
         return [*terms, (max(usual**2 - sampled, least), len(families) - 1)]
 
     def tested(self):
-        """What report.json should say about each compared time, in order."""
+        """The entries that report.json should have for the compared times, in order."""
         order = {'vt, ee': 'vt'}
         kinds = ['vt', 'ee']
         for key in sorted(

@@ -63,7 +63,7 @@ def check_rates(comparison, where, found, tally):
 
 
 def measures(found, tally):
-    """What is expected of each measure, by its key. The highest bin of a quantile ends at the
+    """The expected value of each measure, by its key. The highest bin of a quantile ends at the
     largest number in `found`."""
     missed, false = tally.false_negatives, tally.false_positives
     of_negatives, of_positives = denominators(tally)

@@ -17,7 +17,7 @@ NAMED = {
     'false_by_': 'false_positives_by_stage',
     'rejected_by_': 'rejected_by',
 }
-ENDS = ('_from', '_to')  # of the headings of the two columns of a range
+ENDS = ('_from', '_to')  # ends of the headings of a range's two columns
 
 
 def read(folder, name):
@@ -87,7 +87,7 @@ def _check_classes(comparison, name, folder, report, _answers):
 
 
 def _bins(report, histogram):
-    """The borders and the count of each bin of a histogram that is not empty."""
+    """The borders and the count of each nonempty bin of a histogram."""
     borders = [*report['histogram_borders'], math.inf]
     return [(*borders[i : i + 2], count) for i, count in enumerate(histogram) if count]
 

@@ -1,4 +1,4 @@
-"""Checks the section verdicts of report.json, the rows of the page's first table."""
+"""Checks the section verdicts of report.json, which has the rows of the page's first table."""
 
 from asking import KINDS
 from check_counts import check_rates
@@ -38,8 +38,8 @@ def check_scorecard(comparison, where, report, answers):
 
 
 def _check_simplest(comparison, where, index, subject, findings):
-    """The order of findings: by exoticness of the query, then misses before late times before
-    other failures, then the simplest first."""
+    """Checks that the finding comes first: findings are ordered by the exoticness of the query,
+    then misses before late times before other failures, then by simplicity."""
     ranks = {
         i: (
             exoticness(each['class'], each['shrunk']),

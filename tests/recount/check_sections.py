@@ -24,13 +24,13 @@ def check_borders(comparison, where, report):
 
 
 def places(subject):
-    """What is expected of the algorithm, scalar and epsilon of a subject."""
+    """The expected algorithm, scalar and epsilon of a subject."""
     algorithm, scalar, power = place(subject)
     return {'algorithm': algorithm, 'scalar': scalar, 'epsilon': 2.0**power}
 
 
 def slack(subject):
-    """The relative error of a claim, because B is rounded in the subject's scalar."""
+    """The relative error of a claim that comes from rounding B in the subject's scalar."""
     return 65 * 2.0 ** place(subject)[2] + ROUNDING
 
 
@@ -85,8 +85,8 @@ def _check_fronts(comparison, where, found):
 
 
 def front(subjects, error):
-    """The names on the front, fastest first. A subject is on the front if no other is at least
-    as fast with an error that is at most the same.
+    """The names on the front, fastest first. A subject is on the front if every other one is
+    slower or has a larger error.
 
     If several subjects have equal times and errors, only the first name is on the front."""
     chosen = [
@@ -141,8 +141,7 @@ def check_ladder(comparison, where, report, answers, units):
 
 
 def fits(report):
-    """What is expected of the fits, in which each algorithm's farthest distance is a power of
-    epsilon.
+    """The expected fits, in which each algorithm's farthest distance is a power of epsilon.
 
     A fit is over all families ("") or over one. The fits use the report's largest ratios, which
     other modules check."""

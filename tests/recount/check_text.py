@@ -138,7 +138,7 @@ def _check_ladder(comparison, lines, found):
 
 
 def _common_factors(found):
-    """What the missed collisions of a family have in common, as a line."""
+    """The line about the common factors of the missed collisions of a family."""
     return (
         f'{found["subject"]} {found["kind"]}, {found["family"]}: {found["false_negatives"]:,} of '
         f'{counted(found["collisions"], "collision")} missed; {found["text"]}'

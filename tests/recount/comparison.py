@@ -38,7 +38,8 @@ class Comparison:
         self._note(sort, where, found, expected, found == expected)
 
     def near(self, sort, where, found, expected, relative):
-        """`found` must be the expected number up to a relative error, or None if expected."""
+        """`found` must be the expected number up to a relative error, or None if None is
+        expected."""
         if found is None or expected is None:
             return self.same(sort, where, found, expected)
         is_near = _is_number(found) and math.isclose(found, expected, rel_tol=relative)

@@ -63,8 +63,8 @@ class Enclosed:
         return reported(self.lo[place], self.hi[place])
 
     def quantile_bins(self, part):
-        """The first and the last bin in which the quantile may be, a number that a fraction
-        `part` of all numbers does not exceed. None without numbers."""
+        """The first and the last bin in which the quantile may be. The quantile is a number that a
+        fraction `part` of all numbers does not exceed. None without numbers."""
         if len(self) == 0:
             return None
         place = max(int(np.ceil(part * len(self))), 1) - 1
@@ -74,7 +74,7 @@ class Enclosed:
 def reported(lo, hi):
     """The range in which a report may give a number between lo and hi. Reports round up.
 
-    The largest double stands for infinity. If a number is below all borders, a report need not
-    tell more than that."""
+    The largest double stands for infinity. If a number is below all borders, a report need only
+    say that."""
     most = BORDERS[0] if lo < BORDERS[0] else 0
     return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)

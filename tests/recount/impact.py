@@ -8,7 +8,7 @@ from asking import KINDS
 from enclosed import BORDERS, Enclosed, PRECISION
 from scalars import EPSILONS, paper_bound
 
-SORTS = {  # the sorts of the built-in subjects with times, over all scalars
+SORTS = {  # the sort of time that each built-in subject gives, with any scalar
     'basic': 'estimate',
     'basic-plain': 'estimate',
     'wang-time': 'lower-bound',
@@ -57,7 +57,7 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision):
     lo, hi = (np.full(len(judged), np.nan) for _ in range(2))
     lo[own], hi[own] = times.of([judged[i] for i in own])
     time = np.where(given, verdicts.time, np.nan)
-    is_after = (time >= hi) & ~((lo == hi) & (time == lo))  # t* is inside if lo < hi
+    is_after = (time >= hi) & ~((lo == hi) & (time == lo))  # if lo < hi, t* is between them
     early = _where(given & ~is_after, lo - time, hi - time)
     after = _where(is_after, time - hi, time - lo)
     stuck = (time == 0) & (hi > 0)

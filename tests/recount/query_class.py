@@ -194,7 +194,7 @@ def exoticness(of, numbers):
 
 
 def complexity(numbers):
-    """How simple a query is. Of two queries, the one with the smaller tuple is simpler."""
+    """How simple a query is. The simpler of two queries has the smaller tuple."""
     start, end, h = numbers[:12], numbers[12:24], (numbers[24:] or [0])[0]
     magnitudes = {abs(x) for x in numbers if x}
 

@@ -39,7 +39,7 @@ def counts_of(report):
 
 
 def report_checks(report, answers, units):
-    """The checks of report.json: the sections whose values each checks, the check, and its
+    """The checks of report.json, each with the sections whose values it checks and its
     arguments."""
     trade_offs, findings = report['error_against_time'], report['findings']
     yield ('oracle', 'signatures', 'subjects'), check_statistics, 'report.json', report, answers
@@ -61,7 +61,8 @@ def report_checks(report, answers, units):
 
 
 def check_report(comparison, report, answers, units, first=''):
-    """Checks everything in report.json that can be recomputed, the section `first` first."""
+    """Checks everything in report.json that can be recomputed, beginning with the section
+    `first`."""
     schema = Path(__file__).parents[2] / 'reports' / 'report.schema.json'
     version = json.loads(schema.read_text())['properties']['schema_version']['const']
     comparison.same('names', 'schema_version', report['schema_version'], version)

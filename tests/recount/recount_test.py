@@ -30,7 +30,7 @@ from recount import check_report, recount
 # one, so they are its versions.
 SUBJECTS = 'adaptive,basic,wang,wang:float,wang:p60,wang:p144,defect:D2*10,exact'.split(',')
 PLUGINS = ['sampling', 'promises']
-VERSIONS = {'v1': 'v1', 'second': 'v2'}  # names of subjects, and the plug-ins that they are
+VERSIONS = {'v1': 'v1', 'second': 'v2'}  # the plug-in of each subject, by name
 CASES, SEED = 2200, 7
 
 # Values that recount cannot recompute: run times, facts about the machine of a run, the oracle's
@@ -225,7 +225,7 @@ class Recount(unittest.TestCase):
 
     @staticmethod
     def with_other_digit(line):
-        """The line with another last digit in its last number, run times aside."""
+        """Changes the last digit of the line's last number that is not a run time."""
         end = line.rindex('  ') if re.search(r'  (vt|ee|2\^\S+) ', line) else len(line)
         i = max(i for i in range(end) if line[i].isdigit())
         return f'{line[:i]}{(int(line[i]) + 1) % 10}{line[i + 1:]}'
@@ -276,7 +276,8 @@ class Baseline(unittest.TestCase):
 
     @staticmethod
     def run_nearmiss(*arguments, **environment):
-        """Runs nearmiss in an environment, and returns its output. Misses are no error here."""
+        """Runs nearmiss in an environment, and returns its output. Exit code 1, for misses, is no
+        error here."""
         done = subprocess.run(
             [EXECUTABLE, *arguments],
             env={**os.environ, **environment},

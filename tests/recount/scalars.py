@@ -49,7 +49,8 @@ class Units:
         return self._known[subject]
 
     def of_distances(self, subject):
-        """The bound in a subject's ratios distance / bound: its claim, or for basic wang's."""
+        """The bound by which a subject's distances are divided: its claim, or for basic wang's
+        bound."""
         algorithm, _, _ = place(subject)
         if algorithm in ('basic', 'basic-plain'):
             return paper_bound(2.0 ** EPSILONS['double'])

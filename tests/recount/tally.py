@@ -27,7 +27,7 @@ class Tally:
     false_negatives: int
     missed_by_class: dict  # false negatives, by the class of the query
     late_by_class: dict  # late times, by the class of the query
-    refuted_by_class: dict  # the least and the largest possible number of refuted bounds, likewise
+    refuted_by_class: dict  # least and largest number of refuted bounds, by the class of the query
     false_positives: int
     claims: bool
     true_by_stage: dict
@@ -112,7 +112,7 @@ def _part(answers, subject, kind, family):
 
 
 def _classes(answers, kind, asked, own, failed):
-    """The classes of the queries among `own` for which `failed` of the answers is true."""
+    """The classes of those queries among `own` whose answers `failed` selects."""
     some = np.zeros(len(asked.hit), dtype=bool)
     some[own] = failed(asked)[own]
     return answers.classes(kind, [asked.judged[i] for i in np.flatnonzero(some)])
@@ -148,10 +148,11 @@ def failures_of(counts, faults):
 
 
 def stages(subject, counts):
-    """Counts by accepting stage, without what depends on how many queries are decided at once.
+    """Counts by accepting stage. For exact, whose counts depend on how many queries are decided at
+    once, the stages filter and exact are added up.
 
-    The subject exact decides many queries at once. Its filter then leaves other queries
-    undecided than it does for single queries."""
+    The subject exact decides many queries at once. Its filter then leaves a different set of
+    queries undecided than for single queries."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}

@@ -23,7 +23,7 @@ def counted(count, one, many=None):
 
 
 def fraction(ratio):
-    """A ratio with three digits. If they would round a ratio below 1 to 1, it has more digits."""
+    """A ratio with three digits. If these would round a ratio below 1 to 1, it has more digits."""
     if ratio == LARGEST:
         return 'inf'
     if 0 < ratio < BORDERS[0]:
@@ -131,7 +131,7 @@ def _class_by_class(kinds, failure):
 
 
 def _of_class(counts, failure, name):
-    """On how many queries of a class a subject failed in this way."""
+    """The number of queries of a class on which a subject failed in this way."""
     return counts[failure[2]].get(name, 0)
 
 

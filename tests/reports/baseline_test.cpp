@@ -67,7 +67,7 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
   EXPECT_THAT(changes(with_others(1200), with_others(1000)).rates, IsEmpty());
 }
 
-// In a single test, 11 of 10,000 after none are significant. With 4 tests at a level of 0.001, 13 are.
+// After none, 11 failures in 10,000 are significant in a single test. With 4 tests at level 0.001, 13 are.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{key, counts(20000, 10000, missed, 0)}});
@@ -91,7 +91,7 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  // Families are added up for three limits on their numbers of failures.
+  // Families are added up three times: those with at most a given number of failures, for three such limits.
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
@@ -238,8 +238,8 @@ TEST(Baseline, IsTheSumOfItsCampaigns) {
   EXPECT_THAT(sum.runs, SizeIs(3));
 }
 
-// In a comparison with 1,500, chance can explain 1,690. In one with three times 1,500, it cannot.
-// Six nights have the failure equally often, but one in the middle does not have it at all.
+// Five of six nights have the failure about equally often, and one in the middle does not have it. If the
+// sixth night has it 1,300 times, chance cannot explain that.
 TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   const auto misses = [](std::uint64_t times) {
     Campaign made = campaign(std::to_string(times), {{key, counts(200000, 100000, times, 0)}});
@@ -259,7 +259,7 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
 }
 
-// One of 1,000 draws fails before, and five now. All steps of a sweep fail with these draws.
+// One of 1,000 draws failed before, and five fail now. All steps of a sweep fail with these draws.
 TEST(Changes, StepsOfASweepShareTheirDraws) {
   const auto with = [](const std::string& family, std::uint64_t draws) {
     constexpr std::uint64_t steps = 12;

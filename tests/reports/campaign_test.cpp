@@ -1,4 +1,4 @@
-// Campaigns merge the parts of a run to the result of one machine.
+// Tests that the merged parts of a run give the result of one machine.
 #include "reports/campaign/campaign.hpp"
 
 #include <gtest/gtest.h>

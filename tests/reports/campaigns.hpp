@@ -9,8 +9,8 @@
 
 namespace nearmiss::testing {
 
-/// Counters in which the ratio of the farthest false positive is the number of false positives divided by
-/// 1000. `ns` is the run time per query.
+/// Counters of a subject whose farthest false positive has the ratio `false_positives` / 1000. `ns` is the
+/// run time per query.
 inline Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t missed,
                      std::uint64_t false_positives, std::uint64_t ns = 0) {
   Counts c;

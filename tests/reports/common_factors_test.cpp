@@ -15,7 +15,7 @@ const FactorKey basic{"basic", Kind::edge_edge, "crossed", ""};
 
 using Values = std::array<std::string, 3>;
 
-/// Counts a collision for each combination of three factors' four values, missed if missed(a, b, c).
+/// Counts a collision for each combination of three factors with four values, and a miss if missed(a, b, c).
 template <class Missed>
 FactorTable counted_for(const FactorKey& key, const Missed& missed) {
   FactorTable table;

@@ -50,13 +50,13 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // Ten events fall on two campaigns of the same size. Nine or more of them fall on the second with
+  // Ten failures occur in two campaigns of the same size. Nine or more of them occur in the second with
   // probability 11 / 1024.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
-  // One family has three times as many queries now as before, and the other as many. On average, two thirds
-  // of the 6 events are expected now.
+  // One family has three times as many queries now as before, and the other has the same number. On average,
+  // two thirds of the 6 failures are expected now.
   EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
               std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
   EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);

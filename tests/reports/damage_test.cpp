@@ -57,7 +57,7 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.factors, IsSupersetOf(part.statistics.factors));
   EXPECT_THAT(whole.statistics.versions, IsSupersetOf(part.statistics.versions));
   EXPECT_THAT(whole.statistics.extremes, IsSupersetOf(part.statistics.extremes));
-  // The count of a lost row may come from the stored findings, so it may be smaller.
+  // If a row is lost, its count may be taken from the stored findings, and may then be smaller.
   for (const auto& [signature, count] : part.statistics.seen)
     EXPECT_LE(count, whole.statistics.times_seen(signature));
   for (const Run& run : part.runs) {
@@ -155,7 +155,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
         Change{"CREATE VIEW v AS SELECT * FROM run", "found other tables than those of a store", ""},
         Change{"CREATE TRIGGER t INSERT ON run BEGIN DELETE FROM run; END",
                "found other tables than those of a store", ""},
-        // Columns that are computed without end, or from each row to a large value.
+        // Columns whose values are computed: endlessly many rows, or a large value for each row.
         Change{"DROP TABLE seen; CREATE VIEW seen AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n "
                "FROM r) "
                "SELECT n AS rowid, n AS key, n AS value, n AS checksum FROM r",

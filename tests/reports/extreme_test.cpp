@@ -12,7 +12,7 @@ Extreme extreme(Extreme::Of of, double value, const std::string& provenance) {
   return {of, "mu", value, testing::falling_edge(0.1, value), provenance, 10};
 }
 
-/// Merges in both orders, which must give the same, and returns the value.
+/// Merges in both orders, expects equal results, and returns the value.
 double merged_value(const Extreme& a, const Extreme& b) {
   Extreme ab = a;
   ab.merge(b);

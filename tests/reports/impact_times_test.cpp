@@ -156,7 +156,7 @@ TEST(ImpactTimes, CsvHasARowForEachBinOfEachSide) {
             "mine,vt,uniform,after,0.1,0.1778279410038923,1\n");
 }
 
-/// A campaign with a late time for `hit`. The finding's shrunk query is given.
+/// A campaign with a late time for `hit`. `shrunk` is the finding's shrunk query.
 Campaign late_campaign(const Query& shrunk) {
   Campaign campaign{{}, statistics_of("mine", {in_time, too_late})};
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});

@@ -49,7 +49,7 @@ TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
   for (const char* name : {"wang-eps", "wang-scalar"})
     EXPECT_NEAR(*place_of(name).unit, 40.963 * 0x1p-13, 1e-7) << name;
   EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
-  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // B is given, not the pair's own
+  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the name gives B
   for (const char* other : {"exact", "defect:vv", "./plugin.so"}) {
     EXPECT_EQ(place_of(other).algorithm, other);
     EXPECT_EQ(place_of(other).unit, std::nullopt);
@@ -93,7 +93,7 @@ TEST(Ladder, TheIntervalIsStudents) {
             "0.125 to 1 of the claimed distance");
 }
 
-// Of three points at intervals of 16, the middle one is 1 below the others. The sum of squared residuals is
+// Three points are at intervals of 16; the middle one is 1 below the others. The sum of squared residuals is
 // 2/3, with one degree of freedom.
 TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
   const auto line = fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}})), "wang");
@@ -136,7 +136,7 @@ TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
   const auto json = ladder_json(farthest_at({{"wang:p24", 1}, {"wang", 0.5}, {"wang:p64", 1}}));
   ASSERT_TRUE(json.has_value());
   EXPECT_EQ((*json)["rungs"].size(), 3);
-  EXPECT_EQ((*json)["fits"].size(), 2);  // one over all families, and one of the only family
+  EXPECT_EQ((*json)["fits"].size(), 2);  // one fit over all families, and one of the only family
   EXPECT_NE(
       ladder_table(farthest_at({{"wang:p24", 0.5}, {"wang", 0.5}, {"wang:p64", 0.5}})).find("epsilon^(0.25"),
       std::string::npos);

@@ -28,7 +28,7 @@ TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       Query query = falling_vertex(0.25, 0.25, 1, -1);
-      query.set_end(i, query.start(j));  // at different times, unless vertex j is at rest
+      query.set_end(i, query.start(j));  // coincident at different times, unless vertex j rests
       const int expected = i != j && j > 0 ? 2 : 1;
       EXPECT_EQ(exoticness(query, QueryClass::degenerate), expected) << i << ' ' << j;
       query.set_end(i, query.end(j));

@@ -158,7 +158,7 @@ TEST_F(ReportFolder, AnInterruptedReplacementIsCompleted) {
   write_report_of("bad", "new");
   const fs::path part = file("report/.nearmiss-part");
   fs::copy(file("new"), part, fs::copy_options::recursive);
-  // Before the interruption, only this file was put in its place.
+  // Before the interruption, only this file was moved to its place.
   const std::string moved = "cases/false-negative-bad-001.case";
   fs::rename(part / moved, file("report") / moved);
   write_report_of("third");

@@ -117,7 +117,7 @@ TEST(Summary, AnswersThatCouldNotTellAreNamed) {
                         "unknown, the farthest at 0.5 of the bound\n"));
 }
 
-/// A subject with one false positive, at 2.5 times its unit: its claimed bound, or wang's.
+/// A subject with one false positive, at 2.5 times its unit. The unit is its claimed bound, or wang's.
 Statistics one_far_report(bool measured_by_wang) {
   Statistics statistics;
   Counts& counts = statistics.counts[{"mine", Kind::vertex_triangle, "f"}];

@@ -116,7 +116,7 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   std::filesystem::create_directory(file("killed"));
   {
     const Database db(file("a.db"));
-    // Without a cache, the change reaches the file before it is committed, as it may in a kill.
+    // Without a cache, the change reaches the file before it is committed, as may happen before a kill.
     db.execute(
         "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
         "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "

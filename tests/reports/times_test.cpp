@@ -72,7 +72,7 @@ TEST(Times, TheSlowestAreKept) {
   for (std::size_t i = 0; i < SubjectTimes::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
 }
 
-/// The value in the first row of a CSV file below a heading.
+/// The value below a heading in the first row of a CSV file.
 std::string first_value(const std::string& csv, const std::string& heading) {
   std::istringstream lines(csv);
   std::string headings, values;

@@ -137,7 +137,7 @@ TEST(Verdicts, NothingAskedAndNothingAnsweredAreNoPass) {
   EXPECT_EQ(
       line_of(with(with(counts(9, 0, 0, 0), Fault::time, 3), Fault::not_asked, 6)),
       "FAIL mine: NO ANSWER IN TIME, SLOW in 9 queries (3 over the time limit, 6 not asked after that)\n");
-  Statistics statistics;  // none of these queries is beyond the contract, which is no failure
+  Statistics statistics;  // no query is beyond the contract; that is no failure
   statistics.counts[{"mine (beyond contract)", Kind::edge_edge, "f"}] =
       with(counts(9, 0, 0, 0), Fault::contract, 9);
   EXPECT_FALSE(has_failed(statistics));

@@ -71,7 +71,7 @@ class Campaign:
         draw = random.Random(f'{seed} campaign {number}')
         self.number, self.machine = number, machine
         plugin = draw.choice([*CHOSEN_BY_QUERY, *CHOSEN_BY_CHANCE])
-        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # nearmiss waits for time limits
+        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # fewer: nearmiss waits for time limits
         self.size = int(draw.uniform(0.2, 1) * rate * seconds)
         self.left_out = CHOSEN_BY_CHANCE.get(plugin)
         self.options = ['--cases', str(self.size), '--seed', str(draw.randrange(1 << 32))]

@@ -44,8 +44,8 @@ class Machine:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
-            # Python ignores SIGXFSZ, the signal for a file that is too large. If there is a largest
-            # file, nearmiss inherits this, so that a write fails and no signal ends it.
+            # Python ignores SIGXFSZ, the signal for a file that is too large. If file sizes are
+            # limited, nearmiss inherits this: a write fails, but no signal ends it.
             return subprocess.Popen(
                 [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
                 stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,

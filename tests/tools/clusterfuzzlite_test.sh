@@ -12,8 +12,8 @@ fail() { echo "$1" >&2; exit 1; }
 command -v clang++ >/dev/null || { echo "no clang++ here"; exit 77; }
 
 # The settings of the Dockerfile and of base-builder, with libFuzzer and the address sanitizer, but without
-# optimisation, which takes half of the time. The build uses one process, because other tests run at the same
-# time.
+# optimisation, which would take as long as the rest of the build. The build uses one process, because other
+# tests run at the same time.
 root=$PWD/build/clusterfuzzlite
 flags="-O0 -fno-omit-frame-pointer -gline-tables-only -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"
 flags+=" -fsanitize=address -fsanitize-address-use-after-scope -fsanitize=fuzzer-no-link"

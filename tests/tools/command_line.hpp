@@ -55,7 +55,8 @@ class CommandLine : public testing::TemporaryFolder {
     return read_json("report/report.json");
   }
 
-  /// A mesh: a triangle, and another one at a height above it, whose last vertex is at x and y = `last`.
+  /// A mesh of two triangles, one at z = 0 and one at `height` above it. `last` is the x and y of the upper
+  /// one's last vertex.
   static std::string two_triangles(const std::string& height, const std::string& last = "0.5 9") {
     return "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 " + height + "\nv 1 0.5 " + height + "\nv " + last + " " +
            height + "\nf 1 2 3\nf 4 5 6\n";

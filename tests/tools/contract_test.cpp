@@ -31,7 +31,7 @@ TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
   }
 }
 
-// The plug-in misses everything, but its contract takes for granted that edges are at least 1e300 long.
+// The plug-in misses everything, but its contract requires edges that are at least 1e300 long.
 TEST_F(CommandLine, MissesBeyondAContractDoNotCount) {
   const Output factors = expect_code(0, "family crossed --count 1000 --missed-by " + plugin("never_asked"));
   EXPECT_EQ(factors.out, "");

@@ -27,7 +27,7 @@ struct Shown {
 
 class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown> {
  protected:
-  /// Writes queries of which most plug-ins that misbehave answer only some.
+  /// Writes queries. Most plug-ins that misbehave answer only some of them.
   void SetUp() override {
     const std::string late = "0.95 0.01 1  0 0 0  1 0 0  0 1 0   0.95 0.01 -2  0 0 0  1 0 0  0 1 0\n";
     ASSERT_EQ(run("family uniform --kind vt --count 40").code, 0);

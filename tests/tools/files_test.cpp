@@ -13,7 +13,7 @@ using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// Words before a command that make file permissions hold even for root.
+/// Words to put before a command, so that file permissions hold even for root.
 const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
 
 TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {

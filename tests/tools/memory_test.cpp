@@ -1,4 +1,4 @@
-// nearmiss where memory is short.
+// Tests nearmiss when memory is short.
 #include <unistd.h>
 
 #include <filesystem>
@@ -51,7 +51,7 @@ class SmallCgroup {
   bool exists_ = false;
 };
 
-// The system ends processes of the plug-in only, whichever it chooses.
+// The system ends only processes of the plug-in, whichever of these it chooses.
 TEST_F(CommandLine, APluginThatUsesUpTheMemoryOfACgroupEndsAlone) {
   const SmallCgroup small;
   if (!small.exists()) GTEST_SKIP() << "found no cgroup whose memory can be limited";

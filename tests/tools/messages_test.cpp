@@ -41,7 +41,7 @@ TEST_F(Messages, ALongWordOfAFileIsCut) {
 
 TEST_F(Messages, AWordIsCutBetweenCharacters) {
   std::string word = "x";
-  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // byte 41 is the second one of a character
+  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // byte 41 is the second byte of a character
   write("q.vt", word);
   expect_short("replay q.vt", std::string("'").append(word, 0, 39).append("...'"));
 }

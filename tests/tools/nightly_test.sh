@@ -25,7 +25,8 @@ cd "$folder/tree"
 nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
 nothing tools/setup tools/libfuzzer
 
-# night CODE OPTIONS...: runs a night of few queries, whatever its time, and checks its exit code.
+# night CODE OPTIONS...: runs a night that asks a few queries instead of running for its time, and checks its
+# exit code.
 night() {
   local code=0
   sleep_until_next_second
@@ -51,7 +52,7 @@ expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 "$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
 night 0 --subject wang
-# The night fails while the failures last. The baseline has them, although the night before does not.
+# A night with lasting failures fails. The baseline has these failures, although the night before does not.
 night 1 --subject=wang,basic
 expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z .version .*., last seen 20.*Z .version .*.$'
 seen=$(sed -nE 's/^lasting: .*, first seen ([^ ]*) .*, last seen .*/\1/p' "$folder/said" | sort -u)
@@ -60,7 +61,8 @@ expect "expected that all were first seen in the second night, at $began, found 
 night 0 --subject wang
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
-# Lasting faults: a subject that crashes now and then alarms once. A new way to fail alarms again.
+# Lasting faults: a subject that sometimes crashes raises an alarm only once. A new way to fail raises one
+# again.
 plugins=$(dirname "$nearmiss")/plugins
 NEARMISS_ONE_IN=5 night 1 --subject "wang,$plugins/crash.so" --results "$folder/faults"
 expect_said '^FAIL misbehaving: .*NO ANSWER '
@@ -87,7 +89,8 @@ expect_said "found --subject '', expected CCDs"
 night 2 --subject wang,./none.so
 expect_said "found --subject 'wang,./none.so', expected CCDs with different names; paths are relative to $PWD"
 expect "expected no night of a CCD that is none" test "$(ls "$folder/the nights")" = "$before"
-# A copy of a night counts once. A killed night gives its reserve back, and does not push others out.
+# A copy of a night counts once. The reserve of a killed night is given back, and the killed night does not
+# push others out.
 cp -r "$folder/the nights/last/" "$folder/the nights/2001-01-01T000000Z copy"
 mkdir "$folder/the nights/2002-01-01T000000Z"
 touch "$folder/the nights/2002-01-01T000000Z/.reserve"
@@ -96,7 +99,7 @@ night 0 --subject wang --keep 3
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
 expect "expected that the killed night's reserve is given back" test ! -e "$folder/the nights/2002-01-01T000000Z/.reserve"
 expect "expected three nights beside the killed one, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2[0-9]*Z*" | wc -l)" = 4
-# The report of shards on a cluster leaves out what cannot be read.
+# The report of shards on a cluster leaves out shards that cannot be read.
 mkdir "$folder/shards"
 cp "$folder/the nights/last/families.db" "$folder/shards/shard-0.db"
 : >"$folder/shards/shard-1.db"
@@ -206,7 +209,7 @@ kill -TERM "$night"
 ends 130
 expect "expected a report" test -s build/run/report/index.html
 
-# A signal does the same while libFuzzer's script runs, or the set-up, after which no night begins.
+# A signal has the same effect while libFuzzer's script runs. During the set-up, it also prevents the night.
 forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
 rm build/release/nearmiss
 cp quick build/release/nearmiss

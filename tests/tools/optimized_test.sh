@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 2)) || refuse "expected OBJECTS FAST_OBJECTS"
-# The functions of objects that any other object may provide.
+# The functions of objects that the linker may take from any other object.
 shared() {
   # shellcheck disable=SC2086
   nm -C $1 | sed -n 's/^[0-9a-f]* W //p' | grep -E 'nearmiss::|Eigen::' | grep -vE '::~|excerpt' | sort -u

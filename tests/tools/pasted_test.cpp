@@ -1,4 +1,4 @@
-// nearmiss shrink --as prints tests that compile and run in other projects.
+// The tests that `nearmiss shrink --as c++` and `--as python` print run in other projects.
 #include <sstream>
 
 #include "corpus/query_text.hpp"
@@ -73,7 +73,8 @@ class PastedTest : public testing::CommandLine {
         << answer << ' ' << time;
   }
 
-  /// Runs a test in Python, with a detector that prints its numbers and gives this answer and time.
+  /// Whether a test in Python passes with a detector that prints the coordinates it gets, and returns this
+  /// answer and time.
   [[nodiscard]] bool passes_in_python(const std::string& test, const std::string& name,
                                       const std::string& answer, const std::string& time = "0") const {
     write("test.py", test +

@@ -1,4 +1,4 @@
-// What a run stores about plug-ins: their limits, and names with which findings can be replayed.
+// Tests what a run stores about plug-ins: their limits, and names with which findings can be replayed.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

@@ -1,4 +1,4 @@
-// A campaign has the results of a single build of nearmiss and of each plug-in.
+// All results of a campaign come from the same build of nearmiss and of each plug-in.
 #include "reports/sha256.hpp"
 #include "reports/store/store.hpp"
 #include "tests/tools/background.hpp"

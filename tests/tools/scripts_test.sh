@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every script of the tree with --help, -h and --nonsense in a copy of the tree. Checks that it prints
 # its usage or refuses, and changes nothing. Programs that would change something, such as cmake and sbatch,
-# are replaced by one that only notes the call.
+# are replaced by a program that only records the call.
 # Usage: scripts_test.sh NEARMISS
 # shellcheck disable=SC2086  # two words in $options
 set -euo pipefail

@@ -62,7 +62,7 @@ TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
   EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/peers --output /"));
 }
 
-// A program that finds another build's worker would misread its answers.
+// If a program found the worker of another build, it would misread the worker's answers.
 TEST_F(CommandLine, AWorkerOfAnotherBuildIsRefused) {
   std::filesystem::copy_file(NEARMISS_EXECUTABLE, file("copied"));
   const auto worker = std::filesystem::path(NEARMISS_EXECUTABLE).parent_path() / "nearmiss-worker";

@@ -45,7 +45,7 @@ TEST_F(CommandLine, ACampaignOutlastsALockOfItsStore) {
   {
     const testing::Database other(file("a.db"));
     other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
-    std::this_thread::sleep_for(std::chrono::seconds(3));  // longer than a save waits
+    std::this_thread::sleep_for(std::chrono::seconds(3));  // longer than a save waits for the lock
     EXPECT_FALSE(campaign.has_ended()) << read("error.txt");
   }
   ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
@@ -120,7 +120,7 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
 
 TEST_F(CommandLine, AFullDiskLeavesNoPartOfAStoreWithoutResults) {
   if (std::system("unshare -rm true 2>/dev/null") != 0) GTEST_SKIP() << "found no permission to mount a disk";
-  // The disk has room for the store's tables, but not for results. It exists as long as the shell.
+  // The disk has room for the store's tables, but not for results. The disk exists as long as the shell runs.
   const std::string with_disk =
       "unshare -rm sh -c 'mkdir disk && mount -t tmpfs -o size=400k none disk && \"$@\"; code=$?; ls disk > "
       "left.txt; "
@@ -212,7 +212,7 @@ TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   expect_code(0, replay + "a.db", "", "<&-");
   const Output silent = expect_code(0, replay + "b.db", "", "2>&-");
   EXPECT_THAT(silent.out, HasSubstr(" ok  wang: no miss in 1 collision"));
-  // No printed text gets into the store or its lock, although their files may have the numbers of closed
+  // No printed text gets into the store or its lock, although these files may get the numbers of closed
   // streams.
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
   for (const char* store : {"a.db", "b.db", "c.db"})

@@ -73,7 +73,7 @@ TEST_F(VersionsOfACcd, ThatAreProgramsAreNamedAndReplayedByTheirFiles) {
   }
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py'",
                  {"such as 'NAME=pipe:" NEARMISS_PYTHON " one.py'"});
-  // A word that is too long for the name of a file is none.
+  // A word that is too long for a file name names no file.
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py " + std::string(300, 'x') + "'",
                  {"two subjects named"});
 }

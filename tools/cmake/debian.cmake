@@ -1,7 +1,7 @@
 # The Debian packages that CPack makes (tools/package): one for each group of components.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nearmiss)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # lower than release 1 of a package by Debian
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # sorts before release 1, which Debian's own package would have
 set(version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 set(maintainer "nearmiss maintainers <maintainers@nearmiss.invalid>")
 if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
@@ -20,7 +20,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 set(CPACK_COMPONENTS_ALL "")
 set(debian ${PROJECT_BINARY_DIR}/debian)
 
-string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # that of SOURCE_DATE_EPOCH, if it is set
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # the date of SOURCE_DATE_EPOCH, if it is set
 file(CONFIGURE OUTPUT ${debian}/changelog.Debian CONTENT "nearmiss (${version}) unstable; urgency=medium
 
   * Release ${PROJECT_VERSION}.

@@ -13,8 +13,8 @@
 #   + the text that replaces it
 #
 # In a copy, an expression becomes (makes(17) ? (EDITED) : (TEXT)), and a statement, which ends with ; or },
-# becomes if (makes(17)) { EDITED } else { TEXT }. Edits are numbered from 1. Their texts may contain one
-# another, but not overlap otherwise.
+# becomes if (makes(17)) { EDITED } else { TEXT }. Edits are numbered from 1. The text of one edit may contain
+# that of another, but texts must not overlap otherwise.
 
 if(NOT nearmiss_unedited)
   set(nearmiss_unedited ${PROJECT_SOURCE_DIR})  # the tree whose headers are copied
@@ -96,7 +96,7 @@ function(nearmiss_switch file text result)
       list(APPEND spans ${length}:${start}:${end}:${place})
     endif()
   endforeach()
-  list(SORT spans COMPARE NATURAL ORDER DESCENDING)  # the longest first, which contains the others
+  list(SORT spans COMPARE NATURAL ORDER DESCENDING)  # the longest first: it may contain others
   set(points "")
   foreach(span IN LISTS spans)
     string(REPLACE ":" ";" span ${span})

@@ -16,7 +16,7 @@ if(NEARMISS_LIBFUZZER OR "tools" IN_LIST NEARMISS_COMPONENTS)
 endif()
 if("python" IN_LIST NEARMISS_COMPONENTS AND NOT NEARMISS_LIBFUZZER)
   if(NOT Python_EXECUTABLE)
-    find_program(Python_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which has its NumPy
+    find_program(Python_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, with Debian's NumPy
   endif()
   find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
   find_package(pybind11 2.10 REQUIRED)

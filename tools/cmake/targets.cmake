@@ -22,7 +22,7 @@ if(NEARMISS_LIBFUZZER)
   add_link_options(-fsanitize=undefined)  # provides the runtime of coverage to executables without libFuzzer
 endif()
 
-# Bools are joined by | to save a branch, which clang advises against.
+# Our code joins bools by | to save a branch, although clang advises against it.
 set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 
 # Warnings are errors for developers. Someone who only builds nearmiss may have a compiler that warns of more.
@@ -46,14 +46,14 @@ function(nearmiss_precompile target)
     # g++ 12 gives false warnings about the code of std::string, and shows them if its header is precompiled
     # (bug 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
-    # The precompiled headers alone fill g++'s heap, so that it would look for garbage at every step: a sixth of
-    # the time.
+    # The precompiled headers alone fill the default heap of g++. Without this option, g++ would collect
+    # garbage again and again, which takes a sixth of the time.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=400000)
   endif()
 endfunction()
 
-# nearmiss_seldom_runs(TARGET): optimization would take half of the time that this code takes to compile, and
-# saves none when it runs.
+# nearmiss_seldom_runs(TARGET): for code that seldom runs. Full optimization would take half of its compile
+# time, and save no run time.
 function(nearmiss_seldom_runs target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
@@ -79,7 +79,7 @@ function(nearmiss_tests folder)
   gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
-# For targets that include CGAL's number types.
+# nearmiss_uses_cgal(TARGET): settings of a target that includes CGAL's number types.
 function(nearmiss_uses_cgal target)
   target_link_libraries(${target} PRIVATE CGAL::CGAL)
   # Interval arithmetic changes the rounding mode, which the compiler must know.

@@ -57,7 +57,7 @@ std::string named(std::string name, const SeparationOption& separation) {
   return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
 }
 
-/// The first `count` queries of each kind in a family whose boxes meet.
+/// For each kind, the first `count` queries of a family that pass the box test.
 Input family_input(std::string_view name, std::uint64_t count, const SeparationOption& separation) {
   const Family family = find_family(name);
   Input input{named(std::string(name), separation), {}};
@@ -109,7 +109,7 @@ void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
 }
 
 /// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
-/// `answered` has the counters of each subject.
+/// Adds the queries and faults of each subject to `answered`.
 std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                const Stop& stop, Statistics& answered) {
   std::vector<RunTimes> times(subjects.size());

@@ -97,8 +97,8 @@ void run(const CLI::App& app, std::string_view shell) {
   else if (shell != "bash")
     throw Error(fmt::format("SHELL: found '{}', expected bash or zsh", shell));
   fmt::print("{}", bash_script(app));
-  // zsh reads an installed script when it is to complete something for the first time, so the script must do
-  // this completion.
+  // zsh reads an installed script only when it first completes a nearmiss command, so the script must also do
+  // this first completion.
   if (shell == "zsh")
     fmt::print(
         "[[ ${{zsh_eval_context[-1]}} != loadautofunc ]] || _bash_complete -o bashdefault -o default -F "

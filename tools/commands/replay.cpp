@@ -25,8 +25,8 @@ struct Options {
   RecordOptions record;
 };
 
-/// The family under which a case is counted: the name of its folder, "NAME/". For edge-edge and vertex-face,
-/// it is the folder above.
+/// The family under which a case is counted: the name of its folder, "NAME/". If that folder is edge-edge or
+/// vertex-face, the folder above it counts.
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();

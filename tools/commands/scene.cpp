@@ -154,7 +154,7 @@ class SceneProgress {
 };
 
 struct Held {
-  std::string scene;  ///< its name and size; "" if it was stopped before
+  std::string scene;  ///< the scene's name and size; "" if a stop came first
   Verification verification;
   std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
 };

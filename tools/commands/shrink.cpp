@@ -57,8 +57,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-/// The subject, restricted to one side of its contract: if this query keeps the contract, it is asked only
-/// queries that do; otherwise only queries that do not.
+/// The subject, restricted to one side of its contract. If this query keeps the contract, the subject is
+/// asked only queries that keep it; otherwise, only queries that break it.
 std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();

@@ -49,9 +49,9 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*subject);
 }
 
-/// Prints each libFuzzer target that fits a subject, with the subject's name as the target takes it; the name
-/// of a published CCD is its path. Prints nothing for a program, because libFuzzer sees no coverage of
-/// another process. Throws Error if two subjects have one name.
+/// Prints each libFuzzer target that fits a subject, followed by the subject in the form that the target
+/// takes; for a published CCD, this is its path. Prints nothing for a program, because libFuzzer sees no
+/// coverage of another process. Throws Error if two subjects have the same name.
 void print_targets(const std::vector<std::string>& texts) {
   std::vector<std::unique_ptr<Subject>> subjects;
   for (const std::string& text : texts) subjects.push_back(make_any_subject(text));

@@ -103,7 +103,7 @@ void add_tolerance_options(CLI::App& command, Options& options) {
   options.campaign.record.add_to(command);
 }
 
-/// The options of a campaign with each value of an option.
+/// Adds the options of a campaign that asks a CCD with each value of one of its options.
 void add_value_options(CLI::App& command, Options& options) {
   CampaignOptions& campaign = options.campaign;
   campaign.trial.subjects.clear();

@@ -124,8 +124,8 @@ int ask_in_parts(const Queries& queries, const Ask& ask) {
   return NEARMISS_OK;
 }
 
-/// Raises the exception of a status. The last part that was asked has no answers, so the first query without
-/// an answer belongs to it, and its fault is the message.
+/// Raises the exception for a status. Queries are asked in parts, and only the last part that was asked has
+/// no answers. Therefore the first query without an answer is in this part, and its fault is the message.
 template <class IsAnswered>
 void check(int status, const Queries& queries, const IsAnswered& is_answered) {
   if (status == NEARMISS_OK) return;

@@ -61,8 +61,8 @@ std::vector<Family> families_of(const std::vector<std::string>& names) {
   return chosen;
 }
 
-std::atomic<bool> is_ending = false;  ///< whether the interpreter ends, so that all trials must end
-std::atomic<int> running = 0;         ///< the trials that are running
+std::atomic<bool> is_ending = false;  ///< whether the interpreter is exiting, so that all trials must end
+std::atomic<int> running = 0;         ///< number of trials that are running
 
 /// Notes that a trial is running.
 struct Running {

@@ -1,5 +1,5 @@
-// Inequalities of the tolerances; if they hold, the CCD misses nothing and reports nothing beyond its bound
-// (§4).
+// Inequalities that the tolerances must satisfy. If they hold, the CCD misses nothing and reports nothing
+// beyond its bound (§4).
 #pragma once
 
 #include <array>
@@ -91,9 +91,9 @@ inline constexpr std::size_t constraint_count = 18;
 /// If a pair does not collide, its p may be as large as 2B at t = 1. The errors of its weights are then at
 /// most doubled, and so is the distance of a false positive from an edge's line.
 ///
-/// A false positive can arise in two ways; the paper's (2) and (3) take the min of the two distances, where
-/// it must be the max. (2) fixes E at 21/4 ε^½, and (3) fixes it at 4 ε^½; in both, the rounding error of the
-/// height test then adds 4 ε^½ to η. The paper's claim that the quadrilateral's shorter edge is below √τ
+/// A false positive can arise in two ways; the paper's (2) and (3) take the min of the two distances, but
+/// should take the max. (2) fixes E at 21/4 ε^½, and (3) fixes it at 4 ε^½; in both, the rounding error of
+/// the height test then adds 4 ε^½ to η. The paper's claim that the quadrilateral's shorter edge is below √τ
 /// (§3.4.1) does not hold for edges that are nearly parallel, but its consequences do.
 template <class Number>
 auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number& E_ee,

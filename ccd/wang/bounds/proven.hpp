@@ -9,11 +9,12 @@ namespace nearmiss::proven {
 //
 // tests/proofs/ has a row for each bound: it records the formulas of ccd/, and Gappa proves the bound with
 // 11, 24, 53, 64, 113 and 256 bits. The bounds hold for every ε <= 2^-10. Gappa adds and multiplies bounds,
-// so it proves a polynomial in u without negative coefficients and without a constant term (or the quotient
-// of one by 1 minus such a polynomial). Divided by u, this grows with u and is largest for 11 bits.
+// so each bound that it proves is a polynomial in u without negative coefficients and without a constant term
+// (or the quotient of one by 1 minus such a polynomial). Divided by u, this grows with u and is largest for
+// 11 bits.
 //
 // "far" means vectors that are within 2B: the p of two edges except at t = 0, and the x_0i of edges always.
-// All other vectors are within B. The paper assumes that all vectors are.
+// All other vectors are within B. The paper assumes that all vectors are within B.
 
 // proximity.hpp
 inline constexpr double normal = 10.03;     ///< a component of N

@@ -107,14 +107,15 @@ constexpr double least_size(const Allows& allows) {
 
 /// Minimises D² subject to `constraints` with `full_errors`.
 ///
-/// D² depends only on R, and grows with it, so R comes first. Let g² = R² - r². The short edge allows E up to
-/// 2g. The height allows η up to 2g/√3 - error/E, and η is at most B. The quadrilateral's area allows τ up to
-/// 4g²/√3 - error (the triangle's area allows more). Larger values of E, η and τ make everything else
-/// smaller. The weight requires g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² +
-/// r(g)² falls and then rises. S, ρ = ε and `edge_tolerances` follow.
+/// D² depends only on R, and grows with it, so R is minimised first. Let g² = R² - r². The constraint on the
+/// short edge allows E up to 2g. The one on the height allows η up to 2g/√3 - error/E, and η is at most B.
+/// The one on the quadrilateral's area allows τ up to 4g²/√3 - error (that on the triangle's area allows
+/// more). Larger values of E, η and τ make everything else smaller. The constraint on the weight requires
+/// g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then rises.
+/// S, ρ = ε and `edge_tolerances` follow.
 ///
 /// Computing a value takes a few roundings, with a relative error below 16 ε in total. R, ψ, D² and μ are
-/// made larger by that and by 2^-30.
+/// increased by this relative error and by 2^-30.
 constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));

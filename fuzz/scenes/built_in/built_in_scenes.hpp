@@ -1,5 +1,5 @@
 // Scenes that need no file: classic scenes of the field, computed by formulas in any size. They are not
-// simulated, but they move like simulations: the primitives of nearly all pairs are near each other, few
+// simulated, but they move like simulations: the primitives of nearly all candidates are near each other, few
 // collide, and a step moves no point by much more than the length of an edge.
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace nearmiss {
 
-/// An entry of the list of scenes. Each frame is a pure function of the size and its number, with the same
-/// bits on every machine, and is computed on demand. Edges are about 1 long in all sizes: a larger scene has
-/// more primitives of the same size, so the number of candidates grows in proportion to the number of
+/// An entry of the list of scenes. Each frame is a pure function of the size and the frame number, with the
+/// same bits on every machine, and is computed on demand. Edges are about 1 long in all sizes: a larger scene
+/// has more primitives of the same size, so the number of candidates grows in proportion to the number of
 /// primitives.
 struct BuiltInScene {
   std::string name;

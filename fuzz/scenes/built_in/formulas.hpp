@@ -31,8 +31,8 @@ double dot(const Vector3<double>& a, const Vector3<double>& b);
 double length(const Vector3<double>& a);
 
 /// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. It is computed as a sum
-/// of columns, because g++ 12 compiles x cos - y sin next to x sin + y cos to fused operations if the
-/// processor has them, even with -ffp-contract=off.
+/// of columns. If x cos - y sin and x sin + y cos were computed side by side, g++ 12 would use fused
+/// operations where the processor has them, even with -ffp-contract=off.
 class Rotation {
  public:
   Rotation() = default;

@@ -49,7 +49,7 @@ Duration computing_time(pid_t process) {
 Duration clock_tick() { return Duration(1.0 / static_cast<double>(sysconf(_SC_CLK_TCK))); }
 
 ComputingTime computing_time_of_tree(pid_t root) {
-  constexpr std::size_t most = 1024;  // more may start faster than they are found
+  constexpr std::size_t most = 1024;  // processes may start faster than this loop finds them
   ComputingTime sum;
   std::vector<pid_t> processes{root};
   for (std::size_t i = 0; i < processes.size(); ++i) {

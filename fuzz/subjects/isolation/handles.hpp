@@ -46,7 +46,7 @@ class Descriptor {
 template <class Content>
 class SharedMemory {
  public:
-  /// `others_may_write`: whether other processes can write it. Throws Error.
+  /// `others_may_write`: whether other processes can write to it. Throws Error.
   explicit SharedMemory(bool others_may_write)
       : file_(memfd_create("nearmiss-worker", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
     check(file_.number() >= 0 && ftruncate(file_.number(), sizeof(Content)) == 0, "memory");

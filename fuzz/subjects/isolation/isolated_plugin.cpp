@@ -161,10 +161,10 @@ class IsolatedPlugin final : public BatchSubject {
 
   /// Has a worker perform the request for one batch. A worker that cannot be used any more is replaced by a
   /// new one, which continues after the query that failed. A call that fails as a whole is repeated query by
-  /// query, to find the query that is to blame. If none of them fails, the last one is to blame: what depends
-  /// on the queries before, such as a crash at every 1000th query, is a fault too. (A call that was late as a
-  /// whole is none, because its queries together may take so long.) `late` counts the queries over the time
-  /// limit.
+  /// query, to find the query that is to blame. If no single query fails, the last one is to blame: a failure
+  /// that depends on earlier queries, such as a crash at every 1000th query, is a fault, too. (If only the
+  /// call as a whole was late, no query is to blame, because the queries together may take that long.) `late`
+  /// counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -231,7 +231,7 @@ class IsolatedPlugin final : public BatchSubject {
     return start_worker();
   }
 
-  /// Starts a worker; null if the plug-in cannot be loaded, or describes itself otherwise than the first
+  /// Starts a worker; null if the plug-in cannot be loaded, or no longer describes itself as it did the first
   /// time. After some failures in a row, no worker is started any more.
   std::unique_ptr<WorkerProcess> start_worker() const {
     constexpr int most_failed = 3;

@@ -52,8 +52,8 @@ class PluginFile {
   static Stamp stamp_of(const struct stat& about);
   /// Reads the whole file, and passes its bytes to `take`, piece by piece.
   [[nodiscard]] Snapshot read(const std::function<void(std::string_view)>& take) const;
-  /// Whether the file may be written again without a change of its stamp, because the clock of the file
-  /// system has not ticked since.
+  /// Whether the file could be written again without a change of its stamp, because the clock of the file
+  /// system may not have ticked since.
   static bool is_recent(const Stamp& stamp);
 
   std::string path_, sha256_, build_id_;

@@ -30,7 +30,7 @@ enum class Request : std::uint8_t {
   bounds,        ///< gives the distance bound of each query
 };
 
-/// A message that requests something. The number tells its answers from those of earlier calls.
+/// A message that requests something. The number distinguishes its answers from those of earlier calls.
 struct Call {
   std::uint64_t number;
   Request request;
@@ -74,7 +74,7 @@ struct PluginAnswer {
   std::int32_t value = 0;         ///< the plug-in's return value
 };
 
-/// Written by the worker. The plug-in in its process can write anything here.
+/// Written by the worker. The plug-in runs in the same process, and can write anything here.
 struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun

@@ -26,8 +26,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal
-/// interrupts, and with the default reaction to every signal.
+/// Starts a program with some descriptors under given numbers. The program has a session of its own, which no
+/// terminal interrupts, and the default reaction to every signal.
 class Spawn {
  public:
   Spawn() {
@@ -100,7 +100,7 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
   const std::string program = path_beside("nearmiss-worker");
   arguments.insert(arguments.begin(), {"nearmiss-worker", NEARMISS_WORKER_CODE});
   {
-    Spawn spawn;  // has copies of the files, of which only the worker's may stay open
+    Spawn spawn;  // has copies of the descriptors; only those of the worker may stay open
     spawn.pass(files.replies, reply_socket);
     spawn.pass(status.theirs.number(), status_socket);
     spawn.pass(files.questions, questions_memory);

@@ -35,7 +35,8 @@ class Supervisor {
   Supervisor& operator=(const Supervisor&) = delete;
   ~Supervisor();
 
-  /// Returns when there is a process for the plug-in, which waits to be asked to load it. Throws Error.
+  /// Returns when the plug-in's process exists. That process then waits for a request to load the plug-in.
+  /// Throws Error.
   void start(std::vector<std::string> arguments, const Files& files);
   /// Begins to end all processes. The destructor waits until they have ended.
   void dismiss() { status_.close(); }

@@ -40,7 +40,7 @@ void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
 
-/// The number of times that a request calls the plug-in for each query, at most.
+/// The largest number of times that a request calls the plug-in for one query.
 double calls_per_query(Request request) {
   switch (request) {
     case Request::decide_timed:
@@ -171,7 +171,7 @@ void WorkerProcess::load(const std::string& plugin) {
   }
   if (answers_->error[0] != '\0') throw Error(text(answers_->error) + memory);
   look_at_others();
-  others_compute_ = false;  // what they did until now is no matter
+  others_compute_ = false;  // what they computed until now does not count
   info_ = info_of(answers_->about);
   names_ = names_of(answers_->about);
 }
@@ -246,7 +246,7 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   constexpr int most_looking = 10;  // at most a tenth of the time: there may be hundreds of processes
   constexpr std::uint64_t calls_between_looks = 16;
   const bool looks =
-      others_compute_ || (call.number + 1) % calls_between_looks == 0;  // not while it is loaded
+      others_compute_ || (call.number + 1) % calls_between_looks == 0;  // not while the plug-in is loaded
   if (others_compute_) look_at_others();
   auto next_look = steady_clock::now();
   const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again

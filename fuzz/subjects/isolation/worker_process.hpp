@@ -21,7 +21,8 @@ namespace nearmiss::isolation {
 
 /// The limits of a plug-in.
 struct PluginLimits {
-  /// Computing time for a query, of all threads and processes of the plug-in; ten times as long may pass.
+  /// Limit for the computing time of all threads and processes of the plug-in for a query. Ten times as much
+  /// wall-clock time may pass.
   Duration time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that may pass while it is loaded
@@ -46,7 +47,7 @@ struct WorkerFailure {
   bool goes_on = false;   ///< the worker can be used for other queries
 };
 
-/// The description that a worker wrote of its plug-in, checked; its texts are printable. Throws Error if no
+/// Checks a worker's description of its plug-in, and returns it with printable texts. Throws Error if no
 /// detector can have such a description.
 DetectorInfo info_of(const PluginDescription& about);
 /// The names of all detectors in the shared object. Throws Error.
@@ -81,9 +82,9 @@ class WorkerProcess {
   /// The answer to a query of the batch.
   [[nodiscard]] const PluginAnswer& answer(std::uint32_t i) const { return answers_->of[i]; }
   /// Times in ns that the worker measured in the last call: of the call, or of a query. They are limited to
-  /// the time that the call took. That of a call is at least half of the computing time of all threads and
-  /// processes of the plug-in, because it may have decided each query twice, less what the worker itself may
-  /// compute; but not in the first call.
+  /// the time that the call took. The time of a call is also at least half of the computing time of all
+  /// threads and processes of the plug-in (less what the worker itself may compute); half, because the
+  /// plug-in may have decided each query twice. The first call has no such lower limit.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(answers_->of[i].nanoseconds, Duration{});
@@ -99,7 +100,7 @@ class WorkerProcess {
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
     Duration computing{}, passed{};
-    Duration certain{};  ///< the part of the computing time that is certainly of this time
+    Duration certain{};  ///< the part of the computing time that certainly belongs to this call
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
     /// The limit for work that may compute for this long, and wait for a device or a processor besides.
     static Elapsed with_waiting(Duration computing);
@@ -135,9 +136,9 @@ class WorkerProcess {
   bool is_waiting_ = false;                                         ///< for a call
   std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
   Elapsed elapsed_;                                                 ///< of the last call
-  ComputingTime others_;         ///< of all processes of the worker but the plug-in's
-  bool others_compute_ = false;  ///< a process that the plug-in has started computes
-  Duration least_{};             ///< what the time that was measured in the last call is at least
+  ComputingTime others_;         ///< of all processes of the worker except the plug-in's
+  bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
+  Duration least_{};             ///< the least time that the last call can have taken
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

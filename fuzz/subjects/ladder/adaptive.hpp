@@ -12,7 +12,7 @@ inline constexpr SubjectInfo adaptive_info{
     "adaptive", "wang, whose reports are decided again: by the certified filter, in double-double, exactly"};
 
 /// First, wang decides, which misses nothing. The oracle's certified filter checks wang's reports in double.
-/// Where the filter is undecided, wang:dd decides, which also misses nothing, and exact arithmetic checks the
+/// If the filter is undecided, wang:dd decides, which also misses nothing, and exact arithmetic checks the
 /// reports of wang:dd. So `adaptive` has no misses and no false positives, and its distance bound is 0.
 /// Returns null for any other name.
 std::unique_ptr<Subject> try_make_adaptive(std::string_view name);

@@ -15,7 +15,7 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Values above 0 have another mark.
+  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Each value above 0 has one more mark.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);

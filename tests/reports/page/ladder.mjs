@@ -12,14 +12,15 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
     const points = await fills(`${inPanel} .mark-symbol.role-mark path`);
     assert.equal(points.length, Object.keys(subjects).length);
     assert.equal(new Set(points).size, 2);
-    // One line is the front. Each algorithm has one for the machine's scalars, and one for emulated ones.
+    // One line is the front. Each algorithm has two lines: one for the machine's scalars, and one for
+    // emulated scalars.
     assert.equal(await count(page, `${inPanel} .mark-line path`), 1 + 4);
     const labels = await page.locator(`${inPanel} .mark-text.role-mark text`).evaluateAll((all) => all
       .filter((each) => each.getAttribute("stroke") === null || each.getAttribute("stroke") === "none")
       .map((each) => ({ text: each.textContent, bold: each.getAttribute("font-weight") === "bold", box: each.getBoundingClientRect().toJSON() })));
     assert.deepEqual(labels.filter(({ bold }) => bold).map(({ text }) => text).sort(), front.map((name) => subjects[name].scalar).sort());
     assert.ok(labels.length >= 3 && labels.length <= points.length);
-    // Lines of text are 2 higher than their letters.
+    // The box of a text is 2 pixels higher than its letters.
     const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 2 || b.bottom <= a.top + 2;
     labels.forEach(({ box }, i) => labels.slice(0, i).forEach((other) => assert.ok(apart(box, other.box))));
   }

@@ -13,8 +13,8 @@ void forbid_core_dumps();
 /// undo that where /proc can be written to, that is, without namespaces of their own.
 void be_ended_first_for_want_of_memory();
 
-/// Lets the process and its descendants be at most `more` processes and threads more than their user has now.
-/// The system does not apply this limit to root.
+/// Limits the processes and threads of the user to `more` above their present number. The limit binds this
+/// process and its descendants; the system does not apply it to root.
 void limit_processes(unsigned long more);
 
 }  // namespace nearmiss::isolation

@@ -29,7 +29,9 @@ void note_refusal() {
 
 // These functions replace those of glibc for the plug-in, so that failures are noted. glibc provides the names
 // below for that purpose. (Sanitizers have their own allocators.)
-#if defined(__has_feature)
+#if defined(__SANITIZE_ADDRESS__)
+#define NEARMISS_SANITIZER_ALLOCATES
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define NEARMISS_SANITIZER_ALLOCATES
 #endif

@@ -11,17 +11,18 @@ namespace nearmiss::isolation {
 /// From now on, `flag` becomes 1 whenever malloc(3) or mmap(2) refuse memory to this process.
 void note_refusals_in(std::atomic<std::uint32_t>& flag);
 
-/// Notes a refusal of another function.
+/// Notes that another function was refused memory.
 void note_refusal();
 
-/// Limits the memory that this process, and later those that it starts, may use while the plug-in is loaded:
-/// to twice as much as a query may use, which is `more` bytes; 0 is no limit. Addresses are not limited yet,
-/// because drivers of devices reserve many. No file, on a disk or in memory, may become larger than `more`; to
-/// write more is an error.
+/// Limits the memory that this process may use in addition while the plug-in is loaded: to twice `more`, the
+/// bytes that a query may use; 0 is no limit. Processes that it starts inherit the limit. Addresses are not
+/// limited yet, because drivers of devices reserve many. No file, on a disk or in memory, may become larger
+/// than `more`; to write more is an error.
 void limit_memory_of_loading(std::uint64_t more);
 
-/// Limits the memory that a process may use in addition to what it has after loading. If more than twice
-/// `more` was loaded, because the system does not count static data when it is loaded, less may be left.
+/// Limits the memory that a process may use in addition to what it has after loading. If loading took more
+/// than twice `more`, less may be left; this can happen because the system does not count static data during
+/// loading.
 void limit_memory(pid_t process, std::uint64_t more);
 
 }  // namespace nearmiss::isolation

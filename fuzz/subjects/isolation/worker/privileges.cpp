@@ -100,7 +100,7 @@ class Filter {
 }  // namespace
 
 void drop_privileges() {
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // nor can programs that it starts gain any
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that it starts cannot gain privileges, either
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
   if (syscall(SYS_capget, &header, sets.data()) != 0) return;

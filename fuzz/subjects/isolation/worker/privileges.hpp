@@ -8,10 +8,10 @@ namespace nearmiss::isolation {
 /// supervisor.
 void drop_privileges();
 
-/// Lets this process, and all that it starts, signal no process but this one, change the priority, processors
-/// and limits of no other one, and trace none. Meant for a process without a PID namespace of its own. Call
-/// drop_privileges() first; no privilege is needed. Does nothing if the kernel has no such filters, or on
-/// other machines than x86-64 and AArch64.
+/// Limits this process, and all that it starts: they can send signals only to this process, cannot change the
+/// priority, processors or limits of any other process, and cannot trace any. Meant for a process without a
+/// PID namespace of its own. Call drop_privileges() first; no privilege is needed. Does nothing if the kernel
+/// has no such filters, or on other machines than x86-64 and AArch64.
 void confine_to_itself();
 
 }  // namespace nearmiss::isolation

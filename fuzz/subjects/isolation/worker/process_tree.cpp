@@ -58,7 +58,7 @@ std::set<pid_t> stop_descendants() {
 }  // namespace
 
 void end_descendants() {
-  // Children that have ended already only need to be waited for. It takes long to look for the others.
+  // For children that have already ended, waitpid() is enough. The search for the others takes long.
   const auto any_is_left = [] {
     pid_t ended = 1;
     while (ended > 0) ended = waitpid(-1, nullptr, WNOHANG);

@@ -23,11 +23,11 @@ class Program {
   explicit Program(const std::string& command);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
-  /// Ends its standard input, and waits until it has ended.
+  /// Closes the program's standard input, and waits until the program has ended.
   ~Program();
 
   [[nodiscard]] pid_t process() const { return process_; }
-  /// The program as a detector. A process can have only one.
+  /// The program as a detector. A process can have only one program.
   [[nodiscard]] const nearmiss_subject& subject() const { return description_.subject; }
 
  private:
@@ -51,7 +51,7 @@ class Program {
   void wait_for(int pipe, short event);
   [[nodiscard]] bool has_ended() const;
   void read_errors();
-  /// Ends this process as the program ended.
+  /// Ends this process in the same way as the program ended.
   [[noreturn]] void end_like_it();
 
   std::string command_;

@@ -1,7 +1,7 @@
 // nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
-// never runs the plug-in's code. CODE is a digest of the code that it shares with nearmiss; if it has another
-// one, it refuses to work. The supervisor tells nearmiss how the process ended. When the plug-in's
-// process or nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
+// never runs the plug-in's code. CODE is a digest of the code that the worker shares with nearmiss; a worker
+// with another digest refuses to work. The supervisor tells nearmiss how the process ended. When the
+// plug-in's process or nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
 // other process can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also
@@ -64,7 +64,8 @@ std::optional<siginfo_t> end_of(pid_t process) {
   return end;
 }
 
-/// Waits until a child has ended, and returns how it ended, or until nearmiss has closed the status socket.
+/// Waits until a child has ended or nearmiss has closed the status socket. Returns how the child ended, if it
+/// did.
 std::optional<siginfo_t> watch(pid_t child) {
   const sigset_t wanted = end_of_child();
   const int signals = signalfd(-1, &wanted, SFD_CLOEXEC);
@@ -95,7 +96,7 @@ int run_plugin(const Assignment& work) {
 
 /// The supervisor. Returns only in the plug-in's process.
 int supervise(const Assignment& work) {
-  // Nobody without more privileges may trace it, or take its descriptors.
+  // Only a process with more privileges may trace the supervisor, or take its descriptors.
   prctl(PR_SET_DUMPABLE, 0);
   const pid_t supervisor = getpid();
   const pid_t process = fork();

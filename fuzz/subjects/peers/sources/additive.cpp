@@ -1,5 +1,5 @@
-// Additive CCD (Li, Kaufman and Jiang, "Codimensional incremental potential contact", 2021) as ipc-toolkit
-// has it. Its authors say there that rounding errors can make it miss collisions.
+// Additive CCD (Li, Kaufman and Jiang, "Codimensional incremental potential contact", 2021) as implemented in
+// ipc-toolkit. Its authors say there that rounding errors can make it miss collisions.
 #include <ipc/ccd/additive_ccd.hpp>
 
 #include "fuzz/subjects/peers/sources/eigen.hpp"

@@ -1,8 +1,8 @@
 // The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric
 // modeling", 2011, in the implementation of the Tight-Inclusion authors). It looks for the times at which the
 // distance is equal to a separation, and accepts those at which the squared distance is at most h² + h / 10.
-// With h = 0, that leaves no room for rounding, and it finds next to nothing, so it is always asked with a
-// separation h > 0. It does not notice a distance that is less than h already at t = 0.
+// With h = 0, that leaves no room for rounding, and it finds hardly any collision, so it is always asked with
+// a separation h > 0. It does not notice if the distance is below h already at t = 0.
 #include <minimum_separation_root_finder.hpp>
 
 #include "fuzz/subjects/peers/sources/eigen.hpp"

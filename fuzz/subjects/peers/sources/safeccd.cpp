@@ -1,6 +1,6 @@
-// The code that the author of the 2014 paper published with it (Wang, "Defending continuous collision
-// detection against errors"), through the wrapper of the tree that it is taken from, which computes each
-// pair's own bound B.
+// The code that Wang published with his 2014 paper "Defending continuous collision detection against errors".
+// It is called through a wrapper, which is part of the source tree that the code is taken from, and computes
+// each pair's own bound B.
 //
 // Contact at t = 0 is left to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and case 1 of
 // Vertex_Edge_CCD test the end of the step, and nothing tests its beginning. That is why B "must stay the
@@ -18,7 +18,7 @@ struct Wrapper : SafeCCDWrapper {
 };
 
 Answer decide(const void* /*state*/, int kind, const Question& q) {
-  double t = 0, r = 0, s = 0;  // it uses its weights even if nobody wants them
+  double t = 0, r = 0, s = 0;  // the code uses the weights r and s even if nobody needs them
   const auto test =
       kind == NEARMISS_VERTEX_TRIANGLE ? SafeCCDWrapper::VertexTriangleCCD : SafeCCDWrapper::EdgeEdgeCCD;
   const bool collides =
@@ -41,8 +41,8 @@ nearmiss_subject subject() {
   subject.time_sort = NEARMISS_TIME_ESTIMATE;
   subject.contract.apart_at_start = 1;
   // Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or
-  // vanish. Pairs whose coordinates are multiples of about 1e-50 have a B of at least that, unless all of
-  // their points coincide at all times.
+  // vanish. If all coordinates are multiples of about 1e-50, B is at least 1e-50, too, unless all points of
+  // the pair coincide at all times.
   subject.contract.longest = 1e50;
   subject.contract.grid = 0x1p-166;
   subject.distance_bound = distance_bound;

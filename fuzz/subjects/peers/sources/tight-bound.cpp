@@ -1,6 +1,6 @@
 // Bernstein sign classification with a tight bound of the rounding errors (Wang, Tang, Tong and Manocha,
-// "TightCCD: efficient and robust continuous collision detection using tight error bounds", 2015). Where a
-// sign is not certain, it mostly reports a collision.
+// "TightCCD: efficient and robust continuous collision detection using tight error bounds", 2015). If a sign
+// is uncertain, it reports a collision in most cases.
 #include <cassert>
 // This header contains the whole code, and uses a standard header that it does not include.
 #include <bsc_tightbound.h>

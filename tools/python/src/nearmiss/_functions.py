@@ -67,8 +67,8 @@ def collides(
 ) -> Any:
     """Whether the primitives come within the separation at some t in [0, 1]; 0 asks whether they touch.
 
-    The answer is that of exact arithmetic, even for degenerate, huge and subnormal queries. A smallest
-    distance of exactly the separation is a yes.
+    The answer is that of exact arithmetic, even for degenerate, huge and subnormal queries. If the
+    smallest distance is exactly the separation, the answer is yes.
 
     kind, x:    the queries, as help(nearmiss) describes them
     separation: a number for all queries, or (n,), in the unit of the coordinates

@@ -126,7 +126,7 @@ def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool
 
 
 def _numbers(values: ArrayLike, name: str) -> Coordinates:
-    """The values as an aligned float64 or float32 array. Raises TypeError or ValueError if that rounds."""
+    """The values as an aligned float64 or float32 array. Raises an exception if that would round."""
     array = np.asarray(values)
     if array.dtype not in (np.float64, np.float32):
         if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:
@@ -139,7 +139,7 @@ def _numbers(values: ArrayLike, name: str) -> Coordinates:
 
 
 def _expect_doubles(values: Any, name: str) -> None:
-    """Refuses integers that may not be doubles, even if NumPy has already rounded them to floats."""
+    """Refuses integers that doubles may not represent, even if NumPy has already rounded them."""
     _expect_no_mask(values, name)
     is_exact = True
     if isinstance(values, numbers.Integral):
