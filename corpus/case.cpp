@@ -10,6 +10,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
+#include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss {
@@ -57,10 +58,10 @@ Case parse_case(std::istream& in, const std::string& file) {
   result.name = file;
   bool why_seen = false;
   std::set<std::string, std::less<>> seen;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    const std::string where = fmt::format("{}:{}", file, ++number);
-    const std::string_view text = number == 1 ? without_byte_order_mark(line) : line;
+  LineReader lines(in, file);
+  while (lines.next()) {
+    const std::string where = lines.where();
+    const std::string_view text = lines.text();
     const auto [label, value] = split_line(text);
     if (label.empty()) continue;
     if (label.starts_with('#')) {
@@ -92,10 +93,10 @@ Case parse_case(std::istream& in, const std::string& file) {
     }
   }
   if (!seen.contains("kind"))
-    throw Error(fmt::format("{}:{}: found no kind, expected 'kind vt' or 'kind ee'", file, number));
+    throw Error(fmt::format("{}:{}: found no kind, expected 'kind vt' or 'kind ee'", file, lines.number()));
   for (const auto& label : point_labels)
     if (!seen.contains(label))
-      throw Error(fmt::format("{}:{}: found no {}, expected eight points", file, number, label));
+      throw Error(fmt::format("{}:{}: found no {}, expected eight points", file, lines.number(), label));
   return result;
 }
 

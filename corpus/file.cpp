@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -111,6 +112,29 @@ void expect_regular_file(const fs::path& file) {
   if (const auto status = fs::status(file, error); fs::exists(status) && !fs::is_regular_file(status))
     throw Error(fmt::format("{}: found {}, expected a file", file.string(),
                             fs::is_directory(status) ? "a folder" : "a pipe or a device"));
+}
+
+std::string read_all(std::istream& in, std::string_view name) {
+  std::string text;
+  constexpr std::streamsize step = 1 << 16;
+  do {
+    const std::size_t size = text.size();
+    text.resize(size + step);
+    in.read(text.data() + size, step);
+    text.resize(size + static_cast<std::size_t>(in.gcount()));
+  } while (in);
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
+  return text;
+}
+
+std::string read_whole_file(const fs::path& file) {
+  constexpr std::uintmax_t most_bytes = 1 << 30;  // a sparse file has any size
+  expect_regular_file(file);
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
+  if (const std::uintmax_t bytes = fs::file_size(file); bytes > most_bytes)
+    throw Error(fmt::format("{}: found {} bytes, expected at most {}", file.string(), bytes, most_bytes));
+  return read_all(in, file.string());
 }
 
 }  // namespace nearmiss

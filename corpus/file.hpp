@@ -1,7 +1,10 @@
-// Files: writing them whole or not at all, resolving links, and refusing what is not a regular file.
+// Files: reading them whole, writing them whole or not at all, resolving links, and refusing what is not a
+// regular file.
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
+#include <string>
 #include <string_view>
 
 namespace nearmiss {
@@ -39,5 +42,12 @@ std::filesystem::path true_path(const std::filesystem::path& path);
 /// Throws Error if a path leads to something other than a regular file, such as a pipe or a folder. A path
 /// that leads to nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
+
+/// The whole content of a stream. Throws Error, with this name, if it cannot be read to its end.
+std::string read_all(std::istream& in, std::string_view name);
+
+/// The whole content of a regular file. Throws Error if the file is something else, cannot be read, or has
+/// more than 1 GiB.
+std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -10,6 +10,7 @@
 
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
+#include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/sample_csv.hpp"
 
@@ -73,12 +74,11 @@ void read_cases(const fs::path& path, const CaseSink& sink) {
 }
 
 void read_query_lines(std::istream& in, Kind kind, const std::string& name, const CaseSink& sink) {
-  long number = 0;
   bool any = false;
-  for (std::string line; std::getline(in, line);) {
-    std::string where = fmt::format("{}:{}", name, ++number);
-    std::string_view text = number == 1 ? without_byte_order_mark(line) : line;
-    text = text.substr(0, text.find('#'));
+  LineReader lines(in, name);
+  while (lines.next()) {
+    std::string where = lines.where();
+    const std::string_view text = lines.text().substr(0, lines.text().find('#'));
     if (text.find_first_not_of(" \t\r,") == std::string_view::npos) continue;
     Case each;
     each.query = parse_line(kind, text, where);
@@ -87,7 +87,8 @@ void read_query_lines(std::istream& in, Kind kind, const std::string& name, cons
     sink(std::move(each));
   }
   expect_end(in, name);
-  if (!any) throw Error(fmt::format("{}:{}: found no query, expected 24 numbers a line", name, number));
+  if (!any)
+    throw Error(fmt::format("{}:{}: found no query, expected 24 numbers a line", name, lines.number()));
 }
 
 }  // namespace nearmiss

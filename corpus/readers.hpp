@@ -21,8 +21,8 @@ using CaseSink = std::function<void(Case&&)>;
 ///    double;
 ///  - *.vt, *.ee: one query a line, 24 numbers, or 25 with the separation; '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
-/// with file and line, also for a file that is empty, unreadable or of another format, and for a folder
-/// without a case.
+/// with file and line, also for a file that is empty, unreadable or of another format, for a line of more than
+/// 1 MiB, and for a folder without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
 /// Reads a stream with one query a line. Messages name the file `name`. Throws Error.

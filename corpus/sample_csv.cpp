@@ -10,7 +10,7 @@
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
-#include "corpus/query_text.hpp"
+#include "corpus/line_reader.hpp"
 
 namespace nearmiss {
 
@@ -60,10 +60,10 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
   const Kind kind = kind_of_folder(path);
   Case each;
   std::size_t row = 0;
-  long number = 0;
-  for (std::string line; std::getline(in, line);) {
-    const std::string where = fmt::format("{}:{}", file, ++number);
-    const auto words = split_commas(number == 1 ? without_byte_order_mark(line) : line);
+  LineReader lines(in, file);
+  while (lines.next()) {
+    const std::string where = lines.where();
+    const auto words = split_commas(lines.text());
     if (words.size() == 1 && words[0].empty()) continue;
     if (words.size() != 7) throw Error(fmt::format("{}: found {} columns, expected 7", where, words.size()));
     if (words[6] != "0" && words[6] != "1")
@@ -84,8 +84,9 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
       sink(std::exchange(each, {}));
     }
   }
-  if (row != 0) throw Error(fmt::format("{}:{}: found {} rows for a query, expected 8", file, number, row));
-  if (number == 0) throw Error(fmt::format("{}: found no query", file));
+  if (row != 0)
+    throw Error(fmt::format("{}:{}: found {} rows for a query, expected 8", file, lines.number(), row));
+  if (lines.number() == 0) throw Error(fmt::format("{}: found no query", file));
 }
 
 }  // namespace nearmiss

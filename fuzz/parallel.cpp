@@ -5,15 +5,47 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
+#include <latch>
+#include <system_error>
+#include <vector>
 
 namespace nearmiss {
 
 namespace {
 
-/// Runs a parallel algorithm on `jobs` threads. By default, the library starts at most one thread per core.
+/// Starts threads until there are `jobs`, including the calling one, or until the system has no thread left.
+/// Ends them, and returns their number.
+int try_threads(int jobs) {
+  std::latch all_tried(1);
+  std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(jobs));
+  while (static_cast<int>(threads.size()) + 1 < jobs) {
+    threads.push_back(start_thread([&] { all_tried.wait(); }));
+    if (threads.back().joinable()) continue;
+    threads.pop_back();
+    break;
+  }
+  all_tried.count_down();
+  for (std::thread& each : threads) each.join();
+  return static_cast<int>(threads.size()) + 1;
+}
+
+/// The number of threads, at most `jobs`, that the library can use. If the library cannot start a thread, it
+/// ends the program. Therefore a number that is larger than any before is tried first. The library keeps the
+/// threads that it has started, so smaller numbers need no trial.
+int usable_threads(int jobs) {
+  static std::atomic<int> most = 1;
+  if (most < jobs) most = std::max(most.load(), try_threads(jobs));
+  return std::min(jobs, most.load());
+}
+
+/// Runs a parallel algorithm on at most `jobs` threads. By default, the library starts at most one thread per
+/// core.
 void on_threads(int jobs, const std::function<void()>& algorithm) {
+  jobs = usable_threads(jobs);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   tbb::task_arena(jobs).execute(algorithm);
@@ -43,6 +75,14 @@ class FirstFailure {
 };
 
 }  // namespace
+
+std::thread start_thread(std::function<void()> work) {
+  try {
+    return std::thread(std::move(work));
+  } catch (const std::system_error&) {
+    return {};
+  }
+}
 
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
   on_threads(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });

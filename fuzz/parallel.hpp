@@ -5,11 +5,16 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace nearmiss {
 
-/// Calls work(0) to work(count - 1) on `jobs` threads. An exception is passed on to the caller.
+/// Starts a thread. If the system has no thread left, returns one that is not joinable.
+std::thread start_thread(std::function<void()> work);
+
+/// Calls work(0) to work(count - 1) on `jobs` threads, or on as many as the system can start. An exception is
+/// passed on to the caller.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
 namespace detail {
@@ -18,9 +23,10 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
               const std::function<void(void*)>& take);
 }  // namespace detail
 
-/// Passes items through work(item) on `jobs` threads. next() makes the items until it returns nothing, and
-/// take(item) receives them after the work; both are called in the order of the items, by one thread at a
-/// time. Only a few items for each thread exist at a time. An exception is passed on to the caller.
+/// Passes items through work(item) on `jobs` threads, or on as many as the system can start. next() makes the
+/// items until it returns nothing, and take(item) receives them after the work; both are called in the order
+/// of the items, by one thread at a time. Only a few items for each thread exist at a time. An exception is
+/// passed on to the caller.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

@@ -22,7 +22,7 @@ std::map<std::string, std::string> files_with_contents(const Campaign& campaign,
                                                        const ReportContext& context) {
   const ordered_json json = report_json(campaign, context);
   std::map<std::string, std::string> files{{"index.html", report_page(json)},
-                                           {"report.json", json.dump(1) + "\n"},
+                                           {"report.json", json_text(json, 1) + "\n"},
                                            {"statistics.csv", statistics_csv(campaign.statistics)},
                                            {"classes.csv", classes_csv(campaign.statistics)},
                                            {"distances.csv", distances_csv(campaign.statistics)},

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -45,13 +43,6 @@ BenchRun run_of(const nlohmann::json& json) {
   return run;
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
-  return text;
-}
-
 std::vector<BenchRun> runs_of(const std::string& text, const std::filesystem::path& file) {
   std::vector<BenchRun> runs;
   std::istringstream lines(text);
@@ -82,18 +73,17 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
 }
 
 std::vector<BenchRun> read_history(const std::filesystem::path& file) {
-  expect_regular_file(file);
-  return runs_of(text_of(file), file);
+  return runs_of(read_whole_file(file), file);
 }
 
 void append_to_history(const std::filesystem::path& file, const BenchRun& run) {
   std::string text;
   if (std::filesystem::exists(file)) {
-    text = text_of(file);
+    text = read_whole_file(file);
     runs_of(text, file);  // throws if the file is of another kind
     if (!text.empty() && text.back() != '\n') text += '\n';
   }
-  replace_file(file, text + to_json(run).dump() + '\n');
+  replace_file(file, text + json_text(to_json(run)) + '\n');
 }
 
 }  // namespace nearmiss::tools

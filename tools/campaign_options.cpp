@@ -10,6 +10,7 @@
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "ccd/query/printable.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search/search.hpp"
@@ -116,8 +117,8 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
   if (!options.mesh.empty()) {
     const std::string start = options.mesh.front().string();
     const std::string end = options.mesh.back().string();
-    info["scene"] = start + " " + end;
-    again += fmt::format(" --mesh {} {}", shell_quoted(start), shell_quoted(end));
+    info["scene"] = printable(start + " " + end);
+    again += fmt::format(" --mesh {} {}", printable_argument(start), printable_argument(end));
   }
   info["cases"] = std::string(until_the_time_is_over);
   if (plan.cases != 0) {

@@ -35,7 +35,7 @@ void JsonOutput::expect_other_file(const std::filesystem::path& file) const {
 
 void JsonOutput::write(const nlohmann::ordered_json& json, int indent) const {
   if (!is_wanted()) return;
-  const std::string text = json.dump(indent) + "\n";
+  const std::string text = json_text(json, indent) + "\n";
   if (!is_stdout()) return replace_file(file_, text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw Error(fmt::format("standard output cannot be written: {}", std::strerror(errno)));

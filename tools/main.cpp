@@ -1,6 +1,8 @@
 // nearmiss: the command line.
 #include <fmt/format.h>
+#include <gmp.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -129,7 +131,7 @@ void print_continuation(const CLI::App& command, int argc, char** argv) {
   const CLI::Option* const resume = command.get_option_no_throw("--resume");
   if (store == nullptr || resume == nullptr || store->count() == 0) return;
   std::string again;
-  for (int i = 0; i < argc; ++i) again += " " + nearmiss::shell_quoted(argv[i]);
+  for (int i = 0; i < argc; ++i) again += " " + nearmiss::printable_argument(argv[i]);
   if (resume->count() == 0) again += " --resume";
   std::fputs(("nearmiss: interrupted; to continue:" + again + "\n").c_str(), stderr);
 }
@@ -176,6 +178,28 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
 }
 
+/// Ends the program at once; only results since the last save are lost. An exception would unwind through
+/// number types of CGAL and GMP, which it would leave damaged.
+[[noreturn]] void end_without_memory() {
+  constexpr std::string_view reason = "nearmiss: found too little memory\n";
+  (void)!write(STDERR_FILENO, reason.data(), reason.size());
+  _exit(nearmiss::tools::exit_bad_input);
+}
+
+void* or_end(void* memory) {
+  if (memory == nullptr) end_without_memory();
+  return memory;
+}
+
+/// Ends the program if memory cannot be allocated, by C++ or by GMP, which would abort.
+void end_if_memory_runs_out() {
+  std::set_new_handler(end_without_memory);
+  mp_set_memory_functions(
+      [](std::size_t size) { return or_end(std::malloc(size)); },
+      [](void* old, std::size_t, std::size_t size) { return or_end(std::realloc(old, size)); },
+      [](void* old, std::size_t) { std::free(old); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -187,6 +211,7 @@ int main(int argc, char** argv) {
         "nearmiss: found arithmetic that %s, expected rounding to nearest with subnormals; changed to that\n",
         odd.c_str());
   keep_freed_memory();
+  end_if_memory_runs_out();
   // The arithmetic is set before any thread starts, because a thread inherits it from the thread that starts
   // it.
   const nearmiss::PlainArithmetic plain;

@@ -11,6 +11,7 @@
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/stop.hpp"
 #include "fuzz/trial/so_far.hpp"
 #include "oracle/explanation.hpp"
 #include "reports/json.hpp"
@@ -125,10 +126,11 @@ void Record::begin() {
   store_.emplace(options_.db, info_, shard_);
 }
 
-/// Loads the run in the store as the beginning of this run. Throws Error if the store has another run.
+/// Loads the run in the store as the beginning of this run. Throws Error if the store has another run, and
+/// Stopped at an interrupt.
 void Record::go_on() {
   Campaign before;
-  store_.emplace(options_.db, &before);
+  store_.emplace(options_.db, &before, [] { Stop(interrupted()).check(); });
   saved_ = true;
   Run& run = before.runs.at(0);
   const auto expect = [&](const std::string& what, const std::string& found, const std::string& expected) {
@@ -205,6 +207,8 @@ void Record::add_unasked(const Subjects& subjects) {
 int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
   save_now();
+  store_.reset();
+  end_on_signals();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",

@@ -40,7 +40,8 @@ RunInfo environment();
 class Record {
  public:
   /// Throws Error, before any work is done, if a file cannot be made, or if the store has another run. From
-  /// now on, a signal only sets a flag (stop_on_signals), so that the command saves its results.
+  /// now on, a signal only sets a flag (stop_on_signals), so that the command saves its results. Throws
+  /// Stopped if that happens while the store is read.
   Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
@@ -64,7 +65,8 @@ class Record {
   /// Adds these subjects to the results, including those that could not be asked any query.
   void add_unasked(const Subjects& subjects);
 
-  /// Saves, writes the JSON, prints the summary and the first findings, and returns the exit code.
+  /// Saves, closes the store, prints the summary and the first findings, writes the JSON, and returns the
+  /// exit code. Once everything is saved, a signal ends the program at once (end_on_signals).
   int finish(bool interrupted, bool complete);
 
  private:

@@ -22,11 +22,15 @@ std::atomic<bool> stop{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-extern "C" void on_signal(int /*signal*/) {
+/// Ends the program, unless the signal only repeats one that set the flag.
+extern "C" void end_on_signal(int /*signal*/) {
   constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
-  const std::time_t now = std::time(nullptr);
-  if (!stop.exchange(true)) first_signal = now;
-  if (now - first_signal >= patience) _exit(exit_interrupted);
+  if (std::time(nullptr) - first_signal >= patience) _exit(exit_interrupted);
+}
+
+extern "C" void on_signal(int signal) {
+  if (!stop.exchange(true)) first_signal = std::time(nullptr);
+  end_on_signal(signal);
 }
 
 void handle_interrupts(void (*handler)(int)) {
@@ -67,7 +71,7 @@ void occupy_standard_streams() {
 }
 
 void end_on_signals() {
-  handle_interrupts([](int /*signal*/) { _exit(exit_interrupted); });
+  handle_interrupts(end_on_signal);
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 

@@ -15,7 +15,8 @@ void occupy_standard_streams();
 
 /// Until `stop_on_signals` is called, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code
 /// of an interrupt. Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an
-/// error instead of a signal.
+/// error instead of a signal. Commands call this again when everything is saved, because their output may
+/// wait for a reader forever. Then a signal within two seconds of the one that set the flag is ignored.
 void end_on_signals();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that results can be saved; a second signal, at

@@ -1,8 +1,8 @@
 // libFuzzer target: the readers of OFF, PLY and STL files. Every reader gets every file.
 #include "ccd/query/error.hpp"
+#include "corpus/file.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"
 #include "fuzz/meshes/formats.hpp"
-#include "fuzz/meshes/lines.hpp"
 
 void nearmiss::libfuzzer::read(std::istream& in) {
   const std::string text = read_all(in, "input");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 
 #include "ccd/query/error.hpp"
@@ -35,10 +34,7 @@ Mesh read_mesh(const fs::path& file) {
   if (reader == readers().end())
     throw Error(fmt::format("{}: found the ending '{}', expected .obj, .off, .ply or .stl", file.string(),
                             file.extension().string()));
-  expect_regular_file(file);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
-  return reader->second(read_all(in, file.string()), file.string());
+  return reader->second(read_whole_file(file), file.string());
 }
 
 }  // namespace nearmiss

@@ -13,7 +13,7 @@ namespace nearmiss {
 std::string mesh_ending(const std::filesystem::path& file);
 
 /// Reads a mesh file; its ending, in upper or lower case, gives the format. Throws Error as the reader of the
-/// format does, and if the file cannot be read or has another ending.
+/// format does, and if the file cannot be read, has more than 1 GiB, or has another ending.
 ///
 /// In all formats a byte order mark before text is skipped, polygons become fans of triangles, and nothing
 /// else is changed. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <istream>
 
 #include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
@@ -24,19 +23,6 @@ void split(std::string_view line, std::vector<std::string_view>& words) {
 }
 
 }  // namespace
-
-std::string read_all(std::istream& in, std::string_view name) {
-  std::string text;
-  constexpr std::streamsize step = 1 << 16;
-  do {
-    const std::size_t size = text.size();
-    text.resize(size + step);
-    in.read(text.data() + size, step);
-    text.resize(size + static_cast<std::size_t>(in.gcount()));
-  } while (in);
-  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
-  return text;
-}
 
 Lines::Lines(std::string_view text, std::string_view name, Comments comments, Continuation continuation)
     : rest_(without_byte_order_mark(text)), name_(name), comments_(comments), continuation_(continuation) {}

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,9 +9,6 @@
 #include "ccd/query/error.hpp"
 
 namespace nearmiss {
-
-/// Reads the whole content of a stream. Throws Error if it cannot be read to its end.
-std::string read_all(std::istream& in, std::string_view name);
 
 /// Goes through the lines of a text that contain a word, and splits each line into words at blanks. A byte
 /// order mark at the beginning is skipped. The text must outlive this object.

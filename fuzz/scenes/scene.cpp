@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
 #include "fuzz/meshes/formats.hpp"
 
 namespace nearmiss {
@@ -68,9 +69,9 @@ std::vector<fs::path> mesh_files(const fs::path& folder) {
   return files;
 }
 
-/// The name of a folder, even if the path ends in a slash or a dot.
+/// The printable name of a folder, even if the path ends in a slash or a dot.
 std::string folder_name(const fs::path& folder) {
-  return (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
+  return printable((fs::absolute(folder) / "").lexically_normal().parent_path().filename().string());
 }
 
 /// For each point, the first point in the same place.
@@ -153,7 +154,7 @@ Scene scene_of_files(const fs::path& start, const fs::path& end) {
   Mesh last = read_mesh(end);
   expect_same_primitives(first, start.string(), last, end.string());
   std::vector<std::vector<Vector3<double>>> points{first.points, std::move(last.points)};
-  return {.name = start.stem().string(),
+  return {.name = printable(start.stem().string()),
           .frames = 2,
           .mesh = std::move(first),
           .points = [points = std::move(points)](std::size_t frame) { return points.at(frame); }};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fuzz/parallel.hpp"
 #include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
@@ -46,7 +47,7 @@ void Shrinking::add(const Finding& finding, std::size_t nth) {
     waiting_.emplace(Priority{finding.query_class, nth, number}, Task{number, finding});
   }
   has_changed_.notify_all();
-  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  if (!thread_.joinable()) thread_ = start_thread([this] { work(); });  // else tried again later
 }
 
 std::map<std::size_t, Finding> Shrinking::take() {
@@ -135,15 +136,27 @@ void Shrinking::rest() {
 
 void Shrinking::finish(const std::function<void()>& report) {
   std::vector<std::thread> others;
+  others.reserve(static_cast<std::size_t>(jobs_));
   const auto end = [&] {
-    for (std::thread& each : others) each.join();
+    for (std::thread& each : others)
+      if (each.joinable()) each.join();
     if (thread_.joinable()) thread_.join();
   };
   std::unique_lock lock(mutex_);
   is_hurried_ = true;
-  hurrying_ = jobs_;
+  hurrying_ = thread_.joinable() ? 1 : 0;
   has_changed_.notify_all();
-  for (int i = thread_.joinable() ? 1 : 0; i < jobs_; ++i) others.emplace_back([this] { work_hurriedly(); });
+  while (hurrying_ < jobs_) {
+    others.push_back(start_thread([this] { work_hurriedly(); }));
+    if (!others.back().joinable()) break;
+    ++hurrying_;
+  }
+  if (hurrying_ == 0) {  // the system has no thread left
+    ++hurrying_;
+    lock.unlock();
+    work_hurriedly();
+    lock.lock();
+  }
   try {
     while (hurrying_ != 0) {
       has_changed_.wait_for(lock, std::chrono::milliseconds(100));

@@ -140,7 +140,7 @@ class SameFailure {
       subject_.decide(queries, verdicts);
       for (std::size_t i = 0; i < queries.size(); ++i)
         if (fails(queries[i], verdicts[i])) return i;
-    } catch (const isolation::PluginChanged&) {
+    } catch (const isolation::TrialError&) {
       throw;
     } catch (const Error&) {  // the subject refuses the queries
     }

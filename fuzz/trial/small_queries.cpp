@@ -180,7 +180,7 @@ bool ask(const Subject& subject, std::span<const SmallQuery> asked, std::vector<
   try {
     subject.decide(queries, verdicts);
     return true;
-  } catch (const isolation::PluginChanged&) {
+  } catch (const isolation::TrialError&) {
     throw;
   } catch (const Error&) {
     return false;

@@ -64,7 +64,7 @@ std::string make_nonce() {
 /// JSON for a script element, with "<" escaped: the browser would take "</script" for its end.
 std::string inside_script(const nlohmann::ordered_json& json) {
   std::string text;
-  for (const char c : json.dump()) {
+  for (const char c : json_text(json)) {
     if (c == '<')
       text += "\\u003c";
     else

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string_view>
 
@@ -19,6 +20,7 @@ namespace nearmiss {
 namespace {
 
 namespace fs = std::filesystem;
+using Check = std::function<void()>;
 
 constexpr std::uint64_t only_run = 0;
 
@@ -71,8 +73,8 @@ void count_findings(Campaign& campaign) {
 }
 
 /// Reads the intact part of an open store.
-Salvage read_intact(SQLite::Database& db) {
-  Reader read(db);
+Salvage read_intact(SQLite::Database& db, const Check& check = {}) {
+  Reader read(db, check);
   Salvage salvage{read_campaign(read), read.rows(), ""};
   if (read.lost().empty()) return salvage;
   for (const auto& [table, lost] : read.lost()) salvage.lost += (salvage.lost.empty() ? "" : ", ") + lost;
@@ -127,7 +129,7 @@ std::string locked_log(const fs::path& file, const std::exception& error) {
 }
 
 /// Reads a store of this version. If it is damaged, the Error also says how much a salvage would save.
-Campaign read_store(const fs::path& file, bool checks_structure) {
+Campaign read_store(const fs::path& file, bool checks_structure, const Check& check = {}) {
   expect_regular_file(file);
   return naming(file, [&] {
     try {
@@ -135,7 +137,7 @@ Campaign read_store(const fs::path& file, bool checks_structure) {
       const SQLite::Transaction one_save(db);  // another process may save meanwhile
       expect_store(db);
       if (checks_structure) check_structure(db);
-      Salvage whole = read_intact(db);
+      Salvage whole = read_intact(db, check);
       if (!whole.lost.empty()) throw Damage("some rows are not as they were saved");
       return std::move(whole.campaign);
     } catch (const std::exception& error) {
@@ -222,8 +224,9 @@ Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
   database_->change([&](Save& save) { write_campaign(save, {{{info, {shard}, {}}}, {}}); });
 }
 
-Store::Store(const fs::path& file, Campaign* found) : database_(std::make_unique<Database>(file)) {
-  Campaign whole = read_store(file, true);
+Store::Store(const fs::path& file, Campaign* found, const Check& check)
+    : database_(std::make_unique<Database>(file)) {
+  Campaign whole = read_store(file, true, check);
   naming(file, [&] {
     if (whole.runs.size() != 1 || whole.runs.front().shards.size() != 1)
       throw Error("found several shards or runs, expected one to continue");
@@ -270,6 +273,7 @@ Campaign load_campaigns(std::span<const fs::path> files) {
 }
 
 Salvage salvage_campaign(const fs::path& file) {
+  expect_regular_file(file);
   return naming(file, [&] {
     SQLite::Database db = open_to_read(file);
     db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
@@ -285,8 +289,10 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
   refuse_existing(file);
   PartFile part(file);
   naming(file, [&] {
-    Connection connection(part.path(), SQLite::OPEN_CREATE);
-    Save save(connection.db);
+    SQLite::Database db(part.path().string(), SQLite::OPEN_READWRITE);
+    // Nobody else sees the file yet, so it needs no log. A log might hold what the disk has no room for.
+    db.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL;");
+    Save save(db);
     write_campaign(save, campaign);
     save.commit();
   });

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,8 +32,10 @@ class Store {
   /// Makes a new file. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
   /// Opens a file to resume its run. Throws Error unless the file is a store of one shard of one run, and no
-  /// other process writes it. If `found` is given, it receives the contents of the file.
-  explicit Store(const std::filesystem::path& file, Campaign* found = nullptr);
+  /// other process writes it. If `found` is given, it receives the contents of the file. If `check` is given,
+  /// it is called before each row is read, and may end the reading by an exception.
+  explicit Store(const std::filesystem::path& file, Campaign* found = nullptr,
+                 const std::function<void()>& check = {});
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();

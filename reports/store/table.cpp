@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numeric>
 #include <system_error>
+#include <utility>
 
 #include "reports/sha256.hpp"
 #include "reports/text/json_file.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 using nlohmann::json;
 using Take = std::function<void(const json& key, const json& value)>;
+using Check = std::function<void()>;
 
 constexpr int application_id = 0x6e656172;  // "near"
 constexpr const char* contents_table = "contents";
@@ -38,12 +40,20 @@ std::string schema() {
   return text;
 }
 
+/// Whether there is a table with this name, not a view. No view is expanded: that of a hostile store may need
+/// endless time, even if nothing reads it.
+bool is_table(SQLite::Database& db, const std::string& name) {
+  const int result = sqlite3_table_column_metadata(db.getHandle(), "main", name.c_str(), nullptr, nullptr,
+                                                   nullptr, nullptr, nullptr, nullptr);
+  if (result != SQLITE_OK && result != SQLITE_ERROR) throw SQLite::Exception(db.getHandle(), result);
+  return result == SQLITE_OK;
+}
+
 /// Whether SQLite would read a table's columns from the file. In a hostile store, they may be computed instead,
 /// by a view over an endless recursion, for example.
 bool is_plain(SQLite::Database& db, const std::string& table) {
-  SQLite::Statement kind(db, fmt::format("PRAGMA table_list({})", table));
-  if (!kind.executeStep() || kind.getColumn("type").getString() != "table") return false;
-  SQLite::Statement column(db, fmt::format("PRAGMA table_xinfo({})", table));
+  if (!is_table(db, table)) return false;
+  SQLite::Statement column(db, fmt::format("PRAGMA main.table_xinfo({})", table));
   for (const char* name : {"key", "value", "checksum"})
     if (!column.executeStep() || column.getColumn("name").getString() != name ||
         column.getColumn("hidden").getInt() != 0)
@@ -97,8 +107,9 @@ class Limits {
 };
 
 /// Passes the intact rows of a plain table to `take`. `last` is the largest row id to try. Rows are never
-/// removed singly, so n rows have the ids 1 to n.
-Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take) {
+/// removed singly, so n rows have the ids 1 to n. `check`, if given, is called before each row.
+Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take,
+                     const Check& check = {}) {
   Contents found;
   Limits limits(bytes_of(db));
   // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be
@@ -116,6 +127,7 @@ Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64
   SQLite::Statement only_id = where_id("rowid");
   last = std::min(last, limits.rows());
   for (std::uint64_t id = 1; id <= last; ++id) {
+    if (check) check();
     if (!has(row, id)) {
       if (row.getErrorCode() == SQLITE_CORRUPT && has(only_id, id) && !limits.fail()) break;
       continue;
@@ -180,7 +192,7 @@ void expect_store(SQLite::Database& db) {
   if (found != schema()) throw Damage("found other tables than those of a store");
 }
 
-Reader::Reader(SQLite::Database& db) : db_(db) {
+Reader::Reader(SQLite::Database& db, Check check) : db_(db), check_(std::move(check)) {
   const auto bytes = static_cast<int>(std::min(bytes_of(db), std::uint64_t{most_bytes}));
   sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, bytes);
   try {
@@ -198,7 +210,7 @@ void Reader::read(const std::string& table, const Take& take) {
   try {
     if (is_plain(db_, table)) {
       last = last_row(db_, table);
-      found = read_intact(db_, table, std::max(last, saved.rows), take);
+      found = read_intact(db_, table, std::max(last, saved.rows), take, check_);
     }
   } catch (const SQLite::Exception&) {  // its definition is lost
   }

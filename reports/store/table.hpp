@@ -57,7 +57,8 @@ using ContentsByTable = std::map<std::string, Contents>;
 /// Reads the intact rows of a store, which are those that match their checksums, and notes which are lost.
 class Reader {
  public:
-  explicit Reader(SQLite::Database& db);
+  /// `check`, if given, is called before each row is read, and may end the reading by an exception.
+  explicit Reader(SQLite::Database& db, std::function<void()> check = {});
 
   /// Puts the intact rows of a table into a map. Throws Error for a value that this version does not know.
   template <class Map>
@@ -77,6 +78,7 @@ class Reader {
             const std::function<void(const nlohmann::json& key, const nlohmann::json& value)>& take);
 
   SQLite::Database& db_;
+  std::function<void()> check_;
   ContentsByTable contents_;
   std::uint64_t rows_ = 0;
   std::map<std::string, std::string> lost_;
@@ -116,7 +118,7 @@ class Save {
   static Rows rows_of(const Map& map) {
     Rows rows;
     for (const auto& [key, value] : map)
-      rows.emplace_back(nlohmann::json(key).dump(), nlohmann::json(value).dump());
+      rows.emplace_back(json_text(nlohmann::json(key)), json_text(nlohmann::json(value)));
     return rows;
   }
 

@@ -48,3 +48,13 @@ requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) struct ad
 };
 
 }  // namespace nlohmann
+
+namespace nearmiss {
+
+/// JSON as text. Each byte of a string that is no UTF-8, such as in the name of a file, becomes U+FFFD.
+template <class Json>
+std::string json_text(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace nearmiss

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "corpus/file.hpp"
 #include "reports/text/json.hpp"
 
 namespace nearmiss {
@@ -34,9 +32,7 @@ std::string plain_message(const std::exception& error) {
 
 void read_json_file(const std::filesystem::path& file, std::string_view expected,
                     const std::function<void(const nlohmann::ordered_json&)>& take) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
+  const std::string text = read_whole_file(file);
   try {
     take(parse_json<nlohmann::ordered_json>(text));
   } catch (const std::exception& error) {

@@ -19,8 +19,9 @@ Json parse_json(std::string_view text);
 /// "[json.exception.type_error.302]".
 std::string plain_message(const std::exception& error);
 
-/// Reads a file and passes its content to `take`. Throws Error if the file cannot be read, if it is not JSON,
-/// or if `take` throws an exception; the message contains `expected`.
+/// Reads a file and passes its content to `take`. Throws Error if the file is not a regular file, cannot be
+/// read, or has more than 1 GiB. Also throws Error if it is not JSON, or if `take` throws an exception; the
+/// message then contains `expected`.
 void read_json_file(const std::filesystem::path& file, std::string_view expected,
                     const std::function<void(const nlohmann::ordered_json&)>& take);
 

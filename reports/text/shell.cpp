@@ -1,5 +1,9 @@
 #include "reports/text/shell.hpp"
 
+#include <fmt/format.h>
+
+#include "ccd/query/printable.hpp"
+
 namespace nearmiss {
 
 std::string shell_quoted(const std::string& argument) {
@@ -8,6 +12,16 @@ std::string shell_quoted(const std::string& argument) {
   if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
   std::string quoted = "'";
   for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string printable_argument(const std::string& argument) {
+  if (printable(argument) == argument) return shell_quoted(argument);
+  std::string quoted = "$'";
+  for (const char c : argument) {
+    const bool is_plain = c >= ' ' && c <= '~' && c != '\'' && c != '\\';
+    quoted += is_plain ? std::string(1, c) : fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+  }
   return quoted + "'";
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "corpus/file.hpp"
+#include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"
 #include "tests/queries.hpp"
 #include "tests/refused.hpp"
@@ -213,6 +214,15 @@ TEST_F(Files, ReadsAFolderInOrderAndIgnoresOtherFiles) {
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_THAT(cases[0].name, HasSubstr("first.vt:1"));
   EXPECT_THAT(cases[1].name, HasSubstr("second.ee:1"));
+}
+
+TEST_F(Files, MayHaveLongLinesButNotEndlessOnes) {
+  const std::string longest(most_line_bytes, ' ');
+  const std::string query = to_line(testing::falling_vertex(0.5, 0.25, 1, -1));
+  EXPECT_EQ(read_all(write("a.vt", query + '\n' + longest + '\n' + query)).size(), 2);
+  for (const std::string name : {"a.vt", "a.case", "edge-edge/a.csv"})
+    expect_error(write(name, '\n' + longest + ' '),
+                 name + ":2: found a line of more than 1048576 bytes, expected a shorter one");
 }
 
 /// An open file.

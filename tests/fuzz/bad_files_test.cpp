@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "tests/fuzz/mesh_files.hpp"
 #include "tests/refused.hpp"
@@ -17,6 +18,14 @@ TEST_F(BadFilesTest, WhatCannotBeReadIsRefused) {
     EXPECT_REFUSED(read_mesh(file(std::string("none") + ending)), ": cannot be read");
     std::filesystem::create_directory(file(std::string("folder") + ending));
     EXPECT_REFUSED(read_mesh(file(std::string("folder") + ending)), ": found a folder, expected a file");
+  }
+}
+
+TEST_F(BadFilesTest, FilesThatAreTooLargeAreRefused) {
+  for (const char* ending : {".obj", ".off", ".ply", ".stl"}) {
+    const auto sparse = write(std::string("sparse") + ending, "");
+    resize_file(sparse, std::uintmax_t{1} << 31);
+    EXPECT_REFUSED(read_mesh(sparse), ": found 2147483648 bytes, expected at most 1073741824");
   }
 }
 

@@ -2,14 +2,19 @@
 #include <gmock/gmock.h>
 
 #include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "fuzz/subjects/isolation/fault_texts.hpp"
@@ -151,6 +156,52 @@ TEST(Isolation, ClosingThatNeverReturnsIsEnded) {
   const CopiedPlugin copied("closes_never");
   EXPECT_TRUE(make_isolated_plugin(copied.path())->decide(queries().front()).hit);
   EXPECT_EQ(copied.processes(), 0);
+}
+
+// Where a part of /proc is hidden, as in containers, the system lets nobody mount a new one.
+TEST(Isolation, DoesNotNeedAProcOfItsOwn) {
+  const std::string hidden =
+      "unshare -rmpf --mount-proc sh -c 'mount -t tmpfs none /proc/fs && exec unshare -rm \"$@\"' sh ";
+  if (std::system((hidden + "true 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "found no namespaces";
+  const std::string tests = std::filesystem::read_symlink("/proc/self/exe").string() +
+                            " --gtest_filter=Isolation.TellsWhetherABoundIsClaimed:ProgramTest.SaysWhat*";
+  EXPECT_EQ(std::system((hidden + tests + " >/dev/null").c_str()), 0);
+}
+
+/// A process and its descendants.
+std::vector<pid_t> tree_of(pid_t root) {
+  std::vector<pid_t> tree{root};
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    const std::string process = std::to_string(tree[i]);
+    std::ifstream children("/proc/" + process + "/task/" + process + "/children");
+    for (pid_t child = 0; children >> child;) tree.push_back(child);
+  }
+  return tree;
+}
+
+// The plug-in computes for an eighth of a second per query, and 4 s of wall-clock time may pass.
+TEST(Isolation, TimeInWhichEverythingIsSuspendedDoesNotCount) {
+  std::array<int, 2> ready{};
+  ASSERT_EQ(pipe(ready.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::milliseconds(400)});
+    if (write(ready[1], "", 1) != 1) _exit(1);
+    const auto verdicts = answers_of(*subject, std::vector<Query>(8));
+    _exit(std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& each) { return each.hit; }) ? 0
+                                                                                                      : 1);
+  }
+  char byte = 0;
+  EXPECT_EQ(read(ready[0], &byte, 1), 1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::vector<pid_t> all = tree_of(child);
+  for (const pid_t process : all) kill(process, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(4500));
+  for (const pid_t process : all) kill(process, SIGCONT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  for (const int end : ready) close(end);
 }
 
 TEST(FaultTexts, AreAThousandWhoseNumbersStay) {

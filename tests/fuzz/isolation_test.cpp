@@ -1,11 +1,16 @@
 // Plug-ins in worker processes. Whatever a plug-in does at one query, all other queries are answered.
 #include <gmock/gmock.h>
 #include <sched.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -236,6 +241,47 @@ TEST(Isolation, ACrashThatDoesNotRepeatCounts) {
     for (const Verdict& verdict : answers_of(*subject, one_batch(40))) ++answers[verdict.fault];
   EXPECT_GE(answers[Fault::crash], 3);
   EXPECT_EQ(answers[Fault::crash] + answers[Fault::none], 800);
+}
+
+/// For a scope, this process can open no more files, and so can start no worker.
+class NoFiles {
+ public:
+  NoFiles() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    const int next = dup(STDERR_FILENO);
+    close(next);
+    const rlimit limit{static_cast<rlim_t>(next), before_.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+  NoFiles(const NoFiles&) = delete;
+  NoFiles& operator=(const NoFiles&) = delete;
+  ~NoFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Isolation, WhereNoWorkerCanBeStartedNoPluginIsToBlame) {
+  setenv("NEARMISS_ONE_IN", "1", 1);
+  const auto subject = make_isolated_plugin(plugin("crash"));
+  std::optional<NoFiles> lack(std::in_place);
+  std::thread relief([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    lack.reset();
+  });
+  for (const Verdict& verdict : answers_of(*subject, one_batch(3))) EXPECT_EQ(verdict.fault, Fault::crash);
+  relief.join();
+  unsetenv("NEARMISS_ONE_IN");
+}
+
+TEST(Isolation, AStopDoesNotWaitForAWorkerThatDoesNotStart) {
+  const std::atomic<bool> requested = true;
+  const Stop stop(requested);
+  setenv("NEARMISS_ONE_IN", "1", 1);
+  setenv("LD_PRELOAD", plugin("sleep_while_loaded").c_str(), 1);
+  EXPECT_THROW(make_isolated_plugin(plugin("example"), {.stop = &stop}), Stopped);
+  unsetenv("LD_PRELOAD");
+  unsetenv("NEARMISS_ONE_IN");
 }
 
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {

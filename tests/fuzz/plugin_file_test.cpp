@@ -5,13 +5,31 @@
 #include <link.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "reports/sha256.hpp"
 #include "tests/plugins.hpp"
 #include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
+
+namespace {
+
+std::atomic<bool> clock_is_late{false};
+
+}  // namespace
+
+// Replaces time(2) in this executable.
+extern "C" time_t time(time_t* seconds) noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  const time_t result = now.tv_sec - (clock_is_late ? 3600 : 0);
+  if (seconds != nullptr) *seconds = result;
+  return result;
+}
 
 namespace nearmiss {
 namespace {
@@ -128,6 +146,28 @@ TEST_F(PluginFileTest, IsReadWithoutAStandardInput) {
   EXPECT_NO_THROW(isolation::PluginFile(file("p.so").string()));
   dup2(input, STDIN_FILENO);
   close(input);
+}
+
+/// The number of bytes that this process has read from files.
+std::uint64_t bytes_read() {
+  std::ifstream counts("/proc/self/io");
+  std::string rchar;
+  std::uint64_t bytes = 0;
+  counts >> rchar >> bytes;
+  return bytes;
+}
+
+TEST_F(PluginFileTest, IsReadOnceEvenIfOurClockIsBehindThatOfItsFileSystem) {
+  replace("example");
+  const auto size = fs::file_size(file("p.so"));
+  clock_is_late = true;
+  const isolation::PluginFile plugin_file(file("p.so").string());
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+  plugin_file.expect_unchanged(Stop::never());
+  const std::uint64_t before = bytes_read();
+  plugin_file.expect_unchanged(Stop::never());
+  EXPECT_LT(bytes_read() - before, size);
+  clock_is_late = false;
 }
 
 TEST_F(PluginFileTest, HasAtMostTwoGibibytes) {

@@ -158,6 +158,8 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
       {"nearmiss 2\\nname p\\nbatch 1e30\\n", "found '1e30', expected a whole number"},
       {"nearmiss 2\\nname p\\nbatch inf\\n", "found 'inf', expected a whole number"},
       {"nearmiss 2\\nnames p\\n", "found the line 'names'"},
+      {"nearmiss 2\\nname a\\0b\\nkinds vt\\n", "found a NUL character in 'name a?b', expected text"},
+      {"nearmiss 2\\nname a\\nname b\\nkinds vt\\n", "found the line 'name' twice, expected it once"},
       {"nearmiss 2\\nname p\\nkinds vt\\nlongest inf\\n",
        "found 'p' with limits of lengths that no length meets, or that are not finite"},
       {"nearmiss 2\\nname a/p\\nkinds vt\\n", "found the name 'a/p' with ':', '=', '/' or ','"}};

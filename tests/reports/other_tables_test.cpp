@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <filesystem>
+
 #include "reports/text/json.hpp"
 #include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
@@ -17,6 +20,10 @@ class OtherTables : public testing::TemporaryFolder {
   template <class Load>
   void expect_refusal(const Load& load, const std::string& expected) {
     EXPECT_REFUSED(load(file("none.json")), "none.json: cannot be read");
+    EXPECT_REFUSED(load(file("")), ": found a folder, expected a file");
+    std::filesystem::resize_file(write("sparse.json", ""), std::uintmax_t{1} << 31);
+    EXPECT_REFUSED(load(file("sparse.json")),
+                   "sparse.json: found 2147483648 bytes, expected at most 1073741824");
     for (const char* text :
          {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
           "[{\"subject\": \"a\", \"flags\": \"b\"}]",

@@ -142,6 +142,20 @@ TEST_F(StoreTest, WaitsForReadersWhenItIsOpened) {
   EXPECT_EQ(load_campaign(file("a.db")).statistics, some_statistics("wang"));
 }
 
+TEST_F(StoreTest, ItsReadingCanBeEnded) {
+  struct Ended {};
+  { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
+  Campaign found;
+  int rows = 0;
+  const auto end_at_the_third_row = [&] {
+    if (++rows == 3) throw Ended();
+  };
+  EXPECT_THROW(Store(file("a.db"), &found, end_at_the_third_row), Ended);
+  EXPECT_EQ(rows, 3);
+  Store(file("a.db"), &found);  // no lock is left
+  EXPECT_EQ(found.statistics, some_statistics("wang"));
+}
+
 TEST_F(StoreTest, IsWrittenByOneAtATimeUnderAnyName) {
   {
     const Store store(file("a.db"), info, shard);

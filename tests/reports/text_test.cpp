@@ -52,6 +52,11 @@ TEST(Shell, QuotesWhatItMust) {
     EXPECT_EQ(shell_words(shell_quoted(word)), std::vector<std::string>{word});
 }
 
+TEST(Shell, EscapesBytesThatAreNotPrintable) {
+  EXPECT_EQ(printable_argument("my plugin"), "'my plugin'");
+  EXPECT_EQ(printable_argument("it's M\xe4\\\n.case"), "$'it\\047s M\\344\\134\\012.case'");
+}
+
 TEST(Text, ACommandIsDividedAsAShellDividesIt) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(shell_words("  python3 \t a.py  "), (Words{"python3", "a.py"}));

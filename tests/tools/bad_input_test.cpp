@@ -46,6 +46,9 @@ TEST_F(CommandLine, FilesThatAreNone) {
     expect_refused("scene x.obj x.obj --db new.db", {"x.obj: " + found});
     expect_refused("fuzz --cases 10 --mesh x.obj x.obj --db new.db", {"x.obj: " + found});
     expect_refused("report x.db -o new", {"x.db: " + found});
+    expect_refused("merge new.db x.db --salvage", {"x.db: " + found});
+    expect_refused("bench --history x.db", {"x.db: " + found});
+    expect_refused("power --json x.db", {"x.db: " + found});
   }
 }
 

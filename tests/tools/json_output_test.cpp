@@ -55,5 +55,32 @@ TEST_F(JsonToStdout, IsAnErrorIfItCannotBeWritten) {
               HasSubstr("nearmiss: standard output cannot be written: No space left on device\n"));
 }
 
+/// "M?", where the second character is a byte that is no UTF-8.
+const std::string no_utf8 = "M\xe4";
+
+TEST_F(JsonToStdout, OfFilesWhoseNamesAreNoUtf8) {
+  write(no_utf8 + "/q.vt", hit);
+  write(no_utf8 + "1.obj", two_triangles("1"));
+  write(no_utf8 + "2.obj", two_triangles("-1"));
+  std::filesystem::create_directory(file("N\xe4"));
+  std::filesystem::copy_file(file(no_utf8 + "/q.vt"), file("N\xe4/q.vt"));
+  const std::string quoted = "'" + no_utf8 + "'";
+  EXPECT_EQ(json_of("replay " + quoted + " 'N\xe4' --db a.db", "no miss in")["oracle"]["total"]["queries"],
+            2);
+  EXPECT_THAT(std::string(report_of("a.db")["runs"][0]["again"]), HasSubstr("replay $'M\\344' $'N\\344' "));
+  const std::string mesh = " " + quoted + "1.obj " + quoted + "2.obj ";
+  EXPECT_EQ(json_of("scene" + mesh + "--db b.db", "scene:M?")["scenes"].size(), 1);
+  const std::string fuzz = "fuzz --cases 100 --mesh" + mesh + "--family mesh --db c.db --resume";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(json_of(fuzz, "no miss in")["oracle"]["total"]["queries"], 100);
+  EXPECT_EQ(json_of("bench " + quoted + "/q.vt --queries 5 --runs 1 --history h.json", "ns/query").size(), 1);
+}
+
+TEST_F(JsonToStdout, APluginWhoseNameIsNoUtf8IsRefused) {
+  std::filesystem::copy_file(plugin("example"), file(no_utf8 + ".so"));
+  for (const std::string command : {"fuzz --cases 100 --db new.db", "bench --json new.json"})
+    expect_refused(command + " --subject './" + no_utf8 + ".so'",
+                   {"--subject: found './M?.so', expected a path in UTF-8"});
+}
+
 }  // namespace
 }  // namespace nearmiss

@@ -65,6 +65,18 @@ TEST_F(CommandLine, APluginThatUsesUpTheMemoryOfACgroupEndsAlone) {
               1000);
 }
 
+TEST_F(CommandLine, TooLittleMemoryIsReportedOnOneLine) {
+  constexpr int cannot_load = 127;  // the exit code of the dynamic linker
+  bool is_reported = false;
+  for (int kilobytes = 30'000; kilobytes <= 44'000; kilobytes += 1000) {
+    const Output output = run("replay " NEARMISS_CORPUS " --subject basic --jobs 2",
+                              "ulimit -v " + std::to_string(kilobytes) + ";");
+    EXPECT_THAT(output.code, ::testing::AnyOf(0, 1, 2, cannot_load)) << kilobytes << output.error;
+    is_reported |= output.error == "nearmiss: found too little memory\n";
+  }
+  EXPECT_TRUE(is_reported);
+}
+
 TEST_F(CommandLine, AFileInMemoryIsLimited) {
   expect_code(0,
               "fuzz --cases 100 --family uniform --query-memory 50M --subject " + plugin("eat_file") +

@@ -1,4 +1,5 @@
 // Tests the command line with failures during the work.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -131,6 +132,27 @@ TEST_F(CommandLine, AFullDiskLeavesNoPartOfAStoreWithoutResults) {
   EXPECT_EQ(read("left.txt"), "");
 }
 
+TEST_F(CommandLine, AMergeOnASmallDiskIsCompleteOrLeavesNothing) {
+  if (std::system("unshare -rm true 2>/dev/null") != 0) GTEST_SKIP() << "found no permission to mount a disk";
+  expect_code(1, "fuzz --quiet --cases 4000 --subject basic,wang --db a.db");
+  expect_code(1, "merge whole.db a.db");
+  for (const std::uintmax_t percent : {50, 90, 110, 150}) {
+    SCOPED_TRACE(percent);
+    std::filesystem::remove_all(file("disk"));
+    // The content of the disk, which exists as long as the shell runs, is copied to the folder "left".
+    const std::string with_disk = fmt::format(
+        "rm -rf left; unshare -rm sh -c 'mkdir disk && mount -t tmpfs -o size={} none disk && "
+        "\"$@\"; code=$?; cp -r disk left; exit $code' sh",
+        std::filesystem::file_size(file("whole.db")) * percent / 100);
+    const bool fits = percent > 100;
+    const Output output = expect_code(fits ? 1 : 2, "merge disk/new.db a.db", with_disk);
+    EXPECT_EQ(output.error, fits ? "" : "nearmiss: disk/new.db: database or disk is full\n");
+    EXPECT_EQ(read("left/new.db"), fits ? read("whole.db") : "");
+    std::filesystem::remove(file("left/new.db"));
+    EXPECT_TRUE(std::filesystem::is_empty(file("left")));
+  }
+}
+
 TEST_F(CommandLine, AFullDiskLeavesNoPartOfAnExport) {
   const Output output = expect_code(2, "scene spikes@400 --subject wang --export pairs", "ulimit -f 8;");
   EXPECT_THAT(output.error, HasSubstr("cannot be written"));
@@ -188,6 +210,31 @@ TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
       process.stop(signal);
       EXPECT_EQ(process.code(), 130) << command;
     }
+}
+
+TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
+  ASSERT_EQ(mkfifo(file("unread").c_str(), 0600), 0);
+  write("hit.vt", hit);
+  Background replay(file(""), "replay hit.vt --subject wang --db a.db --json unread");
+  ASSERT_TRUE(replay.wait_until([&] { return !read("out.txt").empty(); })) << read("error.txt");
+  replay.send(SIGTERM);
+  const int reader = open(file("unread").c_str(), O_RDONLY | O_NONBLOCK);  // ends a command that still waits
+  (void)replay.wait_until([] { return false; });
+  close(reader);
+  EXPECT_EQ(replay.code(), 130) << read("error.txt");
+  EXPECT_EQ(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 1);
+}
+
+TEST_F(CommandLine, ACampaignNeedsNoMoreThreadsThanTheSystemStarts) {
+  // The address space for the stacks of threads is limited here. A thread of TBB has a stack of 4 MB.
+  const std::string campaign = "fuzz --subject basic --family planted-ulp --cases 3000 --json a.json --jobs ";
+  for (const std::string before :
+       {"ulimit -s 8192; ulimit -v 4000000;", "ulimit -s 2000000; ulimit -v 4000000;"}) {
+    expect_code(1, campaign + "1500", before);
+    const json limited = read_json("a.json");
+    expect_code(1, campaign + "2");
+    EXPECT_EQ(read_json("a.json")["oracle"], limited["oracle"]) << before;
+  }
 }
 
 TEST_F(CommandLine, ATimeLimitCountsTheCollectingOfPairs) {

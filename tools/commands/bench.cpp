@@ -8,6 +8,7 @@
 #include <map>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
@@ -74,7 +75,7 @@ Input family_input(std::string_view name, std::uint64_t count, const SeparationO
 Input file_input(const std::filesystem::path& path, const SeparationOption& separation) {
   const auto whole = path.lexically_normal();
   const auto last = (whole.has_filename() ? whole : whole.parent_path()).filename();
-  Input input{named(last.string(), separation), {}};
+  Input input{named(printable(last.string()), separation), {}};
   read_cases(path, [&](const Case& each) {
     const Query query = separation.apply(each.query);
     if (boxes_meet(query)) input.queries[query.kind].push_back(query);
@@ -241,6 +242,11 @@ int run(const Options& options) {
     for (const Input& input : inputs) time_input(subjects, input, options.runs, stop, out, results);
   } catch (const Stopped&) {  // the inputs that were timed before the stop are still reported
   }
+  if (!options.history.empty() && !stop.is_requested()) {
+    results.run.about.merge(run_info("bench"));
+    append_to_history(options.history, results.run);
+  }
+  end_on_signals();
   fmt::print(
       out,
       "\nQueries whose swept boxes meet. ns/query: without waiting for a processor, less that of an empty "
@@ -248,10 +254,6 @@ int run(const Options& options) {
       "median of {} runs, the subjects in turn in each; {}: median of the ratios within a run.\n",
       options.runs, over);
   options.json.write({{"results", results.json}});
-  if (!options.history.empty() && !stop.is_requested()) {
-    results.run.about.merge(run_info("bench"));
-    append_to_history(options.history, results.run);
-  }
   return stop.is_requested() ? exit_interrupted : options.fail_on.exit_code(results.answered);
 }
 

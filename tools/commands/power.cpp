@@ -204,6 +204,7 @@ int run(const Options& options) {
       if (!stored.empty()) options.json.write(hunts_json(results));
     }
   }
+  end_on_signals();
   if (options.json.is_stdout()) options.json.write(hunts_json(results));
   fmt::print(options.json.text(), "{}", table(results, ways));
   return interrupted() ? exit_interrupted : exit_fine;

@@ -1,6 +1,7 @@
 // nearmiss replay: lets subjects decide recorded cases.
 #include <fmt/format.h>
 
+#include "ccd/query/printable.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/trial/trial_stream.hpp"
 #include "reports/text/shell.hpp"
@@ -30,7 +31,7 @@ struct Options {
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
-  return folder.filename().string() + "/";
+  return printable(folder.filename().string()) + "/";
 }
 
 int run(const Options& options) {
@@ -40,7 +41,7 @@ int run(const Options& options) {
   for (const fs::path& path : options.paths)  // checks all files before anything is written
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
-  for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
+  for (const fs::path& path : options.paths) command += " " + printable_argument(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
   if (!options.bound.empty()) note_option(info, "bound", "--bound", options.bound);
   if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
@@ -57,7 +58,7 @@ int run(const Options& options) {
       // A recorded truth does not hold for another separation.
       const Query query = options.separation.apply(each.query);
       stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
-                 [name = each.name] { return name; });
+                 [name = each.name] { return printable(name); });
       ++count;
       with_separation += query.separation > 0 ? 1 : 0;
       if (progress.due())

@@ -27,7 +27,7 @@ std::string load_audit(const std::filesystem::path& file) {
   read_json_file(file, "what nearmiss audit --json keeps", [&](const nlohmann::ordered_json& json) {
     for (const char* table : {"constants", "tolerances"})
       json.at(table).get_ref<const nlohmann::ordered_json::array_t&>();  // throws if it is not a list
-    text = json.dump();
+    text = json_text(json);
   });
   return text;
 }

@@ -104,7 +104,7 @@ class Export {
 /// The options that the results of a run depend on, and the command that repeats the run.
 RunInfo run_info(const Options& options, const SceneSubjects& all) {
   std::string command = "scene";
-  for (const std::string& each : options.scene) command += " " + shell_quoted(each);
+  for (const std::string& each : options.scene) command += " " + printable_argument(each);
   RunInfo info = options.trial.run_info(command, all.subjects);
   info["again"] +=
       fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);

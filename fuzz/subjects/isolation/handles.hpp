@@ -11,13 +11,13 @@
 #include <new>
 #include <utility>
 
-#include "ccd/query/error.hpp"
+#include "fuzz/subjects/isolation/trial_error.hpp"
 
 namespace nearmiss::isolation {
 
-/// Throws Error with the system's reason if something failed.
+/// Throws NoWorker with the system's reason if something failed.
 inline void check(bool fine, const char* what) {
-  if (!fine) throw Error(fmt::format("no worker process: {}: {}", what, std::strerror(errno)));
+  if (!fine) throw NoWorker(fmt::format("no worker process: {}: {}", what, std::strerror(errno)));
 }
 
 /// Closes a file descriptor.
@@ -46,7 +46,7 @@ class Descriptor {
 template <class Content>
 class SharedMemory {
  public:
-  /// `others_may_write`: whether other processes can write to it. Throws Error.
+  /// `others_may_write`: whether other processes can write to it. Throws NoWorker.
   explicit SharedMemory(bool others_may_write)
       : file_(memfd_create("nearmiss-worker", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
     check(file_.number() >= 0 && ftruncate(file_.number(), sizeof(Content)) == 0, "memory");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <mutex>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -237,18 +239,34 @@ class IsolatedPlugin final : public BatchSubject {
     constexpr int most_failed = 3;
     if (failed_starts_ >= most_failed) return nullptr;
     try {
-      auto worker = std::make_unique<WorkerProcess>(*code_, limits_);
+      auto worker = new_worker();
       if (worker->info() != info_)
         throw Error(code_->name() + ": the plug-in says something else about itself than before");
       failed_starts_ = 0;
       return worker;
-    } catch (const isolation::PluginChanged&) {
+    } catch (const isolation::TrialError&) {
       throw;
     } catch (const Error& error) {
       const std::lock_guard lock(mutex_);
       why_not_loaded_ = error.what();
       ++failed_starts_;
       return nullptr;
+    }
+  }
+
+  /// Starts a worker, as soon as the system has room for one. Throws NoWorker if that takes too long.
+  std::unique_ptr<WorkerProcess> new_worker() const {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::seconds patience(10);
+    constexpr std::chrono::milliseconds pause(10);
+    for (const auto until = Clock::now() + patience;;) {
+      try {
+        return std::make_unique<WorkerProcess>(*code_, limits_);
+      } catch (const isolation::NoWorker&) {
+        if (Clock::now() >= until) throw;
+      }
+      limits_.stop->check(Stop::grace);
+      std::this_thread::sleep_for(pause);
     }
   }
 

@@ -18,7 +18,8 @@ namespace nearmiss {
 /// detectors and the name does not say which.
 ///
 /// All answers come from the same bytes. If a file is changed, calls throw isolation::PluginChanged, and the
-/// answers of the call that was under way are not used.
+/// answers of the call that was under way are not used. If the system starts no worker for ten seconds, they
+/// throw isolation::NoWorker.
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 

@@ -32,23 +32,21 @@ PluginFile::Stamp PluginFile::stamp_of(const struct stat& about) {
   return {about.st_dev, about.st_ino, about.st_size, about.st_mtim, about.st_ctim};
 }
 
-struct PluginFile::Snapshot {
-  Stamp stamp;     ///< of the file before it was read
-  bool is_recent;  ///< whether the stamp was recent when it was taken
-};
-
 PluginFile::PluginFile(std::string path) : path_(std::move(path)) {
   std::string bytes;
-  const Snapshot reading = read([&](std::string_view piece) { bytes += piece; });
+  last_ = read([&](std::string_view piece) { bytes += piece; });
   sha256_ = sha256_hex(bytes);
   build_id_ = gnu_build_id(bytes);
-  stamp_ = reading.stamp;
-  is_recent_ = reading.is_recent;
 }
 
-bool PluginFile::is_recent(const Stamp& stamp) {
-  constexpr time_t coarsest_tick = 2;  // seconds, on FAT
-  return std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick;
+PluginFile::Snapshot PluginFile::snapshot_of(const Stamp& stamp) const {
+  constexpr std::chrono::seconds coarsest_tick(2);  // on FAT
+  const auto now = std::chrono::steady_clock::now();
+  const auto first_seen = stamp == last_.stamp ? last_.first_seen : now;
+  // The clock of the file system may be ahead of ours, so it is enough, too, to have waited for a tick.
+  const bool is_recent =
+      std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick.count() && now <= first_seen + coarsest_tick;
+  return {stamp, first_seen, is_recent};
 }
 
 PluginFile::Snapshot PluginFile::read(const std::function<void(std::string_view)>& take) const {
@@ -61,7 +59,7 @@ PluginFile::Snapshot PluginFile::read(const std::function<void(std::string_view)
   if (!S_ISREG(about.st_mode)) refuse("found no regular file");
   if (about.st_size > most_bytes)
     refuse(fmt::format("found {} bytes, expected a shared object of at most 2 GiB", about.st_size));
-  const Snapshot reading{stamp_of(about), is_recent(stamp_of(about))};
+  const Snapshot reading = snapshot_of(stamp_of(about));
   std::array<char, 1 << 16> block{};
   while (true) {
     const ssize_t size = ::read(file.number(), block.data(), block.size());
@@ -75,7 +73,7 @@ void PluginFile::expect_unchanged(const Stop& stop) const {
   const std::lock_guard lock(mutex_);
   struct stat about {};
   const bool exists = stat(path_.c_str(), &about) == 0;
-  if (exists && stamp_of(about) == stamp_ && !is_recent_) return;
+  if (exists && stamp_of(about) == last_.stamp && !last_.is_recent) return;
   const auto refuse = [&](const std::string& found) {
     throw PluginChanged(
         fmt::format("{}: the plug-in was changed while it was on trial: found {}, expected the file with "
@@ -89,8 +87,7 @@ void PluginFile::expect_unchanged(const Stop& stop) const {
     bytes.add(piece);
   });
   if (const std::string found = bytes.hex_digest(); found != sha256_) refuse("sha256 " + found);
-  stamp_ = reading.stamp;
-  is_recent_ = reading.is_recent;
+  last_ = reading;
 }
 
 }  // namespace nearmiss::isolation

@@ -3,20 +3,21 @@
 
 #include <sys/stat.h>
 
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
 
-#include "ccd/query/error.hpp"
 #include "fuzz/stop.hpp"
+#include "fuzz/subjects/isolation/trial_error.hpp"
 
 namespace nearmiss::isolation {
 
 /// The file of a plug-in was changed while its answers were collected.
-class PluginChanged : public Error {
+class PluginChanged : public TrialError {
  public:
-  using Error::Error;
+  using TrialError::TrialError;
 };
 
 /// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not
@@ -47,19 +48,23 @@ class PluginFile {
 
     bool operator==(const Stamp& other) const;
   };
-  struct Snapshot;
+  /// What is known when the bytes are read.
+  struct Snapshot {
+    Stamp stamp;                                       ///< of the file before it was read
+    std::chrono::steady_clock::time_point first_seen;  ///< of the stamp
+    /// Whether the file could be written again without a change of its stamp, because the clock of the file
+    /// system may not have ticked since.
+    bool is_recent;
+  };
 
   static Stamp stamp_of(const struct stat& about);
   /// Reads the whole file, and passes its bytes to `take`, piece by piece.
   [[nodiscard]] Snapshot read(const std::function<void(std::string_view)>& take) const;
-  /// Whether the file could be written again without a change of its stamp, because the clock of the file
-  /// system may not have ticked since.
-  static bool is_recent(const Stamp& stamp);
+  [[nodiscard]] Snapshot snapshot_of(const Stamp& stamp) const;
 
   std::string path_, sha256_, build_id_;
   mutable std::mutex mutex_;
-  mutable Stamp stamp_;  ///< when the bytes were last read
-  mutable bool is_recent_ = false;
+  mutable Snapshot last_{};  ///< when the bytes were last read
 };
 
 /// The GNU build id of an ELF file, in hexadecimal; "" if it has none.

@@ -93,7 +93,7 @@ bool is_ready(int file, milliseconds time) {
   return ready > 0;
 }
 
-void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
+void Supervisor::start(std::vector<std::string> arguments, const Files& files, const Stop& stop) {
   SocketPair status;
   const int wanted = 1;
   check(setsockopt(status.ours.number(), SOL_SOCKET, SO_PASSCRED, &wanted, sizeof wanted) == 0, "socket");
@@ -109,14 +109,24 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
   }
   status_ = std::move(status.ours);
   status.theirs.close();
-  if (!learns_process())
-    throw Error(fmt::format(
+  if (!learns_process(stop))
+    throw NoWorker(fmt::format(
         "no worker process: {} does not start one, or is not of the same build as nearmiss", program));
 }
 
-bool Supervisor::learns_process() {
-  constexpr milliseconds patience(60'000);
-  if (!is_ready(status_.number(), patience)) return false;
+bool Supervisor::hears_from_worker(const Stop& stop) const {
+  constexpr std::chrono::seconds patience(60);
+  constexpr milliseconds look_again(10);
+  const auto until = steady_clock::now() + patience;
+  while (!is_ready(status_.number(), look_again)) {
+    stop.check(Stop::grace);
+    if (steady_clock::now() >= until) return false;
+  }
+  return true;
+}
+
+bool Supervisor::learns_process(const Stop& stop) {
+  if (!hears_from_worker(stop)) return false;
   Status first{};
   iovec content{&first, sizeof first};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(ucred))> control{};
@@ -139,6 +149,7 @@ bool Supervisor::learns_process() {
 Supervisor::~Supervisor() {
   if (worker_ <= 0) return;
   dismiss();
+  if (process_ <= 0) kill(worker_, SIGKILL);  // it has not begun, and may never notice the dismissal
   constexpr int tries = 2000;
   for (int i = 0; i < tries; ++i) {
     if (waitpid(worker_, nullptr, WNOHANG) != 0) return;

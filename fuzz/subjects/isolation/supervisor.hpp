@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/stop.hpp"
 #include "fuzz/subjects/isolation/handles.hpp"
 
 namespace nearmiss::isolation {
@@ -15,7 +16,7 @@ namespace nearmiss::isolation {
 struct SocketPair {
   Descriptor ours, theirs;
 
-  /// Throws Error.
+  /// Throws NoWorker.
   SocketPair();
 };
 
@@ -36,8 +37,8 @@ class Supervisor {
   ~Supervisor();
 
   /// Returns when the plug-in's process exists. That process then waits for a request to load the plug-in.
-  /// Throws Error.
-  void start(std::vector<std::string> arguments, const Files& files);
+  /// Throws NoWorker, and Stopped if `stop` is due meanwhile.
+  void start(std::vector<std::string> arguments, const Files& files, const Stop& stop);
   /// Begins to end all processes. The destructor waits until they have ended.
   void dismiss() { status_.close(); }
 
@@ -50,7 +51,9 @@ class Supervisor {
 
  private:
   /// Receives the first message.
-  [[nodiscard]] bool learns_process();
+  [[nodiscard]] bool learns_process(const Stop& stop);
+  /// Waits for the first message; false if none comes.
+  [[nodiscard]] bool hears_from_worker(const Stop& stop) const;
 
   Descriptor status_;
   pid_t worker_ = -1;  ///< the child of nearmiss

@@ -103,7 +103,8 @@ class WorkerProcess::Watch {
     const Duration ended = worker_.others_.ended - others_.ended;
     const Duration certain =
         own + (knew_others_ ? running + std::max(Duration{}, ended - clock_tick()) : Duration{});
-    return {std::max(Duration{}, own + running + ended), steady_clock::now() - start_, certain};
+    const Duration passed = steady_clock::now() - start_ - (worker_.suspended_ - suspended_);
+    return {std::max(Duration{}, own + running + ended), passed, certain};
   }
 
  private:
@@ -111,6 +112,7 @@ class WorkerProcess::Watch {
   Duration own_ = worker_.own_computing();
   ComputingTime others_ = worker_.others_;
   bool knew_others_ = worker_.others_compute_;
+  Duration suspended_ = worker_.suspended_;
   steady_clock::time_point start_ = steady_clock::now();
 };
 
@@ -152,7 +154,7 @@ void WorkerProcess::start(const std::string& plugin) {
   SocketPair replies;
   replies_ = std::move(replies.ours);
   supervisor_.start({plugin, std::to_string(limits_.bytes), limits_.own_namespace ? "1" : "0"},
-                    {replies.theirs.number(), questions_.file(), answers_.file()});
+                    {replies.theirs.number(), questions_.file(), answers_.file()}, *limits_.stop);
 }
 
 void WorkerProcess::load(const std::string& plugin) {
@@ -243,6 +245,7 @@ WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query,
 
 WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
+  constexpr Duration longest_turn = milliseconds(100);
   constexpr int most_looking = 10;  // at most a tenth of the time: there may be hundreds of processes
   constexpr std::uint64_t calls_between_looks = 16;
   const bool looks =
@@ -254,20 +257,24 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   // If the worker is dead or does not read, no reply comes.
   static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
   std::optional<Watch> query_watch(watch);
+  auto turn = steady_clock::now();
   while (true) {
     std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {supervisor_.socket(), POLLIN, 0}}};
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
     limits_.stop->check(Stop::grace);
-    if (spoke ? looks : steady_clock::now() >= next_look) {
-      const auto start = steady_clock::now();
+    const auto now = steady_clock::now();
+    // If nearmiss could not look for longer, the plug-in may have been suspended, too.
+    if (!spoke) suspended_ += std::max(Duration{}, Duration(now - turn) - longest_turn);
+    turn = now;
+    if (spoke ? looks : now >= next_look) {
       look_at_others();
-      next_look = start + most_looking * (steady_clock::now() - start);
+      next_look = now + most_looking * (steady_clock::now() - now);
     }
     elapsed_ = watch.elapsed();
     if (spoke)
       if (const auto end = end_of(call.number)) return *end;
-    if (const std::uint32_t now = answers_->calls; now != calls) {
-      calls = now;
+    if (const std::uint32_t begun = answers_->calls; begun != calls) {
+      calls = begun;
       query_watch.emplace(*this);
     } else if (query_watch->elapsed().exceeds(of_query)) {
       return End::query_late;

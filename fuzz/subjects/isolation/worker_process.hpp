@@ -56,7 +56,7 @@ std::vector<std::string> names_of(const PluginDescription& about);
 /// A running worker. It cannot be used after a call failed, unless the failure says so.
 class WorkerProcess {
  public:
-  /// Throws Error if the plug-in cannot be used, PluginChanged, and Stopped.
+  /// Throws Error if the plug-in cannot be used, NoWorker, PluginChanged, and Stopped.
   WorkerProcess(const PluginCode& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -99,7 +99,8 @@ class WorkerProcess {
 
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
-    Duration computing{}, passed{};
+    Duration computing{};
+    Duration passed{};   ///< without the time during which nearmiss was suspended
     Duration certain{};  ///< the part of the computing time that certainly belongs to this call
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
     /// The limit for work that may compute for this long, and wait for a device or a processor besides.
@@ -138,6 +139,7 @@ class WorkerProcess {
   Elapsed elapsed_;                                                 ///< of the last call
   ComputingTime others_;         ///< of all processes of the worker except the plug-in's
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
+  Duration suspended_{};         ///< during all calls so far
   Duration least_{};             ///< the least time that the last call can have taken
   DetectorInfo info_;
   std::vector<std::string> names_;

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 namespace nearmiss::isolation {
@@ -82,8 +83,16 @@ struct Memory {
   rlim_t data = 0;       ///< what it can write to, and shares with nobody
 };
 
+/// The folder in /proc of this process or of its only child, a program. /proc may be that of another PID
+/// namespace, where processes have other numbers.
+std::string folder_of(pid_t process) {
+  if (process == getpid()) return "/proc/self";
+  std::ifstream("/proc/thread-self/children") >> process;
+  return "/proc/" + std::to_string(process);
+}
+
 Memory memory_of(pid_t process) {
-  std::FILE* const statm = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "r");
+  std::FILE* const statm = std::fopen((folder_of(process) + "/statm").c_str(), "r");
   unsigned long addresses = 0, data = 0;
   if (statm == nullptr || std::fscanf(statm, "%lu %*u %*u %*u %*u %lu", &addresses, &data) != 2) _exit(1);
   std::fclose(statm);

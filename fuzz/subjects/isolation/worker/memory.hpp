@@ -20,9 +20,9 @@ void note_refusal();
 /// than `more`; to write more is an error.
 void limit_memory_of_loading(std::uint64_t more);
 
-/// Limits the memory that a process may use in addition to what it has after loading. If loading took more
-/// than twice `more`, less may be left; this can happen because the system does not count static data during
-/// loading.
+/// Limits the memory that this process, or its only child, may use in addition to what it has after loading.
+/// If loading took more than twice `more`, less may be left; this can happen because the system does not
+/// count static data during loading.
 void limit_memory(pid_t process, std::uint64_t more);
 
 }  // namespace nearmiss::isolation

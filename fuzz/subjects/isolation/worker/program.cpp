@@ -20,6 +20,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
+constexpr int look_again_ms = 5;
 constexpr std::size_t numbers_per_query = 25;  // 24 coordinates and the separation
 
 /// The program that the functions of a nearmiss_subject ask.
@@ -104,7 +105,7 @@ void Program::start(const std::string& command) {
   const Pipe in;
   const Pipe out;
   const Pipe errors;
-  process_ = fork();
+  while ((process_ = fork()) < 0 && errno == EAGAIN) poll(nullptr, 0, look_again_ms);  // too many processes
   if (process_ == 0) become(command, in, out, errors);
   if (process_ < 0) throw Error("cannot start a program");
   std::signal(SIGPIPE, SIG_IGN);
@@ -170,7 +171,6 @@ void Program::read_all(void* data, std::size_t size) {
 }
 
 void Program::wait_for(int pipe, short event) {
-  constexpr int look_again_ms = 5;
   std::array<pollfd, 2> pipes{{{pipe, event, 0}, {errors_, POLLIN, 0}}};
   const nfds_t count = errors_ >= 0 ? pipes.size() : 1;
   const bool ended = has_ended();

@@ -2,10 +2,12 @@
 
 #include <charconv>
 #include <cstdint>
+#include <set>
 #include <string_view>
 #include <vector>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
 
 namespace nearmiss::isolation {
 
@@ -90,6 +92,7 @@ ProgramDescription ProgramDescription::parse(const std::string& text) {
   const std::string version = "nearmiss " + std::to_string(NEARMISS_INTERFACE);
   ProgramDescription description;
   description.subject.interface_version = NEARMISS_INTERFACE;
+  std::set<std::string> keys;
   std::size_t at = text.find('\n') + 1;
   if (text.substr(0, at) != version + "\n")
     throw Error("found '" + text.substr(0, at - 1) + "', expected '" + version + "'");
@@ -98,7 +101,11 @@ ProgramDescription ProgramDescription::parse(const std::string& text) {
     const std::string line = text.substr(at, end - at);
     at = end + 1;
     const std::size_t blank = line.find(' ');
-    read_line(line.substr(0, blank), blank == std::string::npos ? "" : line.substr(blank + 1), description);
+    const std::string key = line.substr(0, blank);
+    if (line.find('\0') != std::string::npos)
+      throw Error("found a NUL character in '" + printable(line) + "', expected text");
+    if (!keys.insert(key).second) throw Error("found the line '" + key + "' twice, expected it once");
+    read_line(key, blank == std::string::npos ? "" : line.substr(blank + 1), description);
   }
   return description;
 }
