@@ -12,6 +12,7 @@
 
 #include "fuzz/families/families.hpp"
 #include "fuzz/random.hpp"
+#include "fuzz/trial/certified.hpp"
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
@@ -153,6 +154,16 @@ TEST(Certificate, ATieIsProvedIfItsTimeIsRational) {
   EXPECT_FALSE(certify_meets(query, {}, true));
   EXPECT_FALSE(certify_apart(query, {}, true));
   expect_apart(query, {}, false);
+}
+
+TEST(Certificate, AWrongDecisionHasNone) {
+  for (const char* family : {"uniform", "planted", "near-separation"}) {
+    const Query query = make_query(find_family(family), 1, 0);
+    Decision decision = decide(query);
+    EXPECT_EQ(certificate_disagreement(query, decision), "");
+    decision.collision = !decision.collision;
+    EXPECT_EQ(certificate_disagreement(query, decision), "certificate (refused)");
+  }
 }
 
 TEST(Certificate, NothingFalseIsProved) {
