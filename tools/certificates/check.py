@@ -190,7 +190,7 @@ if __name__ == '__main__':
             with open(0 if name == '-' else name, 'rb') as file:
                 for i, line in enumerate(file.readlines() or [b''], 1):
                     try:
-                        statuses.append(check(line) and 0)
+                        statuses.append(check(line.rstrip(b'\n')) and 0)
                     except Refused as error:
                         statuses.append(2 if str(error).startswith('unreadable') else 1)
                         if '-q' not in sys.argv:
