@@ -28,8 +28,8 @@ using certificates::is_nowhere_negative;
 using certificates::is_positive;
 using certified::ClosestFeatures;
 
-constexpr int most_tries = 100'000;  ///< of a normal in an interval
-constexpr int most_depth = 1'200;
+constexpr int most_tries = 500'000;  ///< of a normal in an interval
+constexpr int most_depth = 8'000;
 constexpr int depth_of_doubles = 50;  ///< below it, doubles tell which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
 
