@@ -17,6 +17,7 @@ inline constexpr int exit_interrupted = 130;
 // `exit_code`.
 void add_demo(CLI::App& app, int& exit_code);
 void add_oracle(CLI::App& app, int& exit_code);
+void add_certify(CLI::App& app, int& exit_code);
 void add_verdict(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_family(CLI::App& app, int& exit_code);

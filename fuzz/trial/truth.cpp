@@ -8,6 +8,7 @@
 #include "ccd/subjects/subject.hpp"
 #include "ccd/wang/pair_bound.hpp"
 #include "fuzz/families/classify.hpp"
+#include "fuzz/trial/certified.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"
 #include "reports/statistics/statistics.hpp"
@@ -24,6 +25,7 @@ Answers Truth::ask_methods() const {
 std::string Truth::disagreement(const Answers& answers) const {
   std::string text = answers.disagreement(decision_.by_filter());
   if (text.empty() && has_time()) text = time_disagreement(query_);
+  if (text.empty()) text = certificate_disagreement(query_, decision_);
   return disagreement_signature(query_.kind, text);
 }
 

@@ -30,8 +30,8 @@ class Truth {
   /// Whether there is an earliest time: a collision, or a distance of exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement of these answers with the decision, or about the earliest time. "" if
-  /// they agree.
+  /// The signature of a disagreement of these answers with the decision, or about the earliest time, or of a
+  /// missing or refused certificate. "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.

@@ -29,6 +29,8 @@ class OnInterval {
   /// p must not be the zero polynomial.
   OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
 
+  /// The numbers, of which there is one more than the degree.
+  [[nodiscard]] const Numbers& coefficients() const { return c_; }
   [[nodiscard]] int changes() const { return sign_changes(c_); }
   /// The sign on the open interval, if the coefficients show it; else 0.
   [[nodiscard]] int only_sign() const;

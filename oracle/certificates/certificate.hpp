@@ -1,0 +1,31 @@
+// Certificates: proofs of what the oracle says about a query, which a short program checks with fractions. README.md
+// in tools/certificates/ describes their form.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "ccd/query/query.hpp"
+
+namespace nearmiss {
+
+/// The part [from, to] of the step that a certificate is about, with 0 <= from <= to <= 1.
+struct Span {
+  double from = 0;
+  double to = 1;
+  bool is_open = false;  ///< `to` itself is left out; allowed for certify_apart() only
+};
+
+/// Proof that the distance is always above the query's separation h in a part of the step; or, unless
+/// `is_strict`, that it is never below h > 0. Nothing if that is wrong, or if no proof is found.
+std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict = true);
+
+/// Proof that the distance is at most the query's separation h at some time in a part of the step; or, if
+/// `is_strict`, that it is below h > 0. Nothing if that is wrong, or if no proof is found.
+std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false);
+
+/// The certificate of decide(query). If the smallest distance is exactly h > 0, it proves that the distance is at most h.
+/// Nothing if no proof is found.
+std::optional<std::string> certify(const Query& query);
+
+}  // namespace nearmiss

@@ -1,0 +1,31 @@
+// Certificates as text: JSON with all numbers as strings.
+#pragma once
+
+#include <string>
+
+#include "ccd/query/query.hpp"
+#include "oracle/certificates/certificate.hpp"
+#include "oracle/exact/polynomial.hpp"
+
+namespace nearmiss::certificates {
+
+/// "3", "0x1.8p-3", or "p/q" if it is no double.
+std::string to_text(const exact::Number& x);
+
+/// The beginning of a certificate, up to the keys that only one claim has: {"kind": ..., "to": ...
+std::string heading(const Query& query, const char* claim, const Span& span);
+
+/// "key":[a,b,...], each element given by text(element).
+template <class List, class Text>
+std::string list(const List& elements, const Text& text) {
+  std::string result = "[";
+  for (const auto& each : elements) {
+    if (result.size() > 1) result += ',';
+    result += text(each);
+  }
+  return result + "]";
+}
+
+inline std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+}  // namespace nearmiss::certificates

@@ -1,0 +1,38 @@
+// Checks certificates: lines of JSON, each of which proves one claim about two moving primitives.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace certificates {
+
+/// What a line proves. Vertices are at (1 - t) x0 + t x1, exactly. dist(t) is the distance at time t of the
+/// primitives A and B, which are closed points, segments or triangles, degenerate ones included.
+///   apart: dist(t) > h for all t in [from, to]; not strict: dist(t) >= h; open: only for t in [from, to).
+///   meets: dist(t) <= h for some t in [from, to]; strict: dist(t) < h.
+struct Statement {
+  std::string kind;       ///< "vv", "ve", "vt" or "ee"
+  std::vector<double> x;  ///< x, y, z of the vertices of A, then of B, at t = 0; then all of them at t = 1
+  double h;               ///< the separation, at least 0
+  std::string claim;      ///< "apart" or "meets"
+  mpq_class from, to;     ///< 0 <= from <= to <= 1
+  bool open, strict;
+  bool operator==(const Statement&) const = default;
+};
+
+struct Refused : std::runtime_error {  ///< the line proves nothing; what() says why
+  using std::runtime_error::runtime_error;
+};
+struct Unreadable : Refused {  ///< the line is not even a JSON object
+  using Refused::Refused;
+};
+
+/// Returns what the line proves, or throws Refused. The caller must compare the statement with what he asked,
+/// because a line may prove something true about another query or another interval.
+Statement check(std::string_view line);
+
+}  // namespace certificates
