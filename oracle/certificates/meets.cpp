@@ -100,7 +100,7 @@ class Meeting {
   }
 
  private:
-  static constexpr int most_refinements = 12;
+  static constexpr int most_refinements = 40;
 
   [[nodiscard]] bool is_within(const mpq_class& squared_distance) const {
     return is_strict_ ? squared_distance < squared_h_ : squared_distance <= squared_h_;
@@ -225,6 +225,8 @@ constexpr unsigned most_bits_after = 5'000;  ///< of a time at which the distanc
 
 std::optional<std::string> certify_contact(const Query& query, const Span& span) {
   Meeting meeting(query, span, false);
+  if (span.from < span.to)
+    if (auto text = meeting.bracket(span.from, span.to)) return text;
   if (const auto known = time_of_contact(query)) {
     if (known->is_between && known->time.lo < known->time.hi)
       if (auto text = meeting.wide_bracket(known->time)) return text;

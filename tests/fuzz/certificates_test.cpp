@@ -156,6 +156,15 @@ TEST(Certificate, ATieIsProvedIfItsTimeIsRational) {
   expect_apart(query, {}, false);
 }
 
+TEST(Certificate, ProvesATimeFarBelowOneThatIsIrrational) {
+  const Query query{.kind = Kind::edge_edge, .x = {-0x1p1010, 0,        0, 0,        0, 1, 0, 0, 0, 0, 1, 1,
+                                                   0,         0x1p1010, 0, 0x1p1010, 0, 0, 0, 0, 0, 0, 0, 1}};
+  const Enclosure t = earliest_time(query)->enclosure();  // about 2^-505
+  ASSERT_LT(t.lo, t.hi);
+  expect_apart(query, {0, t.lo, true}, true);
+  expect_meets(query, {t.lo, t.hi}, false);
+}
+
 TEST(Certificate, AWrongDecisionHasNone) {
   for (const char* family : {"uniform", "planted", "near-separation"}) {
     const Query query = make_query(find_family(family), 1, 0);
