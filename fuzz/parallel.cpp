@@ -17,20 +17,22 @@ namespace nearmiss {
 namespace {
 
 /// Starts threads until there are `jobs`, including the calling one, or until the system has no thread left.
-/// Ends them, and returns their number.
+/// Ends them, and returns their number, or half of it if the system had no thread left: other processes may
+/// start some in the meantime, and the system counts a thread for a while after its end.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;
   threads.reserve(static_cast<std::size_t>(jobs));
-  while (static_cast<int>(threads.size()) + 1 < jobs) {
+  bool are_left = true;
+  while (are_left && static_cast<int>(threads.size()) + 1 < jobs) {
     threads.push_back(start_thread([&] { all_tried.wait(); }));
-    if (threads.back().joinable()) continue;
-    threads.pop_back();
-    break;
+    are_left = threads.back().joinable();
+    if (!are_left) threads.pop_back();
   }
   all_tried.count_down();
   for (std::thread& each : threads) each.join();
-  return static_cast<int>(threads.size()) + 1;
+  const int started = static_cast<int>(threads.size()) + 1;
+  return are_left ? started : (started + 1) / 2;
 }
 
 /// The number of threads, at most `jobs`, that the library can use. If the library cannot start a thread, it
