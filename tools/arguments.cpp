@@ -48,9 +48,8 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
       command, "--compare", comparison.one_in, 1, most_queries,
       fmt::format(
           "Compare the oracle's exact methods, and check certificates of its answers, on one query in N, "
-          "and on {} times as large a part of the queries that its filter leaves undecided; 1 "
-          "compares all. Families "
-          "near overflow and underflow are always compared.",
+          "and on {} times as large a part of the queries that its filter leaves undecided; 1 compares "
+          "all. Families near overflow and underflow are always compared.",
           Comparison::more_of_undecided));
   command.add_flag(
       "--compare-near-bounds", comparison.near_bounds,

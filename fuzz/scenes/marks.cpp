@@ -173,7 +173,7 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
   json["dots"] = to_text(lists[0]);
   json["lines"] = to_text(lists[1]);
   json["triangles"] = to_text(lists[2]);
-  return {step, json.dump()};
+  return {step, json_text(json)};
 }
 
 }  // namespace nearmiss

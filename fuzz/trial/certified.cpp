@@ -3,36 +3,36 @@
 #include <cmath>
 #include <optional>
 
-#include "oracle/certificates/certificate.hpp"
-#include "tools/certificates/check.hpp"
-
 namespace nearmiss {
+
+certificates::Statement statement_about(const Query& query, const char* claim, const Span& span,
+                                        bool is_strict) {
+  return {.kind = std::string(short_name(query.kind)),
+          .x = {query.x.begin(), query.x.end()},
+          .h = query.separation,
+          .claim = claim,
+          .from = span.from,
+          .to = span.to,
+          .open = span.is_open,
+          .strict = is_strict};
+}
 
 namespace {
 
-/// Whether a certificate proves this about the query.
-bool proves(const std::string& certificate, const Query& query, const char* claim, const Span& span,
-            bool is_strict) {
+/// Whether a certificate proves this.
+bool proves(const std::string& certificate, const certificates::Statement& statement) {
   try {
-    return certificates::check(certificate) ==
-           certificates::Statement{.kind = std::string(short_name(query.kind)),
-                                   .x = {query.x.begin(), query.x.end()},
-                                   .h = query.separation,
-                                   .claim = claim,
-                                   .from = span.from,
-                                   .to = span.to,
-                                   .open = span.is_open,
-                                   .strict = is_strict};
+    return certificates::check(certificate) == statement;
   } catch (const certificates::Refused&) {
     return false;
   }
 }
 
 /// "" if the certificate proves this.
-std::string complaint(const std::optional<std::string>& certificate, const Query& query, const char* claim,
-                      const Span& span, bool is_strict) {
+std::string complaint(const std::optional<std::string>& certificate,
+                      const certificates::Statement& statement) {
   if (!certificate) return "no certificate";
-  return proves(*certificate, query, claim, span, is_strict) ? "" : "certificate (refused)";
+  return proves(*certificate, statement) ? "" : "certificate (refused)";
 }
 
 /// The complaint about the enclosure of t*: nothing happens before it, and something happens in it.
@@ -42,12 +42,12 @@ std::string complaint_about_time(const Query& query, const Decision& decision) {
   const Span before{0, t.lo, true};
   const Span within{t.lo, t.hi};
   std::string text;
-  if (t.lo > 0) text = complaint(certify_apart(query, before), query, "apart", before, true);
+  if (t.lo > 0) text = complaint(certify_apart(query, before), statement_about(query, "apart", before, true));
   if (!text.empty()) return text;
   const auto certificate = certify_meets(query, within);
   // If the distance touches h at t*, and falls below it later or never, t* may be irrational.
   if (!certificate && query.separation > 0 && !time.makes_late(std::nextafter(t.hi, 2.0))) return "";
-  return complaint(certificate, query, "meets", within, false);
+  return complaint(certificate, statement_about(query, "meets", within, false));
 }
 
 }  // namespace
@@ -55,8 +55,8 @@ std::string complaint_about_time(const Query& query, const Decision& decision) {
 std::string certificate_disagreement(const Query& query, const Decision& decision) {
   if (decision.is_tie) return "";
   const char* const claim = decision.collision ? "meets" : "apart";
-  const std::string text =
-      complaint(certify(query), query, claim, {}, !decision.collision || query.separation > 0);
+  const std::string text = complaint(
+      certify(query), statement_about(query, claim, {}, !decision.collision || query.separation > 0));
   return text.empty() && decision.collision ? complaint_about_time(query, decision) : text;
 }
 

@@ -4,13 +4,19 @@
 #include <string>
 
 #include "ccd/query/query.hpp"
+#include "oracle/certificates/certificate.hpp"
 #include "oracle/oracle.hpp"
+#include "tools/certificates/check.hpp"
 
 namespace nearmiss {
 
-/// What is wrong with the certificates of a decision and, if there is an earliest time, of its narrowest
-/// enclosure: "no certificate", or "certificate (refused)". "" if a checker accepts them that shares no code
-/// with the oracle (tools/certificates/). A tie may have no certificate.
+/// What a certificate of this claim about a query must state. `claim` is "apart" or "meets".
+certificates::Statement statement_about(const Query& query, const char* claim, const Span& span,
+                                        bool is_strict);
+
+/// Lets the checker of tools/certificates/, which shares no code with the oracle, judge the certificates of a
+/// decision and, if there is an earliest time, of its narrowest enclosure. Returns "" if it accepts them, else
+/// "no certificate" or "certificate (refused)". A tie may have no certificate.
 std::string certificate_disagreement(const Query& query, const Decision& decision);
 
 }  // namespace nearmiss

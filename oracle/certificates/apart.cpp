@@ -1,7 +1,7 @@
-// A pair that is apart is separated by planes. At any time, the direction between the closest points separates the
-// primitives strictly, and so does the normal of the closest features, which moves with them: x - y for two vertices,
-// (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. What separates at a time does so for a while, and
-// [from, to] is compact; so bisection ends, unless the smallest distance is exactly h.
+// A pair that is apart is separated by planes. At any time, the direction between the closest points separates
+// the primitives strictly, and so does the normal of the closest features, which moves with them: x - y for two
+// vertices, (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. What separates at a time does so
+// for a while, and [from, to] is compact; so bisection ends, unless the smallest distance is exactly h.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -39,6 +39,7 @@ constexpr std::array roundings{6, 20, 50, 0};
 struct Piece {
   Number lo, hi;
   PolynomialVector normal;
+  bool is_extended = false;  ///< as far as the normal separates the primitives
 };
 
 /// A vector whose largest coefficient is about 2^bits, rounded to integers. A bits of 0 leaves it as it is.
@@ -88,27 +89,24 @@ class Separator {
     return cover(lo, middle, false, depth + 1) && cover(middle, hi, open, depth + 1);
   }
 
-  /// Extends pieces over their neighbours, narrow ones first, because a normal that separates where the primitives are
-  /// nearest often separates before and after, too.
+  /// Extends pieces over their neighbours, narrow ones first, because a normal that separates where the
+  /// primitives are nearest often separates before and after, too.
   void merge(bool open) {
-    std::vector<Number> tried;
-    while (pieces_.size() > tried.size() && pieces_.size() > 1) {
-      std::optional<std::size_t> narrowest;
-      for (std::size_t i = 0; i < pieces_.size(); ++i) {
-        if (std::ranges::find(tried, pieces_[i].lo) != tried.end()) continue;
-        if (!narrowest || pieces_[i].hi - pieces_[i].lo < pieces_[*narrowest].hi - pieces_[*narrowest].lo)
-          narrowest = i;
-      }
-      if (!narrowest) return;
-      tried.push_back(pieces_[extended(*narrowest, open)].lo);
+    const auto is_before = [](const Piece& a, const Piece& b) {
+      return a.is_extended != b.is_extended ? b.is_extended : a.hi - a.lo < b.hi - b.lo;
+    };
+    while (true) {
+      const auto narrowest = std::ranges::min_element(pieces_, is_before);
+      if (narrowest->is_extended) return;
+      extend(static_cast<std::size_t>(narrowest - pieces_.begin()), open);
     }
   }
 
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
-  /// Extends piece i as far as its normal separates the primitives, and returns its new number.
-  std::size_t extended(std::size_t i, bool open) {
+  /// Extends piece i as far as its normal separates the primitives.
+  void extend(std::size_t i, bool open) {
     const auto reaches = [&](std::size_t first, std::size_t last) {
       return separates(pieces_[i].normal, pieces_[first].lo, pieces_[last].hi,
                        open && last + 1 == pieces_.size());
@@ -119,12 +117,10 @@ class Separator {
       if (last + step < pieces_.size() && reaches(first, last + step)) last += step;
       if (first >= step && reaches(first - step, last)) first -= step;
     }
-    pieces_[i].lo = pieces_[first].lo;
-    pieces_[i].hi = pieces_[last].hi;
+    pieces_[i] = {pieces_[first].lo, pieces_[last].hi, std::move(pieces_[i].normal), true};
     std::swap(pieces_[first], pieces_[i]);
     pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
                   pieces_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-    return first;
   }
 
   /// Finds a normal that separates the primitives in all of [lo, hi].

@@ -1,4 +1,4 @@
-// The closest points of two primitives at one time, in any exact or inexact field.
+// The closest points of two primitives at one time, in exact or floating-point arithmetic.
 #pragma once
 
 #include <array>
@@ -6,24 +6,14 @@
 #include <optional>
 
 #include "ccd/query/query.hpp"
+#include "oracle/arithmetic/vectors.hpp"
 
 namespace nearmiss::certificates {
 
-template <class Real>
-using Point = std::array<Real, 3>;
-
-template <class Real>
-Point<Real> operator-(const Point<Real>& a, const Point<Real>& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-template <class Real>
-Real dot(const Point<Real>& a, const Point<Real>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class Real>
-Point<Real> cross(const Point<Real>& a, const Point<Real>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using certified::cross;
+using certified::dot;
+using certified::operator-;
+using certified::Vec;
 
 /// The weights of a point of each primitive: of the vertices of the first one, then of the second one.
 template <class Real>
@@ -31,8 +21,8 @@ using WeightsOfPoints = std::array<Real, 4>;
 
 /// The squared distance of two points of the primitives with vertices x.
 template <class Real>
-Real squared_distance(Kind kind, const std::array<Point<Real>, 4>& x, const WeightsOfPoints<Real>& weights) {
-  Point<Real> d{};
+Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const WeightsOfPoints<Real>& weights) {
+  Vec<Real> d{};
   for (int i = 0; i < 4; ++i) {
     const auto vertex = static_cast<std::size_t>(i);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,12 +36,12 @@ Real squared_distance(Kind kind, const std::array<Point<Real>, 4>& x, const Weig
   return dot(d, d);
 }
 
-/// Chooses the closest points among those of all pairs of features. In floating-point arithmetic, the weights are
-/// those of points that are about closest.
+/// Chooses the closest points among those of all pairs of features. In floating-point arithmetic, the weights
+/// are those of points that are about closest.
 template <class Real>
 class ClosestWeights {
  public:
-  ClosestWeights(Kind kind, const std::array<Point<Real>, 4>& x) : kind_(kind), x_(x) {
+  ClosestWeights(Kind kind, const std::array<Vec<Real>, 4>& x) : kind_(kind), x_(x) {
     const Topology& of = topology(kind);
     for (const auto& [a, b] : of.gaps) take_vertices(a, b);
     for (const auto& [vertex, a, b] : of.vertices_and_edges) take_edge(vertex, a, b);
@@ -76,7 +66,7 @@ class ClosestWeights {
   }
 
   void take_edge(std::size_t vertex, std::size_t a, std::size_t b) {
-    const Point<Real> e = x_[b] - x_[a];
+    const Vec<Real> e = x_[b] - x_[a];
     const Real squared = dot(e, e);
     const Real along = dot(x_[vertex] - x_[a], e);
     if (!(along > 0 && along < squared)) return;
@@ -90,13 +80,13 @@ class ClosestWeights {
   void take_interiors() {
     const auto& [p_pair, q_pair, r_pair] = topology(kind_).pqr;
     const auto difference = [&](VertexPair pair) { return x_[pair.to] - x_[pair.from]; };
-    const Point<Real> q = difference(q_pair);
-    const Point<Real> r = difference(r_pair);
-    const Point<Real> N = cross(q, r);
+    const Vec<Real> q = difference(q_pair);
+    const Vec<Real> r = difference(r_pair);
+    const Vec<Real> N = cross(q, r);
     const Real squared = dot(N, N);
     if (!(squared > 0)) return;
     // p = a q + b r + c N for a triangle, and a q - b r + c N for edges.
-    const Point<Real> p = difference(p_pair);
+    const Vec<Real> p = difference(p_pair);
     const Real a = dot(N, cross(p, r)) / squared;
     const Real b = dot(N, has_triangle(kind_) ? cross(q, p) : cross(p, q)) / squared;
     WeightsOfPoints<Real> weights;
@@ -110,7 +100,7 @@ class ClosestWeights {
   }
 
   Kind kind_;
-  const std::array<Point<Real>, 4>& x_;
+  const std::array<Vec<Real>, 4>& x_;
   WeightsOfPoints<Real> best_{};
   std::optional<Real> least_;
 };

@@ -1,6 +1,6 @@
-// Two points that are within h of each other at a rational time prove that the primitives come within h. Without a
-// separation, the time may be irrational. Then either the four vertices become coplanar while all weights are positive,
-// or the contact is that of a vertex and the inside of an edge (tools/certificates/README.md says why).
+// Two points that are within h of each other at a rational time prove that the primitives come within h. Without
+// a separation, the time may be irrational. Then either the four vertices become coplanar while all weights are
+// positive, or the contact is that of a vertex and the inside of an edge (tools/certificates/README.md says why).
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/certificates/closest_exactly.hpp"
@@ -19,6 +18,7 @@
 #include "oracle/certificates/text.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
+#include "oracle/exact/nearness.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -27,20 +27,20 @@ namespace {
 
 using namespace certificates;
 using exact::Number;
-using exact::OnInterval;
 using exact::Polynomial;
 using exact::PolynomialVector;
 using exact::Root;
 
 template <class Real>
-std::array<Point<Real>, 4> positions(const Query& query, const Real& t) {
-  std::array<Point<Real>, 4> x;
+std::array<Vec<Real>, 4> positions(const Query& query, const Real& t) {
+  std::array<Vec<Real>, 4> x;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 0; k < 3; ++k)
       x[i][k] = (1 - t) * Real(query.x[3 * i + k]) + t * Real(query.x[12 + 3 * i + k]);
   return x;
 }
 
+/// Two points that are within h of each other at a rational time.
 class Meeting {
  public:
   Meeting(const Query& query, const Span& span, bool is_strict)
@@ -49,8 +49,8 @@ class Meeting {
         is_strict_(is_strict),
         squared_h_(mpq_class(query.separation) * mpq_class(query.separation)) {}
 
-  /// The proof that the primitives come within h at t. It has points that are about the closest ones if these are
-  /// near enough, because their weights need fewer digits.
+  /// The proof that the primitives come within h at t. It has points that are about the closest ones if these
+  /// are near enough, because their weights need fewer digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
     if (t < mpq_class(span_.from) || t > mpq_class(span_.to)) return std::nullopt;
     const auto x = positions<mpq_class>(query_, t);
@@ -66,42 +66,7 @@ class Meeting {
     return std::isfinite(t) ? at(mpq_class(t)) : std::nullopt;
   }
 
-  /// The proof that the vertices become coplanar in [p, q] while all weights are positive.
-  [[nodiscard]] std::optional<std::string> bracket(const Number& p, const Number& q) {
-    if (p < Number(span_.from) || q > Number(span_.to) || !is_bracket(p, q)) return std::nullopt;
-    return heading(query_, "meets", span_) + R"(,"bracket":[)" + quoted(certificates::to_text(p)) + "," +
-           quoted(certificates::to_text(q)) + "]}";
-  }
-
-  /// The shortest such proof for an interval of which [p, q] is a part.
-  [[nodiscard]] std::optional<std::string> wide_bracket(const Enclosure& known) {
-    for (const int bits : {3, 6, 10, 15, 21, 28, 36, 44}) {
-      const double lo = std::max(std::ldexp(std::floor(std::ldexp(known.lo, bits)), -bits), span_.from);
-      const double hi = std::min(std::ldexp(std::ceil(std::ldexp(known.hi, bits)), -bits), span_.to);
-      if (lo < hi)
-        if (auto text = bracket(lo, hi)) return text;
-    }
-    return bracket(known.lo, known.hi);
-  }
-
-  /// Any proof for a query with h = 0 that has a contact.
-  [[nodiscard]] std::optional<std::string> of_contact() {
-    exact::Predicates predicates(query_);
-    auto contact = exact::first_contact(predicates);
-    if (!contact) return std::nullopt;
-    Root& time = contact->time;
-    if (const auto rational = time.as_rational()) return at(mpq_class(rational->mpq()));
-    for (int i = 0; i < most_refinements; ++i, time.refine()) {
-      if (time.lo() < span_.from || time.hi() > span_.to || !(time.lo() < time.hi())) continue;
-      if (auto text = bracket(time.lo(), time.hi())) return text;
-      if (auto text = edge_bracket(time.lo(), time.hi())) return text;
-    }
-    return std::nullopt;
-  }
-
  private:
-  static constexpr int most_refinements = 40;
-
   [[nodiscard]] bool is_within(const mpq_class& squared_distance) const {
     return is_strict_ ? squared_distance < squared_h_ : squared_distance <= squared_h_;
   }
@@ -116,7 +81,7 @@ class Meeting {
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(
       const WeightsOfPoints<Real>& weights, std::initializer_list<unsigned> bits,
-      const std::array<Point<mpq_class>, 4>& x) const {
+      const std::array<Vec<mpq_class>, 4>& x) const {
     if (!std::ranges::all_of(weights, [](const Real& each) { return each >= 0 && each <= 1; }))
       return std::nullopt;
     for (const unsigned each : bits) {
@@ -152,53 +117,61 @@ class Meeting {
            number(t) + R"(,"weights":)" + list(weights, number) + "}";
   }
 
-  [[nodiscard]] bool is_bracket(const Number& p, const Number& q) {
-    if (!normal_) make_polynomials();
-    return normal_->sign_at(p) * normal_->sign_at(q) <= 0 &&
-           std::all_of(inside_.begin(), inside_.end(),
-                       [&](const Polynomial& each) { return is_positive(each, p, q); });
+  Query query_;
+  Span span_;
+  bool is_strict_;
+  mpq_class squared_h_;
+};
+
+/// Contact at a time that may be irrational, for h = 0.
+class Crossing {
+ public:
+  Crossing(const Query& query, const Span& span)
+      : query_(query),
+        span_(span),
+        x_(moving_points(query, exact::Unit(query))),
+        of_(interiors(query.kind, x_)) {}
+
+  /// The proof that the vertices become coplanar in [p, q] while all weights are positive.
+  [[nodiscard]] std::optional<std::string> bracket(const Number& p, const Number& q) const {
+    const auto is_negative = [&](const Polynomial& each) { return is_positive(Polynomial() - each, p, q); };
+    const bool is_proof = is_within_span(p, q) && of_.F.sign_at(p) * of_.F.sign_at(q) <= 0 &&
+                          is_positive(of_.squared_N, p, q) && std::ranges::all_of(of_.outside, is_negative);
+    return is_proof ? std::optional(text(p, q)) : std::nullopt;
   }
 
-  /// F, and what is positive in a bracket.
-  void make_polynomials() {
-    const exact::Unit unit(query_);
-    const auto x = moving_points(query_, unit);
-    const bool has_triangle_ = has_triangle(query_.kind);
-    const PolynomialVector N =
-        has_triangle_ ? cross(x[2] - x[1], x[3] - x[1]) : cross(x[1] - x[0], x[3] - x[2]);
-    const Polynomial whole = dot(N, N);
-    inside_ = {whole};
-    if (has_triangle_) {
-      normal_ = dot(N, x[0] - x[1]);
-      for (const auto& [j, k] : {std::pair{2, 3}, std::pair{3, 1}, std::pair{1, 2}})
-        inside_.push_back(
-            dot(N, cross(x[static_cast<std::size_t>(j)] - x[0], x[static_cast<std::size_t>(k)] - x[0])));
-    } else {
-      const PolynomialVector r = x[2] - x[0];
-      normal_ = dot(N, r);
-      for (const PolynomialVector& other : {x[3] - x[2], x[1] - x[0]}) {
-        const Polynomial weight = dot(N, cross(r, other));
-        inside_.push_back(weight);
-        inside_.push_back(whole - weight);
-      }
+  /// The shortest such proof for an interval that contains the known one.
+  [[nodiscard]] std::optional<std::string> wide_bracket(const Enclosure& known) const {
+    for (const int bits : {3, 6, 10, 15, 21, 28, 36, 44}) {
+      const double lo = std::max(std::ldexp(std::floor(std::ldexp(known.lo, bits)), -bits), span_.from);
+      const double hi = std::min(std::ldexp(std::ceil(std::ldexp(known.hi, bits)), -bits), span_.to);
+      if (auto text = bracket(lo, hi)) return text;
     }
+    return bracket(known.lo, known.hi);
   }
 
   /// The proof that a vertex is inside an edge at a time in [p, q].
   [[nodiscard]] std::optional<std::string> edge_bracket(const Number& p, const Number& q) const {
-    const exact::Unit unit(query_);
-    const auto x = moving_points(query_, unit);
+    if (!is_within_span(p, q)) return std::nullopt;
     for (const auto& [v, y, z] : topology(query_.kind).vertices_and_edges) {
-      const PolynomialVector e = x[z] - x[y];
-      const PolynomialVector area = cross(x[v] - x[y], e);
-      if (!is_line_of_one_root(area, p, q)) continue;
-      if (!is_positive(dot(x[v] - x[y], e), p, q) || !is_positive(dot(x[z] - x[v], e), p, q)) continue;
-      const auto number = [](int i) { return quoted(std::to_string(i)); };
-      return heading(query_, "meets", span_) + R"(,"bracket":[)" + quoted(certificates::to_text(p)) + "," +
-             quoted(certificates::to_text(q)) + R"(],"edge":[)" + number(v) + "," + number(y) + "," +
-             number(z) + "]}";
+      const PolynomialVector e = x_[z] - x_[y];
+      if (is_line_of_one_root(cross(x_[v] - x_[y], e), p, q) && is_positive(dot(x_[v] - x_[y], e), p, q) &&
+          is_positive(dot(x_[z] - x_[v], e), p, q))
+        return text(p, q, R"(,"edge":)" + list(std::array<int, 3>{v, y, z}, [](int i) {
+                            return quoted(std::to_string(i));
+                          }));
     }
     return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] bool is_within_span(const Number& p, const Number& q) const {
+    return Number(span_.from) <= p && p < q && q <= Number(span_.to);
+  }
+
+  [[nodiscard]] std::string text(const Number& p, const Number& q, const std::string& edge = "") const {
+    return heading(query_, "meets", span_) + R"(,"bracket":[)" + quoted(certificates::to_text(p)) + "," +
+           quoted(certificates::to_text(q)) + "]" + edge + "}";
   }
 
   /// Whether all components are multiples of one, which changes its sign.
@@ -215,28 +188,41 @@ class Meeting {
 
   Query query_;
   Span span_;
-  bool is_strict_;
-  mpq_class squared_h_;
-  std::optional<Polynomial> normal_;  ///< F; made on first use, as `inside_`
-  std::vector<Polynomial> inside_;
+  std::array<PolynomialVector, 4> x_;
+  exact::Interiors of_;
 };
 
-constexpr unsigned most_bits_after = 5'000;  ///< of a time at which the distance is below h
+/// Any proof of the first contact, which exact arithmetic finds.
+std::optional<std::string> certify_first_contact(const Query& query, const Meeting& meeting,
+                                                 const Crossing& crossing) {
+  constexpr int most_refinements = 40;
+  exact::Predicates predicates(query);
+  auto contact = exact::first_contact(predicates);
+  if (!contact) return std::nullopt;
+  Root& time = contact->time;
+  if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
+  for (int i = 0; i < most_refinements; ++i, time.refine()) {
+    if (auto text = crossing.bracket(time.lo(), time.hi())) return text;
+    if (auto text = crossing.edge_bracket(time.lo(), time.hi())) return text;
+  }
+  return std::nullopt;
+}
 
 std::optional<std::string> certify_contact(const Query& query, const Span& span) {
-  Meeting meeting(query, span, false);
-  if (span.from < span.to)
-    if (auto text = meeting.bracket(span.from, span.to)) return text;
+  const Meeting meeting(query, span, false);
+  const Crossing crossing(query, span);
+  if (auto text = crossing.bracket(span.from, span.to)) return text;
   if (const auto known = time_of_contact(query)) {
-    if (known->is_between && known->time.lo < known->time.hi)
-      if (auto text = meeting.wide_bracket(known->time)) return text;
+    if (known->is_between)
+      if (auto text = crossing.wide_bracket(known->time)) return text;
     for (const double t : {known->time.lo, known->time.hi})
       if (auto text = meeting.at(t)) return text;
   }
-  return meeting.of_contact();
+  return certify_first_contact(query, meeting, crossing);
 }
 
 std::optional<std::string> certify_approach(const Query& query, const Span& span, bool is_strict) {
+  constexpr unsigned most_bits_after = 5'000;  // of a time at which the distance is below h
   const Meeting meeting(query, span, is_strict);
   const KnownApproach known = known_approach(query);
   for (const double t : {span.from, std::round(known.time.hi * 16) / 16,

@@ -17,6 +17,7 @@
 #include "oracle/exact/nearness.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace nearmiss::exact {
 
@@ -30,6 +31,32 @@ bool FeatureNearness::is_extended_at(Root& t) const {
   return std::all_of(extents.begin(), extents.end(), [&](const Polynomial& p) { return t.sign_of(p) > 0; });
 }
 
+namespace {
+
+Interiors vertex_and_triangle(const std::array<PolynomialVector, 4>& x) {
+  const PolynomialVector N = cross(x[2] - x[1], x[3] - x[1]);
+  std::vector<Polynomial> outside;
+  for (std::size_t i = 1; i < 4; ++i) outside.push_back(dot(N, cross(x[0] - x[i], x[i % 3 + 1] - x[i])));
+  return {dot(x[0] - x[1], N), dot(N, N), std::move(outside)};
+}
+
+Interiors two_edges(const std::array<PolynomialVector, 4>& x) {
+  const PolynomialVector u = x[1] - x[0];
+  const PolynomialVector v = x[3] - x[2];
+  const PolynomialVector x20 = x[2] - x[0];
+  const PolynomialVector N = cross(u, v);
+  const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by it
+  const Polynomial alpha = dot(cross(x20, v), N);
+  const Polynomial beta = dot(cross(x20, u), N);
+  return {dot(x20, N), whole, {Polynomial() - alpha, alpha - whole, Polynomial() - beta, beta - whole}};
+}
+
+}  // namespace
+
+Interiors interiors(Kind kind, const std::array<PolynomialVector, 4>& x) {
+  return has_triangle(kind) ? vertex_and_triangle(x) : two_edges(x);
+}
+
 Nearness::Nearness(const Query& query, double b) {
   const Unit unit(query);
   const Number scaled_b = unit.scaled(b);
@@ -38,10 +65,7 @@ Nearness::Nearness(const Query& query, double b) {
   const Topology& of = topology(query.kind);
   for (const VertexPair gap : of.gaps) add_vertices(x[gap.from], x[gap.to]);
   for (const auto& [vertex, from, to] : of.vertices_and_edges) add_vertex_and_edge(x[vertex], x[from], x[to]);
-  if (has_triangle(query.kind))
-    add_vertex_and_triangle(x);
-  else
-    add_edges(x);
+  add_interiors(interiors(query.kind, x));
 }
 
 bool Nearness::holds_at(Root& t) const {
@@ -89,29 +113,10 @@ void Nearness::add_vertex_and_edge(const PolynomialVector& x, const PolynomialVe
                          {length}});
 }
 
-void Nearness::add_with_normal(const Polynomial& F, const Polynomial& squared_N,
-                               std::vector<Polynomial> outside) {
+void Nearness::add_interiors(Interiors&& of) {
+  auto& [F, squared_N, outside] = of;
   statements_.push_back(
       {Features::interiors, F * F - squared_b_ * squared_N, std::move(outside), {squared_N}});
-}
-
-void Nearness::add_vertex_and_triangle(const std::array<PolynomialVector, 4>& x) {
-  const PolynomialVector N = cross(x[2] - x[1], x[3] - x[1]);
-  std::vector<Polynomial> outside;
-  for (std::size_t i = 1; i < 4; ++i) outside.push_back(dot(N, cross(x[0] - x[i], x[i % 3 + 1] - x[i])));
-  add_with_normal(dot(x[0] - x[1], N), dot(N, N), std::move(outside));
-}
-
-void Nearness::add_edges(const std::array<PolynomialVector, 4>& x) {
-  const PolynomialVector u = x[1] - x[0];
-  const PolynomialVector v = x[3] - x[2];
-  const PolynomialVector x20 = x[2] - x[0];
-  const PolynomialVector N = cross(u, v);
-  const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by it
-  const Polynomial alpha = dot(cross(x20, v), N);
-  const Polynomial beta = dot(cross(x20, u), N);
-  add_with_normal(dot(x20, N), whole,
-                  {Polynomial() - alpha, alpha - whole, Polynomial() - beta, beta - whole});
 }
 
 }  // namespace nearmiss::exact

@@ -35,6 +35,16 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
+/// The polynomials about the planes or lines through the interiors: of the triangle and the vertex, or of both
+/// edges. Where squared_N is positive, their distance is |F| / |N|, and the closest points lie in the features
+/// iff all `outside` are at most 0, and strictly inside iff they are negative.
+struct Interiors {
+  Polynomial F;
+  Polynomial squared_N;
+  std::vector<Polynomial> outside;
+};
+Interiors interiors(Kind kind, const std::array<PolynomialVector, 4>& x);
+
 /// The statements about all pairs of features, for a finite b >= 0. The distance of the primitives at a time
 /// is at most b iff one of the statements holds, and less than b iff one holds strictly.
 class Nearness {
@@ -54,10 +64,7 @@ class Nearness {
   void add_vertices(const PolynomialVector& x, const PolynomialVector& y);
   void add_vertex_and_edge(const PolynomialVector& x, const PolynomialVector& from,
                            const PolynomialVector& to);
-  /// Adds a statement for which the distance of the planes or lines is |F| / |N|.
-  void add_with_normal(const Polynomial& F, const Polynomial& squared_N, std::vector<Polynomial> outside);
-  void add_vertex_and_triangle(const std::array<PolynomialVector, 4>& x);
-  void add_edges(const std::array<PolynomialVector, 4>& x);
+  void add_interiors(Interiors&& of);
 
   Polynomial squared_b_;
   std::vector<FeatureNearness> statements_;

@@ -40,7 +40,7 @@ std::vector<Run> read_runs(Reader& read) {
   for (auto& [key, shard] : shards) runs[key.first].shards.push_back(std::move(shard));
   for (auto& [key, finding] : findings) runs[key.first].findings.push_back(std::move(finding));
   for (auto& [key, picture] : pictures)
-    runs[key.first].pictures.push_back({key.second, json(std::move(picture)).dump()});
+    runs[key.first].pictures.push_back({key.second, json_text(json(std::move(picture)))});
   std::vector<Run> all;
   for (auto& [number, run] : runs) all.push_back(std::move(run));
   return all;

@@ -24,28 +24,16 @@ namespace {
 
 using certificates::Statement;
 
-/// What a certificate about a query states, if it states this.
-Statement statement(const Query& query, const char* claim, const Span& span, bool is_strict) {
-  return {.kind = std::string(short_name(query.kind)),
-          .x = {query.x.begin(), query.x.end()},
-          .h = query.separation,
-          .claim = claim,
-          .from = span.from,
-          .to = span.to,
-          .open = span.is_open,
-          .strict = is_strict};
-}
-
 void expect_apart(const Query& query, const Span& span, bool is_strict) {
   const auto text = certify_apart(query, span, is_strict);
   ASSERT_TRUE(text);
-  EXPECT_EQ(certificates::check(*text), statement(query, "apart", span, is_strict));
+  EXPECT_EQ(certificates::check(*text), statement_about(query, "apart", span, is_strict));
 }
 
 void expect_meets(const Query& query, const Span& span, bool is_strict) {
   const auto text = certify_meets(query, span, is_strict);
   ASSERT_TRUE(text);
-  EXPECT_EQ(certificates::check(*text), statement(query, "meets", span, is_strict));
+  EXPECT_EQ(certificates::check(*text), statement_about(query, "meets", span, is_strict));
 }
 
 class OfFamily : public ::testing::TestWithParam<Family> {
@@ -71,7 +59,7 @@ TEST_P(OfFamily, ProvesTheDecision) {
     ASSERT_TRUE(text);
     const char* const claim = decision.collision ? "meets" : "apart";
     EXPECT_EQ(certificates::check(*text),
-              statement(query, claim, {}, query.separation > 0 || !decision.collision));
+              statement_about(query, claim, {}, query.separation > 0 || !decision.collision));
   });
 }
 

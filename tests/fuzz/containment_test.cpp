@@ -158,7 +158,7 @@ TEST(Isolation, ClosingThatNeverReturnsIsEnded) {
   EXPECT_EQ(copied.processes(), 0);
 }
 
-// Where a part of /proc is hidden, as in containers, the system lets nobody mount a new one.
+// If a part of /proc is hidden, as in containers, the system does not let anybody mount a new /proc.
 TEST(Isolation, DoesNotNeedAProcOfItsOwn) {
   const std::string hidden =
       "unshare -rmpf --mount-proc sh -c 'mount -t tmpfs none /proc/fs && exec unshare -rm \"$@\"' sh ";

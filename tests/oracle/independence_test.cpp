@@ -76,13 +76,14 @@ std::string part_of(const std::string& header) {
 }
 
 TEST(Independence, APartOfTheOracleIncludesFromItselfAndTheseAlone) {
-  const std::map<std::string, std::set<std::string>> parts{{"arithmetic", {}},
-                                                           {"filter", {"arithmetic"}},
-                                                           {"exact", {}},
-                                                           {"sturm", {}},
-                                                           {"parity", {}},
-                                                           {"distance", {"arithmetic", "exact"}},
-                                                           {"certificates", {"", "distance", "exact"}}};
+  const std::map<std::string, std::set<std::string>> parts{
+      {"arithmetic", {}},
+      {"filter", {"arithmetic"}},
+      {"exact", {}},
+      {"sturm", {}},
+      {"parity", {}},
+      {"distance", {"arithmetic", "exact"}},
+      {"certificates", {"", "arithmetic", "distance", "exact"}}};
   std::set<std::string> found;
   for (const fs::path& file : code("oracle")) {
     const std::string part = part_of(fs::relative(file, source));

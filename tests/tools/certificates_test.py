@@ -5,7 +5,6 @@ import json
 import random
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -97,8 +96,9 @@ def with_one_character_changed(line, dice):
 
 
 class Certificates(unittest.TestCase):
-    def setUp(self):
-        self.lines = [
+    @classmethod
+    def setUpClass(cls):
+        cls.lines = [
             line
             for family in FAMILIES
             for kind in ('vt', 'ee')

@@ -48,7 +48,7 @@ class PluginFile {
 
     bool operator==(const Stamp& other) const;
   };
-  /// What is known when the bytes are read.
+  /// The state of the file at one reading of its bytes.
   struct Snapshot {
     Stamp stamp;                                       ///< of the file before it was read
     std::chrono::steady_clock::time_point first_seen;  ///< of the stamp
