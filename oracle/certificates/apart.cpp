@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "oracle/certificates/certificate.hpp"
-#include "oracle/certificates/positive.hpp"
+#include "oracle/certificates/normal.hpp"
 #include "oracle/certificates/text.hpp"
 #include "oracle/distance/closest.hpp"
 #include "oracle/exact/moving.hpp"
@@ -24,8 +24,9 @@ namespace nearmiss {
 namespace {
 
 using namespace exact;
-using certificates::is_nowhere_negative;
-using certificates::is_positive;
+using certificates::FeatureNormal;
+using certificates::Gaps;
+using certificates::Normal;
 using certified::ClosestFeatures;
 
 constexpr int most_tries = 500'000;  ///< of a normal in an interval
@@ -33,31 +34,11 @@ constexpr int most_depth = 8'000;
 constexpr int depth_of_doubles = 50;  ///< below it, doubles tell which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
 
-/// Bits of the integers to which normals are rounded, in turn; 0: not rounded.
-constexpr std::array roundings{6, 20, 50, 0};
-
 struct Piece {
   Number lo, hi;
-  PolynomialVector normal;
+  Normal normal;
   bool is_extended = false;  ///< as far as the normal separates the primitives
 };
-
-/// A vector whose largest coefficient is about 2^bits, rounded to integers. A bits of 0 leaves it as it is.
-PolynomialVector rounded(const PolynomialVector& n, int bits) {
-  if (bits == 0) return n;
-  double largest = 0;
-  for (const Polynomial& p : n)
-    for (const Number& c : p.coefficients()) largest = std::max(largest, std::abs(CGAL::to_double(c)));
-  if (!(largest > 0x1p-900)) return {};
-  PolynomialVector result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    Numbers coefficients;
-    for (const Number& c : n[k].coefficients())
-      coefficients.push_back(Number(std::round(std::ldexp(CGAL::to_double(c) / largest, bits))));
-    result[k] = Polynomial(std::move(coefficients));
-  }
-  return result;
-}
 
 PolynomialVector constant(const certified::Vec<double>& n) {
   PolynomialVector result;
@@ -69,17 +50,21 @@ PolynomialVector times(const Polynomial& factor, const PolynomialVector& v) {
   return {factor * v[0], factor * v[1], factor * v[2]};
 }
 
+Gaps gaps_of(const Query& query, const exact::Unit& unit, const std::array<PolynomialVector, 4>& x,
+             bool is_strict) {
+  std::vector<PolynomialVector> differences;
+  for (const auto& [from, to] : topology(query.kind).gaps) differences.push_back(x[from] - x[to]);
+  return {std::move(differences), unit.scaled(query.separation), is_strict};
+}
+
 /// Separates the primitives of a query piece by piece.
 class Separator {
  public:
   Separator(const Query& query, bool is_strict)
-      : kind_(query.kind), is_strict_(is_strict), differences_(query) {
-    const Unit unit(query);
-    x_ = moving_points(query, unit);
-    const Number h = unit.scaled(query.separation);
-    squared_h_ = h * h;
-    for (const auto& [from, to] : topology(kind_).gaps) gaps_.push_back(x_[from] - x_[to]);
-  }
+      : kind_(query.kind),
+        differences_(query),
+        x_(moving_points(query, exact::Unit(query))),
+        gaps_(gaps_of(query, exact::Unit(query), x_, is_strict)) {}
 
   /// Whether the pieces cover [lo, hi], to whose end `open` applies.
   bool cover(const Number& lo, const Number& hi, bool open, int depth = 0) {
@@ -108,8 +93,8 @@ class Separator {
   /// Extends piece i as far as its normal separates the primitives.
   void extend(std::size_t i, bool open) {
     const auto reaches = [&](std::size_t first, std::size_t last) {
-      return separates(pieces_[i].normal, pieces_[first].lo, pieces_[last].hi,
-                       open && last + 1 == pieces_.size());
+      return pieces_[i].normal.separates(pieces_[first].lo, pieces_[last].hi,
+                                         open && last + 1 == pieces_.size());
     };
     std::size_t first = i;
     std::size_t last = i;
@@ -125,14 +110,14 @@ class Separator {
 
   /// Finds a normal that separates the primitives in all of [lo, hi].
   bool find(const Number& lo, const Number& hi, bool open, int depth) {
-    ClosestFeatures closest;
     if (depth < depth_of_doubles) {
       const double t = CGAL::to_double(between(lo, hi, 0.5));
       const auto points = certified::closest_points(certified::VerticesAt<double>(differences_, t));
-      closest = points.features;
-      for (const int bits : roundings)
-        if (take(rounded(constant(points.difference), bits), lo, hi, open)) return true;
-      if (take_normal(closest, lo, hi, open)) return true;
+      for (const int bits : certificates::roundings) {
+        Normal normal(certificates::rounded(constant(points.difference), bits), gaps_);
+        if (take(normal, lo, hi, open)) return true;
+      }
+      if (take_normal(points.features, lo, hi, open)) return true;
     }
     if (depth < all_features_from) return false;
     const Topology& of = topology(kind_);
@@ -146,9 +131,14 @@ class Separator {
 
   /// Tries the normal of these features, on the side on which it separates in the middle of [lo, hi].
   bool take_normal(const ClosestFeatures& features, const Number& lo, const Number& hi, bool open) {
-    PolynomialVector n = normal_of(features);
-    if (dot(n, gaps_[0]).sign_at(between(lo, hi, 0.5)) < 0) n = PolynomialVector{} - n;
-    return std::ranges::any_of(roundings, [&](int bits) { return take(rounded(n, bits), lo, hi, open); });
+    const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
+                         features.to};
+    auto known = normals_.find(key);
+    if (known == normals_.end())
+      known = normals_.emplace(key, FeatureNormal(normal_of(features), gaps_)).first;
+    auto& normals = known->second.in_front_at(between(lo, hi, 0.5));
+    return !normals.back().clearly_fails(lo, hi) &&
+           std::ranges::any_of(normals, [&](Normal& each) { return take(each, lo, hi, open); });
   }
 
   [[nodiscard]] PolynomialVector normal_of(const ClosestFeatures& features) const {
@@ -168,34 +158,17 @@ class Separator {
   }
 
   /// Keeps a piece with this normal if it separates the primitives.
-  bool take(PolynomialVector normal, const Number& lo, const Number& hi, bool open) {
-    if (++tries_ > most_tries || !separates(normal, lo, hi, open)) return false;
-    pieces_.push_back({lo, hi, std::move(normal)});
-    return true;
-  }
-
-  [[nodiscard]] bool separates(const PolynomialVector& n, const Number& lo, const Number& hi,
-                               bool open) const {
-    const bool has_separation = sign(squared_h_) > 0;
-    Polynomial least;
-    if (has_separation) least = Polynomial({squared_h_}) * dot(n, n);
-    for (const PolynomialVector& d : gaps_) {
-      const Polynomial along = dot(n, d);
-      if (!is_positive(along, lo, hi, open)) return false;
-      if (!has_separation) continue;
-      const Polynomial excess = along * along - least;
-      if (is_strict_ ? !is_positive(excess, lo, hi, open) : !is_nowhere_negative(excess, lo, hi))
-        return false;
-    }
+  bool take(Normal& normal, const Number& lo, const Number& hi, bool open) {
+    if (++tries_ > most_tries || !normal.separates(lo, hi, open)) return false;
+    pieces_.push_back({lo, hi, normal});
     return true;
   }
 
   Kind kind_;
-  bool is_strict_;
   certified::VertexDifferences differences_;
   std::array<PolynomialVector, 4> x_;
-  Number squared_h_;
-  std::vector<PolynomialVector> gaps_;
+  Gaps gaps_;
+  std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
   std::vector<Piece> pieces_;
   int tries_ = 0;
 };
@@ -216,8 +189,9 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
   std::vector<Number> times{Number(span.from)};
   for (const Piece& piece : separator.pieces()) times.push_back(piece.hi);
   text += R"(,"times":)" + list(times, number);
-  text += R"(,"normals":)" +
-          list(separator.pieces(), [&](const Piece& piece) { return list(piece.normal, polynomial); });
+  text += R"(,"normals":)" + list(separator.pieces(), [&](const Piece& piece) {
+            return list(piece.normal.vector(), polynomial);
+          });
   return text + "}";
 }
 

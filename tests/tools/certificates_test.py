@@ -5,6 +5,7 @@ import json
 import random
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -33,7 +34,7 @@ def refused(checker, lines):
     output = run(checker, ''.join(line + '\n' for line in lines)).stdout.splitlines()
     if not output or not output[-1].startswith('accepted '):
         raise AssertionError(output[-1:])
-    return {int(line.split(':')[0]) for line in output[:-1]}
+    return {int(line.split(':')[1]) for line in output[:-1]}
 
 
 def set_key(key, value):
@@ -55,7 +56,8 @@ CHANGES = [
     *(set_key('kind', value) for value in ('vt', 'ee', 'vv', 've', 'VT', '')),
     *(
         set_key('h', value)
-        for value in ('-1', '1', '1e3', 'nan', '1/3', '1/0', '0x1p-999999999', 0)
+        for value in '-1 1 1e3 nan 1/3 1/0 0x1p-999999999 0x1p00001 0x0p1090 0x0p01074'.split()
+        + [0]
     ),
     *(set_key('from', value) for value in ('1/2', '-1', '2')),
     *(set_key('to', value) for value in ('1/2', '0', '2')),
@@ -119,7 +121,7 @@ class Certificates(unittest.TestCase):
         changed += [
             with_one_character_changed(line, dice) for line in self.lines[::2] for _ in range(5)
         ]
-        changed = [line for line in changed + BROKEN if is_json(line)]
+        changed = [line for line in changed + BROKEN if is_object(line)]
         in_python, in_cpp = (refused(checker, changed) for checker in CHECKERS)
         self.assertEqual([changed[i - 1][:300] for i in in_python ^ in_cpp], [])
         self.assertGreater(len(in_python), len(changed) / 2)
@@ -136,7 +138,24 @@ class Certificates(unittest.TestCase):
             ]:
                 with self.subTest(checker=checker, code=code):
                     self.assertEqual(run([*checker, '-q', '-'], text).returncode, code)
-            self.assertEqual(run([*checker, '/absent']).returncode, 2)
+            for arguments in (['/absent'], ['--nonsense']):
+                self.assertEqual(run([*checker, *arguments]).returncode, 2)
+            self.assertEqual(run([*checker, '--help']).returncode, 0)
+            full = run(['sh', '-c', 'exec "$@" >/dev/full', 'sh', *checker], good)
+            self.assertEqual((full.returncode, full.stderr.count('\n')), (2, 1))
+
+    def test_messages_name_file_and_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            names = [str(Path(folder, name)) for name in ('one', 'two')]
+            good, bad = self.lines[0], self.lines[0].replace('"claim":', '"claims":')
+            for name in names:
+                Path(name).write_text(f'{good}\n{bad}\n')
+            for checker in CHECKERS:
+                output = run([*checker, *names]).stdout.splitlines()
+                self.assertTrue(output[-2].startswith(f'{names[1]}:2: refused: '), output)
+                self.assertEqual(output[-1], 'accepted 2 of 4')
+                error = run([*checker, names[0], '-'], '{\n').stderr
+                self.assertTrue(error.startswith('check: -:1: '), error)
 
     def test_a_tie_at_an_irrational_time_has_none(self):
         missing = certificates('tied-separation', 'vt', first=194, count=1)
@@ -146,10 +165,10 @@ class Certificates(unittest.TestCase):
             self.assertEqual(run(checker, missing.stdout).returncode, 1)
 
 
-def is_json(line):
-    """Lines that are no objects are unreadable, and end the checker in C++."""
+def is_object(line):
+    """Other lines are unreadable, and end the checkers."""
     try:
-        return isinstance(json.loads(line), dict)
+        return line.isascii() and '\\' not in line and isinstance(json.loads(line), dict)
     except (RecursionError, ValueError):
         return False
 

@@ -2,9 +2,8 @@
 
 The primitives A and B of a query are convex hulls of vertices. A vertex is at (1 - t) s + t e; x
 lists all s, then all e. With h >= 0 and 0 <= from <= to <= 1, a certificate proves one claim:
-  apart: at every t in [from, to] the distance of A and B is more than h ("open": on [from, to);
-         "strict": false: at least h); or
-  meets: at some t in [from, to] the distance is at most h ("strict": true: less than h).
+  apart: their distance is > h ("strict": false: >= h) at all t in [from, to] ("open": [from, to))
+  meets: their distance is <= h ("strict": true: < h) at some t in [from, to].
 The functions apart, at, bracket and edge say why their tests suffice. On [p, q] a polynomial f of
 degree n has a form: put t = (p u + q v) / (u + v) and multiply f by (u + v)^n. Each t in [p, q]
 has such u, v >= 0 with u + v = 1, so f > 0 on [p, q] if all coefficients of the form are positive:
@@ -23,9 +22,10 @@ from math import lcm
 
 KINDS = {'vv': 'AB', 've': 'ABB', 'vt': 'ABBB', 'ee': 'AABB'}  # the primitive of each vertex
 AREAS = {'vt': ('023', '031', '012'), 'ee': ('023', '132', '021', '013')}  # triangles in bracket()
-NUMBER = r'(-?)(\d+)(?:/0*([1-9]\d*))?|(-?0x[01])(?:\.([\da-f]+))?p([+-]?)0*(10\d\d|\d{1,3})'
+NUMBER = r'(-?)(\d+)(?:/0*([1-9]\d*))?|(-?0x[01])(?:\.([\da-f]+))?p([+-]?)(\d{1,4})'
 # integer() converts 600 digits at a time, because int() may be limited to 640.
 integer = lambda s: reduce(lambda n, d: n * 10 ** len(d) + int(d), re.findall('.{1,600}', s), 0)
+is_double = lambda v: abs(v) < 2**1024 - 2**970 and Fraction(float(v)) == v
 # An object becomes a tuple of pairs, a bare number its length (not a string), NaN an error.
 JSON = JSONDecoder(object_pairs_hook=tuple, parse_int=len, parse_float=len, parse_constant=int)
 Statement = namedtuple('Statement', 'kind x h claim from_ to open strict')
@@ -41,9 +41,10 @@ def require(truth, reason):
 
 
 def read(line):
-    require(len(line) <= 4 << 20, 'the line is too long')
+    require(len(line) <= 1 << 19, 'the line is too long')
+    require(line.isascii() and '\\' not in line, 'unreadable: a backslash, or not ASCII')
     try:
-        pairs = JSON.decode(line if isinstance(line, str) else line.decode())
+        pairs = JSON.decode(line)
     except (RecursionError, ValueError) as e:
         raise Refused('unreadable' if isinstance(e, ValueError) else 'nested too deeply') from None
     require(isinstance(pairs, tuple), 'unreadable: not an object')
@@ -56,18 +57,14 @@ def numbers(value, *lengths):
     if lengths:
         require(isinstance(value, list) and len(value) in lengths[0], 'an array has a bad length')
         return [numbers(item, *lengths[1:]) for item in value]
-    match = isinstance(value, str) and len(value) <= 20000 and re.fullmatch(NUMBER, value, re.A)
+    match = isinstance(value, str) and len(value) <= 10000 and re.fullmatch(NUMBER, value, re.A)
     require(match, 'a number is malformed, too long or not a string')
     minus, p, q, lead, digits, sign, power = match.groups('')
     if p:
         return Fraction(int(minus + '1') * integer(p), integer(q or '1'))
     value = int(lead + digits, 16) * Fraction(2) ** (int(sign + power) - 4 * len(digits))
-    require(is_double(value), 'a hexadecimal number is not a double')
+    require(int(power) <= 1074 and is_double(value), 'a hexadecimal number is not a double')
     return value
-
-
-def is_double(value):
-    return abs(value) < 2**1024 - 2**970 and Fraction(float(value)) == value
 
 
 def whole(values):
@@ -159,7 +156,7 @@ def edge(kind, x, names):
 
 
 def check(line):
-    """Return the Statement that the line, a string or bytes, proves, or raise Refused."""
+    """Return the Statement that a line proves, or raise Refused."""
     body = read(line)
     claim, kind, why = body.get('claim', 0), body.get('kind'), body.get('why')
     require(claim is not None, f'no certificate: {ascii(why)[1:-1] if type(why) is str else 0}')
@@ -182,19 +179,22 @@ def check(line):
 
 
 if __name__ == '__main__':
-    names, statuses = [a for a in sys.argv[1:] if a != '-q'] or ['-'], []
-    if '--help' in names:
+    names, verdicts = [a for a in sys.argv[1:] if a != '-q'] or ['-'], []
+    if {'--help', '-h'} & {*names}:
         sys.exit(print('usage: check.py [-q] [FILE ...]  check certificates; "-" is stdin'))
     try:
         for name in names:
-            with open(0 if name == '-' else name, 'rb') as file:
-                for i, line in enumerate(file.readlines() or [b''], 1):
+            with open(0 if name == '-' else name, encoding='latin-1', newline='\n') as file:
+                for i, line in enumerate(file.readlines() or [''], 1):
                     try:
-                        statuses.append(check(line.rstrip(b'\n')) and 0)
+                        verdicts.append(bool(check(line.rstrip('\n'))))
                     except Refused as error:
-                        statuses.append(2 if str(error).startswith('unreadable') else 1)
-                        if '-q' not in sys.argv:
-                            print(f'{i}: refused: {error}')
-    except OSError as error:
-        sys.exit(print(error, file=sys.stderr) or 2)
-    sys.exit(print(f'accepted {statuses.count(0)} of {len(statuses)}') or max(statuses))
+                        require(str(error)[:10] != 'unreadable', f'{name}:{i}: {error}')
+                        verdicts.append(
+                            '-q' not in sys.argv and print(f'{name}:{i}: refused: {error}')
+                        )
+        print(f'accepted {verdicts.count(True)} of {len(verdicts)}')
+        sys.stdout.close()
+    except (OSError, Refused) as error:
+        sys.exit(print(f'check: {error}', file=sys.stderr) or 2)
+    sys.exit(not all(verdicts))

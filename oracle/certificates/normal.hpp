@@ -1,0 +1,98 @@
+// Directions that separate two primitives, as the checkers of certificates see them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "oracle/arithmetic/vectors.hpp"
+#include "oracle/exact/moving.hpp"
+#include "oracle/exact/polynomial.hpp"
+
+namespace nearmiss::certificates {
+
+using exact::Number;
+using exact::Polynomial;
+using exact::PolynomialVector;
+
+/// A vector of polynomials in doubles. It tells quickly that a direction does not separate the primitives; whether
+/// one does is left to exact arithmetic.
+class RoughVector {
+ public:
+  explicit RoughVector(const PolynomialVector& v);
+
+  /// About the value at t, and what bounds the rounding errors of its components together with a factor.
+  struct Value {
+    certified::Vec<double> v{}, size{};
+  };
+  /// For t in [0, 1].
+  [[nodiscard]] Value at(double t) const;
+
+ private:
+  std::array<std::vector<double>, 3> coefficients_;
+};
+
+/// The differences of a vertex of the first primitive and one of the second. A direction separates the primitives if
+/// all differences are longer than h along it.
+struct Gaps {
+  Gaps(std::vector<PolynomialVector> differences, const Number& separation, bool strictly);
+
+  std::vector<PolynomialVector> exact;
+  std::vector<RoughVector> rough;
+  Number squared_h;
+  double h;        ///< about
+  bool is_strict;  ///< if not, they may also be exactly as long as h > 0
+};
+
+/// A direction that moves with time. The gaps must outlive it.
+class Normal {
+ public:
+  Normal(PolynomialVector n, const Gaps& gaps) : n_(std::move(n)), rough_(n_), gaps_(&gaps) {}
+
+  [[nodiscard]] const PolynomialVector& vector() const { return n_; }
+
+  /// Whether it clearly does not separate the primitives at an end of [lo, hi] or in the middle.
+  [[nodiscard]] bool clearly_fails(const Number& lo, const Number& hi) const;
+
+  /// Whether the checkers see that it separates the primitives in all of [lo, hi] or, if `open`, [lo, hi).
+  [[nodiscard]] bool separates(const Number& lo, const Number& hi, bool open);
+
+  /// Whether the first primitive is behind the second one at t, seen in this direction, as far as their first
+  /// vertices tell.
+  [[nodiscard]] bool is_behind_at(const Number& t) { return along(0).n_d.sign_at(t) < 0; }
+
+ private:
+  /// n · d for the gap d of this number, and (n · d)² - h² n · n, which is needed for h > 0. Made when they are asked
+  /// for first.
+  struct Along {
+    Polynomial n_d, excess;
+  };
+  const Along& along(std::size_t gap);
+
+  PolynomialVector n_;
+  RoughVector rough_;
+  const Gaps* gaps_;
+  std::vector<std::optional<Along>> along_;
+};
+
+/// Bits of the integers to which normals are rounded, in turn; 0: not rounded.
+constexpr std::array roundings{6, 20, 50, 0};
+
+/// A vector rounded to integers, of which the largest has about so many bits; 0 bits leave it as it is.
+PolynomialVector rounded(const PolynomialVector& n, int bits);
+
+/// The normal of a pair of features in both directions, rounded to integers of various sizes.
+class FeatureNormal {
+ public:
+  FeatureNormal(const PolynomialVector& n, const Gaps& gaps);
+
+  /// The direction in which the first primitive is in front of the second one at t, as far as their first vertices
+  /// tell. The one with the smallest integers comes first, the one that is not rounded last.
+  [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
+
+ private:
+  std::vector<Normal> forwards_, backwards_;
+};
+
+}  // namespace nearmiss::certificates
