@@ -105,6 +105,16 @@ class Reader {
   bool is_packed_;
 };
 
+/// Query q of queries that can be read.
+inline Query query_at(const nearmiss_queries& queries, std::size_t q) {
+  Query query{.kind = *kind_of_bit(queries.kind)};
+  if (queries.type == NEARMISS_DOUBLE)
+    Reader<double>(queries).read(q, query);
+  else
+    Reader<float>(queries).read(q, query);
+  return query;
+}
+
 /// The largest number of queries in a block.
 inline constexpr std::size_t block_size = 256;
 

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 
 #include "ccd/query/kind.hpp"
 #include "oracle/interface/nearmiss.h"
@@ -43,6 +44,13 @@ enum class DecidedBy : std::uint8_t {
   boxes = NEARMISS_BY_BOXES,
   filter = NEARMISS_BY_FILTER,
   exact = NEARMISS_BY_EXACT,
+};
+
+/// What a certificate proves.
+enum class Prove : int {
+  decision = NEARMISS_PROVE_DECISION,
+  time = NEARMISS_PROVE_TIME,
+  distance = NEARMISS_PROVE_DISTANCE,
 };
 
 /// Two numbers that enclose a time or a distance. Both are infinite for a time if there is no collision, and
@@ -181,6 +189,24 @@ inline Status smallest_distances(const Queries& queries, std::span<double> lo, s
   });
 }
 
+/// nearmiss_certificate(): makes `text` the certificate of query q; "" if there is none. Throws nothing but
+/// std::bad_alloc.
+inline Status certificate(const Queries& queries, std::size_t q, std::string& text,
+                          Prove what = Prove::decision) {
+  std::size_t length = 0;
+  const auto ask_for = [&](std::size_t size) {
+    text.resize(size);
+    return detail::ask(queries, q < queries.size(), [&](const nearmiss_queries* layout) {
+      return nearmiss_certificate(layout, q, static_cast<int>(what), text.data(), size + 1, &length);
+    });
+  };
+  constexpr std::size_t of_most = 4000;
+  Status status = ask_for(of_most);
+  if (length > of_most) status = ask_for(length);
+  text.resize(length);
+  return status;
+}
+
 /// nearmiss_wang(): whether the failure-proof CCD reports each query.
 inline Status wang(const Queries& queries, std::span<std::int8_t> answers) noexcept {
   const bool fit = detail::fits(queries, answers);
@@ -218,6 +244,13 @@ inline Interval smallest_distance(Kind kind, Coordinates x, double relative_widt
   Interval distance;
   (void)smallest_distances(Queries::packed(kind, x), {&distance.lo, 1}, {&distance.hi, 1}, relative_width);
   return distance;
+}
+
+/// nearmiss_certificate() for one query.
+inline std::string certificate(Kind kind, Coordinates x, double h = 0, Prove what = Prove::decision) {
+  std::string text;
+  (void)certificate(Queries::packed(kind, x).with_separation(h), 0, text, what);
+  return text;
 }
 
 /// nearmiss_wang() for one query.

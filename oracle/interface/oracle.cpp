@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
+#include <string>
 
 #include "ccd/query/gather.hpp"
+#include "oracle/certificates/certificate.hpp"
+#include "oracle/certificates/statements.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
@@ -68,6 +72,40 @@ int enclose(const nearmiss_queries* queries, double width, double* lo, double* h
 Enclosure enclosed_time(const Query& query, double width) {
   auto time = earliest_time(query);
   return time ? time->enclosure(width) : Enclosure{HUGE_VAL, HUGE_VAL};
+}
+
+Certificates certificates_of(const Query& query, int what) {
+  switch (what) {
+    case NEARMISS_PROVE_TIME:
+      return certify_time(query);
+    case NEARMISS_PROVE_DISTANCE:
+      return certify_distance(query);
+    default:
+      return {certify(query)};
+  }
+}
+
+/// The proofs that exist, one a line.
+std::string in_lines(const Certificates& certificates) {
+  std::string text;
+  for (const auto& each : certificates)
+    if (each) text += (text.empty() ? "" : "\n") + *each;
+  return text;
+}
+
+/// Writes the certificate of a query, or "" if it cannot be answered, as snprintf() does. Returns a status
+/// and throws nothing.
+int write_certificate(Query query, int what, char* text, std::size_t size, std::size_t* length) noexcept {
+  try {
+    if (what == NEARMISS_PROVE_DISTANCE) query.separation = 0;
+    const bool has_answer = is_answerable(query);
+    const std::string proof = has_answer ? in_lines(certificates_of(query, what)) : "";
+    if (size > 0) text[proof.copy(text, size - 1)] = '\0';
+    *length = proof.size();
+    return has_answer ? NEARMISS_OK : NEARMISS_NOT_FINITE;
+  } catch (const std::bad_alloc&) {
+    return NEARMISS_OUT_OF_MEMORY;
+  }
 }
 
 }  // namespace
@@ -136,4 +174,15 @@ int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_
   return nearmiss::interface::enclose(queries, relative_width, lo, hi, [&](const Query& query) {
     return nearmiss::minimum_distance(query, std::min(relative_width, 0.5));
   });
+}
+
+int nearmiss_certificate(const nearmiss_queries* queries, size_t q, int what, char* text, size_t size,
+                         size_t* length) {
+  const nearmiss::PlainArithmetic guard;
+  const bool can_be_proved = what >= NEARMISS_PROVE_DECISION && what <= NEARMISS_PROVE_DISTANCE;
+  if (!nearmiss::interface::are_readable(queries) || q >= queries->count || !can_be_proved ||
+      (text == nullptr && size > 0) || length == nullptr)
+    return NEARMISS_BAD_ARGUMENT;
+  const Query query = nearmiss::interface::query_at(*queries, q);
+  return nearmiss::interface::write_certificate(query, what, text, size, length);
 }

@@ -24,6 +24,11 @@ extern "C" {
 #define NEARMISS_BY_FILTER 1 /**< double arithmetic with certified bounds */
 #define NEARMISS_BY_EXACT 2  /**< exact arithmetic */
 
+/* What a certificate proves. */
+#define NEARMISS_PROVE_DECISION 0 /**< the answer of nearmiss_collides() */
+#define NEARMISS_PROVE_TIME 1     /**< the bounds lo and hi of nearmiss_earliest_time() for a `width` of 0 */
+#define NEARMISS_PROVE_DISTANCE 2 /**< bounds of the smallest distance, of a relative width of 1e-3 */
+
 /** Whether each query is a collision: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
  * NEARMISS_NO_ANSWER. A smallest distance of exactly h counts as a collision. `decided_by` says what decided,
  * and may be null. */
@@ -45,6 +50,27 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
  * Separations are ignored. `relative_width` must not be negative. `hi` may be null. */
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
+
+/** The certificate of query q, from which the short programs in tools/certificates/ of the sources see with
+ * fractions alone that the answer is right. It is a text of lines, with '\n' between two of them. Each line
+ * is JSON, and proves one statement about the query:
+ *
+ *     what                       statements
+ *     NEARMISS_PROVE_DECISION    the primitives never come within h; or they do so at some time
+ *     NEARMISS_PROVE_TIME        they do not do so in [0, lo), unless lo is 0; and they do so in [lo, hi]. If
+ *                                there is no collision, as NEARMISS_PROVE_DECISION
+ *     NEARMISS_PROVE_DISTANCE    the distance is at least lo, unless lo is 0; and at some time at most hi,
+ *                                unless hi is infinite. Separations are ignored
+ *
+ * Compare what a line states with what you asked: a line may prove something true about another query.
+ * Statements without a proof are left out. This happens only if the distance touches h > 0 at an irrational
+ * time and does not fall below it there. If nothing is left, or there is no answer, the text is empty.
+ *
+ * `length` is set to the number of characters of the whole text. As with snprintf(), at most `size`
+ * characters are written to `text`, of which the last one is a '\0', and what does not fit is cut off. If
+ * `size` is 0, nothing is written, and `text` may be null. */
+int nearmiss_certificate(const nearmiss_queries* queries, size_t q, int what, char* text, size_t size,
+                         size_t* length);
 
 #ifdef __cplusplus
 }

@@ -34,6 +34,23 @@ static void expect(int status, int expected) {
   if (status != expected && ++differences < 10) fprintf(stderr, "status: %s\n", nearmiss_message(status));
 }
 
+/* A certificate is cut off as by snprintf(), and has the length that the first call gives. */
+static void check_certificate(void) {
+  const double touching[24] = {0};
+  const nearmiss_queries query = nearmiss_packed(NEARMISS_VERTEX_TRIANGLE, 1, touching);
+  const int what = NEARMISS_PROVE_DECISION;
+  char start[8] = "#######";
+  size_t length = 0, again = 0;
+  expect(nearmiss_certificate(&query, 0, what, NULL, 0, &length), NEARMISS_OK);
+  char* const text = space(length + 1, 1);
+  expect(nearmiss_certificate(&query, 0, what, text, length + 1, &again), NEARMISS_OK);
+  expect(nearmiss_certificate(&query, 0, what, start, 4, &again), NEARMISS_OK);
+  if (again != length || strlen(text) != length || strstr(text, "\"claim\":\"meets\"") == NULL) ++differences;
+  if (strncmp(start, text, 3) != 0 || memcmp(start + 3, "\0###", 5) != 0) ++differences;
+  expect(nearmiss_certificate(&query, 1, what, text, length + 1, &again), NEARMISS_BAD_ARGUMENT);
+  free(text);
+}
+
 int main(void) {
   int32_t head[3]; /* kind; number of queries; 1 if their times and distances follow */
   size_t asked = 0;
@@ -94,6 +111,7 @@ int main(void) {
   expect(nearmiss_collides(NULL, &answer, NULL), NEARMISS_BAD_ARGUMENT);
   if (answer != 7) ++differences;
 
+  check_certificate();
   printf("C, nearmiss %s: %zu queries, %zu differences\n", nearmiss_version(), asked, differences);
   return differences == 0 ? 0 : 1;
 }

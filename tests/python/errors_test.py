@@ -18,6 +18,7 @@ FUNCTIONS = {
     'earliest_time': nearmiss.earliest_time,
     'time_of_impact': nearmiss.time_of_impact,
     'smallest_distance': nearmiss.smallest_distance,
+    'certificate': nearmiss.certificate,
     'wang': nearmiss.wang,
     'wang_bound': nearmiss.wang_bound,
 }
@@ -56,6 +57,11 @@ class Refusals(unittest.TestCase):
         for kind in ('vv', 1, None, 'VT'):
             wanted = f"kind is {kind!r}, expected 'vt' or 'ee'"
             self.expect(wanted, nearmiss.wang, kind, X)
+
+    def test_of_what_to_prove(self):
+        for prove in ('toi', None, 0, ['time']):
+            wanted = f"prove is {prove!r}, expected 'decision', 'time' or 'distance'"
+            self.expect(wanted, nearmiss.certificate, 'vt', X[0], prove=prove)
 
     def test_of_shapes(self):
         for shape in ((7, 3), (3, 8), (24,), (), (5, 24), (5, 2, 4, 2), (2, 2, 2, 4, 3)):

@@ -20,6 +20,7 @@ lo, hi = nearmiss.earliest_time('vt', x, width=0.1)
 longest: float = (hi - lo).max()
 mesh = nearmiss.MeshPairs([[0, 1, 2, 3]], np.zeros((4, 3)), np.ones((4, 3)))
 distance = nearmiss.smallest_distance('ee', mesh).lo[0]
+proof: str = nearmiss.certificate('vt', x[0], 0.5, prove='time')
 hits, toi = nearmiss.time_of_impact('vt', mesh, tmax=0.5)
 
 result = nearmiss.trial([mine, 'wang', nearmiss.Subject(mine, 'again')], 1000, ['uniform'])

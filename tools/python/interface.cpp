@@ -13,9 +13,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "ccd/query/arithmetic.hpp"
-#include "oracle/interface/nearmiss.h"
+#include "oracle/interface/nearmiss.hpp"
 
 namespace nearmiss::python {
 namespace {
@@ -201,6 +202,23 @@ py::tuple enclosures(const Queries& queries, double width) {
   return py::make_tuple(lower, upper);
 }
 
+/// The certificate of each query; nothing if it has none.
+std::vector<std::optional<std::string>> certificates(const Queries& queries, int what) {
+  std::vector<std::optional<std::string>> texts(queries.size());
+  std::size_t answered = 0;
+  std::string text;
+  const int status = ask_in_parts(queries, [&](const nearmiss_queries& part, std::size_t /*first*/) {
+    for (std::size_t q = 0; q < part.count; ++q, ++answered) {
+      const Status each = certificate(nearmiss::Queries(part), q, text, Prove{what});
+      if (each != Status::ok) return static_cast<int>(each);
+      if (!text.empty()) texts[answered] = text;
+    }
+    return NEARMISS_OK;
+  });
+  check(status, queries, [&](std::size_t q) { return q < answered; });
+  return texts;
+}
+
 }  // namespace
 }  // namespace nearmiss::python
 
@@ -217,6 +235,7 @@ PYBIND11_MODULE(_interface, module) {
   module.def("earliest_time", &enclosures<nearmiss_earliest_time>);
   module.def("time_of_impact", &time_of_impact);
   module.def("smallest_distance", &enclosures<nearmiss_smallest_distance>);
+  module.def("certificates", &certificates);
   module.def("wang", &wang);
   module.def("wang_bound", &wang_bound);
 }

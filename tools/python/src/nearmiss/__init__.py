@@ -25,6 +25,7 @@ from nearmiss import _built  # noqa: F401, before all that needs the compiled mo
 from nearmiss._functions import (
     DecidedBy,
     Interval,
+    certificate,
     collides,
     earliest_time,
     smallest_distance,
@@ -46,6 +47,7 @@ __all__ = [
     'Subject',
     'TrialResult',
     '__version__',
+    'certificate',
     'collides',
     'earliest_time',
     'families',

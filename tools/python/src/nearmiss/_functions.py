@@ -137,6 +137,41 @@ def smallest_distance(
     )
 
 
+_PROOFS = ('decision', 'time', 'distance')  # in the order of the numbers of the C interface
+
+
+def certificate(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = 0.0,
+    *,
+    prove: Literal['decision', 'time', 'distance'] = 'decision',
+) -> Any:
+    """A proof of the answer to each query, which a short program checks with fractions alone.
+
+    For one query, the proof is a string; for several, there is an array (n,) of strings. A string has one or
+    two lines of JSON, for tools/certificates/check.py of the sources. Each line proves one statement, which
+    check() returns; compare it with what you asked. A certificate takes about a millisecond and a kilobyte.
+
+    Statements without a proof are left out. This happens only if the distance touches the separation at an
+    irrational time and does not fall below it there. If nothing is left, there is None instead of a string.
+
+    kind, x, separation: as for collides()
+    prove: 'decision': the answer of collides();
+           'time': that nothing happens before `lo` of earliest_time(), and something between `lo` and `hi`;
+           'distance': bounds of the smallest distance as those of smallest_distance(), which ignore the
+           separation
+    """
+    try:
+        what = _PROOFS.index(prove)
+    except ValueError:
+        raise ValueError(
+            f"prove is {prove!r}, expected 'decision', 'time' or 'distance'"
+        ) from None
+    asked = Asked(kind, x, separation)
+    return asked.answers(np.array(_interface.certificates(asked.queries, what), object))
+
+
 def wang(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.bool_]:
     """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
 
