@@ -1,7 +1,12 @@
 #include "fuzz/trial/certified.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+
+#include "oracle/certificates/statements.hpp"
+#include "oracle/distance.hpp"
 
 namespace nearmiss {
 
@@ -19,20 +24,16 @@ certificates::Statement statement_about(const Query& query, const char* claim, c
 
 namespace {
 
-/// Whether a certificate proves this.
-bool proves(const std::string& certificate, const certificates::Statement& statement) {
-  try {
-    return certificates::check(certificate) == statement;
-  } catch (const certificates::Refused&) {
-    return false;
-  }
-}
-
-/// "" if the certificate proves this.
+/// "" if the certificate proves one of these statements.
 std::string complaint(const std::optional<std::string>& certificate,
-                      const certificates::Statement& statement) {
+                      std::initializer_list<certificates::Statement> statements) {
   if (!certificate) return "no certificate";
-  return proves(*certificate, statement) ? "" : "certificate (refused)";
+  try {
+    const auto proved = certificates::check(*certificate);
+    if (std::ranges::find(statements, proved) != statements.end()) return "";
+  } catch (const certificates::Refused&) {
+  }
+  return "certificate (refused)";
 }
 
 /// The complaint about the enclosure of t*: nothing happens before it, and something happens in it.
@@ -42,12 +43,30 @@ std::string complaint_about_time(const Query& query, const Decision& decision) {
   const Span before{0, t.lo, true};
   const Span within{t.lo, t.hi};
   std::string text;
-  if (t.lo > 0) text = complaint(certify_apart(query, before), statement_about(query, "apart", before, true));
+  if (t.lo > 0)
+    text = complaint(certify_apart(query, before), {statement_about(query, "apart", before, true)});
   if (!text.empty()) return text;
   const auto certificate = certify_meets(query, within);
   // If the distance touches h at t*, and falls below it later or never, t* may be irrational.
   if (!certificate && query.separation > 0 && !time.makes_late(std::nextafter(t.hi, 2.0))) return "";
-  return complaint(certificate, statement_about(query, "meets", within, false));
+  return complaint(certificate, {statement_about(query, "meets", within, false)});
+}
+
+/// The complaint about the bounds of the smallest distance.
+std::string complaint_about_distance(const Query& query) {
+  const auto about = [&](double bound, const char* claim, bool is_strict) {
+    return statement_about(with_separation(query, bound), claim, {}, is_strict);
+  };
+  const auto [lo, hi] = minimum_distance(query);
+  const Certificates proofs = certify_distance(query);
+  std::string text;
+  if (lo > 0)
+    text =
+        complaint(proofs.front(), {about(lo, "apart", false), about(std::nextafter(lo, 0), "apart", true)});
+  if (text.empty() && std::isfinite(hi))
+    text = complaint(proofs.back(),
+                     {about(hi, "meets", false), about(std::nextafter(hi, HUGE_VAL), "meets", false)});
+  return text;
 }
 
 }  // namespace
@@ -55,9 +74,10 @@ std::string complaint_about_time(const Query& query, const Decision& decision) {
 std::string certificate_disagreement(const Query& query, const Decision& decision) {
   if (decision.is_tie) return "";
   const char* const claim = decision.collision ? "meets" : "apart";
-  const std::string text = complaint(
-      certify(query), statement_about(query, claim, {}, !decision.collision || query.separation > 0));
-  return text.empty() && decision.collision ? complaint_about_time(query, decision) : text;
+  std::string text = complaint(
+      certify(query), {statement_about(query, claim, {}, !decision.collision || query.separation > 0)});
+  if (text.empty() && decision.collision) text = complaint_about_time(query, decision);
+  return text.empty() ? complaint_about_distance(query) : text;
 }
 
 }  // namespace nearmiss

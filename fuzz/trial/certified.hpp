@@ -15,8 +15,8 @@ certificates::Statement statement_about(const Query& query, const char* claim, c
                                         bool is_strict);
 
 /// Lets the checker of tools/certificates/, which shares no code with the oracle, judge the certificates of a
-/// decision and, if there is an earliest time, of its narrowest enclosure. Returns "" if it accepts them, else
-/// "no certificate" or "certificate (refused)". A tie may have no certificate.
+/// decision, of the narrowest enclosure of an earliest time, and of the bounds of the smallest distance. Returns ""
+/// if it accepts them, else "no certificate" or "certificate (refused)". A tie may have no certificate.
 std::string certificate_disagreement(const Query& query, const Decision& decision);
 
 }  // namespace nearmiss

@@ -40,6 +40,12 @@ struct Piece {
   bool is_extended = false;  ///< as far as the normal separates the primitives
 };
 
+/// A part of the step for which a normal is to be found, after so many halvings.
+struct Part {
+  Number lo, hi;
+  int depth;
+};
+
 PolynomialVector constant(const certified::Vec<double>& n) {
   PolynomialVector result;
   for (std::size_t k = 0; k < 3; ++k) result[k] = Polynomial({Number(n[k])});
@@ -66,12 +72,19 @@ class Separator {
         x_(moving_points(query, exact::Unit(query))),
         gaps_(gaps_of(query, exact::Unit(query), x_, is_strict)) {}
 
-  /// Whether the pieces cover [lo, hi], to whose end `open` applies.
-  bool cover(const Number& lo, const Number& hi, bool open, int depth = 0) {
-    if (find(lo, hi, open, depth)) return true;
-    if (depth == most_depth || tries_ > most_tries) return false;
-    const Number middle = between(lo, hi, 0.5);
-    return cover(lo, middle, false, depth + 1) && cover(middle, hi, open, depth + 1);
+  /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are halved.
+  bool cover(const Number& lo, const Number& hi, bool open) {
+    std::vector<Part> parts{{lo, hi, 0}};  // the first one last
+    while (!parts.empty()) {
+      const Part part = std::move(parts.back());
+      parts.pop_back();
+      if (find(part, open && parts.empty())) continue;
+      if (part.depth == most_depth || tries_ > most_tries) return false;
+      const Number middle = between(part.lo, part.hi, 0.5);
+      parts.push_back({middle, part.hi, part.depth + 1});
+      parts.push_back({part.lo, middle, part.depth + 1});
+    }
+    return true;
   }
 
   /// Extends pieces over their neighbours, narrow ones first, because a normal that separates where the
@@ -108,37 +121,37 @@ class Separator {
                   pieces_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   }
 
-  /// Finds a normal that separates the primitives in all of [lo, hi].
-  bool find(const Number& lo, const Number& hi, bool open, int depth) {
-    if (depth < depth_of_doubles) {
-      const double t = CGAL::to_double(between(lo, hi, 0.5));
+  /// Finds a normal that separates the primitives in all of a part.
+  bool find(const Part& part, bool open) {
+    if (part.depth < depth_of_doubles) {
+      const double t = CGAL::to_double(between(part.lo, part.hi, 0.5));
       const auto points = certified::closest_points(certified::VerticesAt<double>(differences_, t));
       for (const int bits : certificates::roundings) {
         Normal normal(certificates::rounded(constant(points.difference), bits), gaps_);
-        if (take(normal, lo, hi, open)) return true;
+        if (take(normal, part, open)) return true;
       }
-      if (take_normal(points.features, lo, hi, open)) return true;
+      if (take_normal(points.features, part, open)) return true;
     }
-    if (depth < all_features_from) return false;
+    if (part.depth < all_features_from) return false;
     const Topology& of = topology(kind_);
     using Combination = ClosestFeatures::Combination;
     for (const auto& [from, to] : of.gaps)
-      if (take_normal({Combination::vertices, from, to, to}, lo, hi, open)) return true;
+      if (take_normal({Combination::vertices, from, to, to}, part, open)) return true;
     for (const auto& [vertex, from, to] : of.vertices_and_edges)
-      if (take_normal({Combination::vertex_and_edge, vertex, from, to}, lo, hi, open)) return true;
-    return take_normal({Combination::interiors}, lo, hi, open);
+      if (take_normal({Combination::vertex_and_edge, vertex, from, to}, part, open)) return true;
+    return take_normal({Combination::interiors}, part, open);
   }
 
-  /// Tries the normal of these features, on the side on which it separates in the middle of [lo, hi].
-  bool take_normal(const ClosestFeatures& features, const Number& lo, const Number& hi, bool open) {
+  /// Tries the normal of these features, on the side on which it separates in the middle of the part.
+  bool take_normal(const ClosestFeatures& features, const Part& part, bool open) {
     const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
                          features.to};
     auto known = normals_.find(key);
     if (known == normals_.end())
       known = normals_.emplace(key, FeatureNormal(normal_of(features), gaps_)).first;
-    auto& normals = known->second.in_front_at(between(lo, hi, 0.5));
-    return !normals.back().clearly_fails(lo, hi) &&
-           std::ranges::any_of(normals, [&](Normal& each) { return take(each, lo, hi, open); });
+    auto& normals = known->second.in_front_at(between(part.lo, part.hi, 0.5));
+    return !normals.back().clearly_fails(part.lo, part.hi) &&
+           std::ranges::any_of(normals, [&](Normal& each) { return take(each, part, open); });
   }
 
   [[nodiscard]] PolynomialVector normal_of(const ClosestFeatures& features) const {
@@ -158,9 +171,9 @@ class Separator {
   }
 
   /// Keeps a piece with this normal if it separates the primitives.
-  bool take(Normal& normal, const Number& lo, const Number& hi, bool open) {
-    if (++tries_ > most_tries || !normal.separates(lo, hi, open)) return false;
-    pieces_.push_back({lo, hi, normal});
+  bool take(Normal& normal, const Part& part, bool open) {
+    if (++tries_ > most_tries || !normal.separates(part.lo, part.hi, open)) return false;
+    pieces_.push_back({part.lo, part.hi, normal});
     return true;
   }
 

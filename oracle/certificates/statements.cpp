@@ -19,11 +19,18 @@ Certificates certify_time(const Query& query) {
 }
 
 Certificates certify_distance(const Query& query) {
-  const Enclosure distance = minimum_distance(query);
+  const auto [lo, hi] = minimum_distance(query);
   Certificates statements;
-  if (distance.lo > 0) statements.push_back(certify_apart(with_separation(query, distance.lo), {}, false));
-  if (std::isfinite(distance.hi))
-    statements.push_back(certify_meets(with_separation(query, distance.hi), {}));
+  if (lo > 0) {
+    const Query further = with_separation(query, std::nextafter(lo, 0));
+    const auto text = certify_apart(with_separation(query, lo), {}, false);
+    statements.push_back(text ? text : certify_apart(further, {}));
+  }
+  if (std::isfinite(hi)) {
+    const Query further = with_separation(query, std::nextafter(hi, HUGE_VAL));
+    const auto text = certify_meets(with_separation(query, hi), {});
+    statements.push_back(text ? text : certify_meets(further, {}));
+  }
   return statements;
 }
 

@@ -14,6 +14,7 @@
 #include "fuzz/random.hpp"
 #include "fuzz/trial/certified.hpp"
 #include "oracle/certificates/certificate.hpp"
+#include "oracle/certificates/statements.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/fuzz/family_queries.hpp"
@@ -76,10 +77,26 @@ TEST_P(OfFamily, ProvesTheTime) {
 
 TEST_P(OfFamily, ProvesTheDistance) {
   for_queries(20, [](const Query& query) {
-    const Enclosure distance = minimum_distance(query);
-    if (distance.lo > 0) expect_apart(with_separation(query, distance.lo), {}, false);
-    if (std::isfinite(distance.hi)) expect_meets(with_separation(query, distance.hi), {}, false);
+    const auto [lo, hi] = minimum_distance(query);
+    std::vector<Statement> expected;
+    if (lo > 0) expected.push_back(statement_about(with_separation(query, lo), "apart", {}, false));
+    if (std::isfinite(hi))
+      expected.push_back(statement_about(with_separation(query, hi), "meets", {}, false));
+    std::vector<Statement> proved;
+    for (const auto& text : certify_distance(query)) proved.push_back(certificates::check(text.value()));
+    EXPECT_EQ(proved, expected);
   });
+}
+
+TEST(Certificate, OfADistanceThatIsReachedAtAnIrrationalTimeIsThatOfTheNextDouble) {
+  const Query query{.kind = Kind::vertex_triangle, .x = {0,  -.5, 5e-324, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
+                                                         -1, -.5, 5e-324, -1, -1, 0, 1, 1, 0, -1, -1, 0}};
+  ASSERT_EQ(minimum_distance(query).hi, 5e-324);
+  const Certificates proofs = certify_distance(query);
+  ASSERT_TRUE(proofs.back());
+  EXPECT_EQ(certificates::check(*proofs.back()),
+            statement_about(with_separation(query, 1e-323), "meets", {}, false));
+  EXPECT_EQ(certificate_disagreement(query, decide(query)), "");
 }
 
 /// Whether the oracle agrees with a statement about the beginning of the step; nothing for any other statement.
