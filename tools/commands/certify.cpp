@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <string_view>
+#include <string>
 
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/certificates/statements.hpp"
@@ -30,6 +30,13 @@ Certificates statements_about(const Query& query, const Options& options) {
   return all;
 }
 
+/// Why a statement about a query has no certificate.
+const char* why_none(const Query& query) {
+  return query.separation > 0
+             ? "the distance reaches h at an irrational time and does not fall below it there"
+             : "no proof was found";
+}
+
 }  // namespace
 
 void add_certify(CLI::App& app, int& exit_code) {
@@ -42,14 +49,18 @@ void add_certify(CLI::App& app, int& exit_code) {
       "--toi", options->toi,
       "Prove the enclosure of the earliest time: nothing happens before it, and something in it");
   command->add_flag("--distance", options->distance, "Prove the bounds of the smallest distance over [0, 1]");
+  command->footer(
+      "\nIf a statement has no certificate, its line has \"claim\":null and the reason, and the exit code is "
+      "1.\n"
+      "Example: nearmiss family uniform --kind vt --count 9 | nearmiss certify --kind vt > c.jsonl");
   command->callback([options, &exit_code] {
     std::size_t number = 0;
     options->input.read([&](const Query& query) {
       ++number;
       for (const auto& each : statements_about(query, *options)) {
         if (!each) exit_code = exit_found;
-        const std::string_view rest =
-            each ? std::string_view(*each).substr(1) : R"("claim":null,"why":"no proof was found"})";
+        const std::string rest =
+            each ? each->substr(1) : fmt::format(R"("claim":null,"why":"{}"}})", why_none(query));
         fmt::print("{{\"query\":\"{}\",{}\n", number, rest);
       }
     });
