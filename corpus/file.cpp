@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -47,18 +50,62 @@ fs::path new_file_beside(const fs::path& place) {
 
 }  // namespace
 
-PartFile::PartFile(fs::path place) : place_(std::move(place)), path_(new_file_beside(place_)) {}
+namespace {
+
+/// The path of a part file, for a signal handler, which may use only lock-free objects and allocate nothing.
+struct KnownPart {
+  enum State : std::uint8_t { unused, changing, used };
+  std::atomic<State> state = unused;
+  std::array<char, 4096> path{};
+};
+static_assert(std::atomic<KnownPart::State>::is_always_lock_free);
+
+std::array<KnownPart, 16>& known_parts() {
+  static constinit std::array<KnownPart, 16> parts;
+  return parts;
+}
+
+/// A part file beyond the number of those that can be known, or with a longer path, is left behind by a signal.
+void remember(const fs::path& path) {
+  const std::string& text = path.native();
+  for (KnownPart& part : known_parts()) {
+    auto expected = KnownPart::unused;
+    if (text.size() >= part.path.size() || !part.state.compare_exchange_strong(expected, KnownPart::changing))
+      continue;
+    *std::ranges::copy(text, part.path.begin()).out = '\0';
+    part.state = KnownPart::used;
+    return;
+  }
+}
+
+void forget(const fs::path& path) {
+  for (KnownPart& part : known_parts())
+    if (part.state == KnownPart::used && path == part.path.data()) part.state = KnownPart::unused;
+}
+
+}  // namespace
+
+PartFile::PartFile(fs::path place) : place_(std::move(place)), path_(new_file_beside(place_)) {
+  remember(path_);
+}
 
 PartFile::~PartFile() {
   std::error_code ignored;
   if (!path_.empty()) fs::remove(path_, ignored);
+  forget(path_);
 }
 
 void PartFile::put_in_place() {
   std::error_code error;
   fs::rename(path_, place_, error);
   if (error) throw cannot_be_written(place_, error.message());
+  forget(path_);
   path_.clear();
+}
+
+void remove_part_files() noexcept {
+  for (const KnownPart& part : known_parts())
+    if (part.state == KnownPart::used) unlink(part.path.data());
 }
 
 namespace {

@@ -28,6 +28,9 @@ class PartFile {
   std::filesystem::path place_, path_;
 };
 
+/// Removes all part files. A signal handler that ends the program may call this.
+void remove_part_files() noexcept;
+
 /// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees
 /// half of it, and a full disk leaves the old file unchanged. If the file is a pipe or a device
 /// (/dev/stdout), the text is written to it directly. Throws Error.

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <utility>
 
+#include "corpus/file.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -25,7 +26,9 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>
 /// Ends the program, unless the signal only repeats one that set the flag.
 extern "C" void end_on_signal(int /*signal*/) {
   constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
-  if (std::time(nullptr) - first_signal >= patience) _exit(exit_interrupted);
+  if (std::time(nullptr) - first_signal < patience) return;
+  remove_part_files();
+  _exit(exit_interrupted);
 }
 
 extern "C" void on_signal(int signal) {

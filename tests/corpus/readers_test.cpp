@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -241,6 +242,22 @@ TEST_F(Files, AnOpenFileIsWrittenAndNotReplaced) {
   std::array<char, 6> text{};
   ASSERT_EQ(pread(open_file.number, text.data(), text.size(), 0), 6);
   EXPECT_EQ(std::string(text.begin(), text.end()), "after!");
+}
+
+TEST_F(Files, PartsAreRemovedIfASignalEndsTheProgram) {
+  write("mine.part", "mine");
+  PartFile placed(file("placed"));
+  placed.put_in_place();
+  std::optional<PartFile> given_up(file("given up"));
+  given_up.reset();
+  write("given up.part", "mine, too");
+  const PartFile first(file("mine"));
+  const PartFile second(file("second"));
+  remove_part_files();
+  EXPECT_FALSE(fs::exists(first.path()));
+  EXPECT_FALSE(fs::exists(second.path()));
+  for (const char* kept : {"mine.part", "placed", "given up.part"})
+    EXPECT_TRUE(fs::exists(file(kept))) << kept;
 }
 
 TEST_F(Files, AreReplacedWithoutAStandardInput) {
