@@ -16,8 +16,8 @@ using Certificates = std::vector<std::optional<std::string>>;
 /// 0, and something happens in [lo, hi]. If there is no collision, the proof of that.
 Certificates certify_time(const Query& query);
 
-/// Proofs of the enclosure that minimum_distance(query) gives: the smallest distance is at least lo, unless lo
-/// is 0, and at most hi, unless hi is infinite.
+/// Proofs of the enclosure that minimum_distance(query) gives: the smallest distance is at least lo, unless
+/// lo is 0, and at most hi, unless hi is infinite.
 Certificates certify_distance(const Query& query);
 
 }  // namespace nearmiss
