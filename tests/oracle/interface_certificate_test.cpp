@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -33,8 +34,8 @@ constexpr std::array<double, 24> falling(double to) {
   return {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, to, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 }
 
-/// The distance touches 1 at the irrational time √½, between x0 and the inside of the edge x1x2, and is above
-/// 1 at all other times. The triangle is degenerate.
+/// The distance touches 1 at the irrational time √½, between x0 and the inside of the edge x1x2, and is
+/// above 1 at all other times. The triangle is degenerate.
 constexpr std::array<double, 24> touching_at_an_irrational_time{0, 0.5, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0,
                                                                 1, 0.5, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0};
 
@@ -214,11 +215,14 @@ TEST(InterfaceCertificate, RefusesArgumentsAndWritesNothing) {
   EXPECT_EQ(length, 7);
   const Queries one = Queries::packed(Kind::vertex_triangle, x);
   EXPECT_EQ(certificate(one, 1, text), Status::bad_argument);
+  const Queries none = Queries::packed(Kind::vertex_triangle, std::span<const double>());
+  EXPECT_EQ(certificate(none, 0, text), Status::bad_argument);
   EXPECT_EQ(certificate(one.with_separations(std::array{0.0, 0.0}), 0, text), Status::bad_argument);
 }
 
 TEST(InterfaceCertificate, IsTheSameInEveryModeOfTheProcessorAndRestoresIt) {
   constexpr double tiny = 0x1p-1070;
+  constexpr double negative = -std::numeric_limits<double>::denorm_min();
   auto x = falling(-2);
   for (double& each : x) each *= tiny;
   for (const Prove what : all_proofs) {
@@ -228,7 +232,11 @@ TEST(InterfaceCertificate, IsTheSameInEveryModeOfTheProcessorAndRestoresIt) {
       const testing::HostileArithmetic mode(rounding, true);
       const std::string before = odd_arithmetic();
       const std::string text = certified(x, tiny / 8, what);
+      const Queries of_negative_h = Queries::packed(Kind::vertex_triangle, x).with_separation(negative);
+      std::string none;
+      const Status status = certificate(of_negative_h, 0, none);
       EXPECT_EQ(odd_arithmetic(), before);
+      EXPECT_EQ(status, Status::not_finite) << before;
       EXPECT_EQ(text, expected) << before;
     }
   }

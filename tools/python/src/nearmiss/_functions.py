@@ -151,7 +151,8 @@ def certificate(
 
     For one query, the proof is a string; for several, there is an array (n,) of strings. A string has one or
     two lines of JSON, for tools/certificates/check.py of the sources. Each line proves one statement, which
-    check() returns; compare it with what you asked. A certificate takes about a millisecond and a kilobyte.
+    check() returns; compare it with what you asked. On average, a certificate takes a millisecond and has a
+    thousand characters.
 
     Statements without a proof are left out. This happens only if the distance touches the separation at an
     irrational time and does not fall below it there. If nothing is left, there is None instead of a string.
