@@ -65,7 +65,8 @@ std::array<KnownPart, 16>& known_parts() {
   return parts;
 }
 
-/// A part file beyond the number of those that can be known, or with a longer path, is left behind by a signal.
+/// A part file beyond the number of those that can be known, or with a longer path, is left behind by a
+/// signal.
 void remember(const fs::path& path) {
   const std::string& text = path.native();
   for (KnownPart& part : known_parts()) {

@@ -24,8 +24,8 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
 /// `is_strict`, that it is below h > 0. Nothing if that is wrong, or if no proof is found.
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false);
 
-/// The certificate of decide(query). If the smallest distance is exactly h > 0, it proves that the distance is at
-/// most h. Nothing if no proof is found.
+/// The certificate of decide(query). If the smallest distance is exactly h > 0, it proves that the distance
+/// is at most h. Nothing if no proof is found.
 std::optional<std::string> certify(const Query& query);
 
 }  // namespace nearmiss

@@ -1,6 +1,7 @@
-// Two points that are within h of each other at a rational time prove that the primitives come within h. Without
-// a separation, the time may be irrational. Then either the four vertices become coplanar while all weights are
-// positive, or the contact is that of a vertex and the inside of an edge (tools/certificates/README.md says why).
+// Two points that are within h of each other at a rational time prove that the primitives come within h.
+// Without a separation, the time may be irrational. Then either the four vertices become coplanar while all
+// weights are positive, or the contact is that of a vertex and the inside of an edge
+// (tools/certificates/README.md says why).
 #include <gmpxx.h>
 
 #include <algorithm>

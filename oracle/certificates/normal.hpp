@@ -16,8 +16,8 @@ using exact::Number;
 using exact::Polynomial;
 using exact::PolynomialVector;
 
-/// A vector of polynomials in doubles. It tells quickly that a direction does not separate the primitives; whether
-/// one does is left to exact arithmetic.
+/// A vector of polynomials in doubles. It tells quickly that a direction does not separate the primitives;
+/// whether one does is left to exact arithmetic.
 class RoughVector {
  public:
   explicit RoughVector(const PolynomialVector& v);
@@ -33,8 +33,8 @@ class RoughVector {
   std::array<std::vector<double>, 3> coefficients_;
 };
 
-/// The differences of a vertex of the first primitive and one of the second. A direction separates the primitives if
-/// all differences are longer than h along it.
+/// The differences of a vertex of the first primitive and one of the second. A direction separates the
+/// primitives if all differences are longer than h along it.
 struct Gaps {
   Gaps(std::vector<PolynomialVector> differences, const Number& separation, bool strictly);
 
@@ -63,8 +63,8 @@ class Normal {
   [[nodiscard]] bool is_behind_at(const Number& t) { return along(0).n_d.sign_at(t) < 0; }
 
  private:
-  /// n · d for the gap d of this number, and (n · d)² - h² n · n, which is needed for h > 0. Made when they are asked
-  /// for first.
+  /// n · d for the gap d of this number, and (n · d)² - h² n · n, which is needed for h > 0. Made when they
+  /// are asked for first.
   struct Along {
     Polynomial n_d, excess;
   };
@@ -87,8 +87,8 @@ class FeatureNormal {
  public:
   FeatureNormal(const PolynomialVector& n, const Gaps& gaps);
 
-  /// The direction in which the first primitive is in front of the second one at t, as far as their first vertices
-  /// tell. The one with the smallest integers comes first, the one that is not rounded last.
+  /// The direction in which the first primitive is in front of the second one at t, as far as their first
+  /// vertices tell. The one with the smallest integers comes first, the one that is not rounded last.
   [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
 
  private:

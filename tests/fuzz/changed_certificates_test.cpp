@@ -27,7 +27,8 @@ namespace {
 using certificates::Statement;
 using nlohmann::json;
 
-/// Whether the oracle agrees with a statement about the beginning of the step; nothing for any other statement.
+/// Whether the oracle agrees with a statement about the beginning of the step; nothing for any other
+/// statement.
 std::optional<bool> is_true(const Statement& statement) {
   if (statement.from != 0 || statement.to != mpq_class(statement.to.get_d())) return std::nullopt;
   Query query{.kind = statement.kind == "vt" ? Kind::vertex_triangle : Kind::edge_edge,

@@ -10,8 +10,9 @@
 
 namespace certificates {
 
-/// The claim that a line proves. At time t, a vertex is at (1 - t) x0 + t x1, exactly, and dist(t) is the distance
-/// of the primitives A and B. These are closed points, segments or triangles, and may be degenerate.
+/// The claim that a line proves. At time t, a vertex is at (1 - t) x0 + t x1, exactly, and dist(t) is the
+/// distance of the primitives A and B. These are closed points, segments or triangles, and may be
+/// degenerate.
 ///   apart: dist(t) > h for all t in [from, to]; not strict: dist(t) >= h; open: only for t in [from, to).
 ///   meets: dist(t) <= h for some t in [from, to]; strict: dist(t) < h.
 struct Statement {
