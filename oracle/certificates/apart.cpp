@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "oracle/distance/closest.hpp"
 #include "oracle/exact/moving.hpp"
 #include "oracle/exact/root.hpp"
+#include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
@@ -187,10 +189,19 @@ class Separator {
   int tries_ = 0;
 };
 
+/// Whether the primitives come within h in a span that begins with the step. Without this, the search for
+/// normals would go on until it gives up.
+bool is_reached(const Query& query, const Span& span) {
+  if (span.from != 0) return false;
+  auto time = earliest_time(query);
+  return time && time->is_before(span.is_open ? span.to : std::nextafter(span.to, 2));
+}
+
 }  // namespace
 
 std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict) {
   const PlainArithmetic guard;
+  if (is_strict && is_reached(query, span)) return std::nullopt;
   Separator separator(query, is_strict);
   if (!separator.cover(span.from, span.to, span.is_open)) return std::nullopt;
   separator.merge(span.is_open);
