@@ -222,6 +222,16 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span)
   return certify_first_contact(query, meeting, crossing);
 }
 
+/// The proof that the distance is h at the first such time, if that is rational, or soon after it, if the
+/// distance stays at h.
+std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
+  constexpr int most_refinements = 60;
+  if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
+  for (int i = 0; i < most_refinements; ++i, time.refine())
+    if (auto text = meeting.at(mpq_class(CGAL::Gmpq(time.hi()).mpq()))) return text;
+  return std::nullopt;
+}
+
 std::optional<std::string> certify_approach(const Query& query, const Span& span, bool is_strict) {
   constexpr unsigned most_bits_after = 5'000;  // of a time at which the distance is below h
   const Meeting meeting(query, span, is_strict);
@@ -232,8 +242,7 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
   auto approach = exact::first_approach(query);
   if (!approach) return std::nullopt;
   if (!is_strict)
-    if (const auto rational = Root(approach->time).as_rational())
-      return meeting.at(mpq_class(rational->mpq()));
+    if (auto text = certify_touch(approach->time, meeting)) return text;
   if (!approach->below) return std::nullopt;
   // The distance is below h right after this time: at the first, second or third next multiple of 2^-bits.
   Root below = *approach->below;

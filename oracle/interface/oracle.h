@@ -64,7 +64,8 @@ int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_
  *
  * Compare what a line states with what you asked: a line may prove something true about another query.
  * Statements without a proof are left out. This happens only if the distance touches h > 0 at an irrational
- * time and does not fall below it there. If nothing is left, or there is no answer, the text is empty.
+ * time, where it neither falls below h nor stays at h. If nothing is left, or there is no answer, the text is
+ * empty.
  *
  * `length` is set to the number of characters of the whole text. As with snprintf(), at most `size`
  * characters are written to `text`, of which the last one is a '\0', and what does not fit is cut off. If

@@ -157,12 +157,17 @@ class Certificates(unittest.TestCase):
                 error = run([*checker, names[0], '-'], '{\n').stderr
                 self.assertTrue(error.startswith('check: -:1: '), error)
 
-    def test_a_tie_at_an_irrational_time_has_none(self):
-        missing = certificates('tied-separation', 'vt', first=194, count=1)
+    def test_a_touch_at_an_irrational_time_has_none(self):
+        query = '0 -.5 1 -1 0 0 1 0 0 0 0 -1000  -1 -.5 1 -1 -1 0 1 1 0 -1 -.5 1'
+        command = [NEARMISS, 'certify', '--kind=vt', '--separation=1', '--toi', '-']
+        missing = run(command, query)
         self.assertEqual(missing.returncode, 1)
-        self.assertIn('"claim":null', missing.stdout)
+        self.assertIn('"claim":null,"why":"the distance reaches h at an irr', missing.stdout)
         for checker in CHECKERS:
-            self.assertEqual(run(checker, missing.stdout).returncode, 1)
+            self.assertEqual(refused(checker, missing.stdout.splitlines()), {2})
+
+    def test_a_tie_that_lasts_has_one(self):
+        self.assertEqual(certificates('tied-separation', 'vt', first=194, count=1).returncode, 0)
 
 
 def is_object(line):

@@ -33,7 +33,7 @@ Certificates statements_about(const Query& query, const Options& options) {
 /// Why a statement about a query has no certificate.
 const char* why_none(const Query& query) {
   return query.separation > 0
-             ? "the distance reaches h at an irrational time and does not fall below it there"
+             ? "the distance reaches h at an irrational time, and neither falls below it nor stays at it"
              : "no proof was found";
 }
 

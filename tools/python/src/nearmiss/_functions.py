@@ -155,7 +155,8 @@ def certificate(
     thousand characters.
 
     Statements without a proof are left out. This happens only if the distance touches the separation at an
-    irrational time and does not fall below it there. If nothing is left, there is None instead of a string.
+    irrational time, where it neither falls below it nor stays at it. If nothing is left, there is None
+    instead of a string.
 
     kind, x, separation: as for collides()
     prove: 'decision': the answer of collides();
