@@ -152,8 +152,12 @@ bool distance_exceeds(const Query& query, double bound) {
 }
 
 bool distance_exceeds_separation_by(const Query& query, double bound) {
+  return distance_exceeds(query, separation_and_bound(query, bound));
+}
+
+double separation_and_bound(const Query& query, double bound) {
   const double h = query.separation;
-  return distance_exceeds(query, h == 0 ? bound : std::nextafter(h + bound, infinity));
+  return h == 0 ? bound : std::nextafter(h + bound, infinity);
 }
 
 }  // namespace nearmiss

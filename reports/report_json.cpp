@@ -65,6 +65,8 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
                     {"again", replay_command(campaign, each)},
                     {"file", "cases/" + each.shrunk.file},
                     {"original_file", "cases/" + each.original.file}};
+  json["certificate"] = finding.certificate.empty() ? ordered_json() : ordered_json(finding.certificate);
+  if (finding.what == Finding::What::refuted_bound) json["bound"] = finding.bound;
   if (!finding.broken_since.empty()) json["broken_since"] = finding.broken_since;
   if (finding.what == Finding::What::late) {
     json["late_by"] = finding.ratio;

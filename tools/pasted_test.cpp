@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/trial/certified.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
@@ -98,6 +100,60 @@ std::string comment(const Finding& finding, std::string_view mark) {
   return text;
 }
 
+/// The certificate of what the test expects; "" if there is none.
+std::string certificate(Finding finding) {
+  if (finding.what == Finding::What::late) finding.time = std::nextafter(largest_time(finding.shrunk), 2.0);
+  return certificate_of(finding);
+}
+
+/// A comment with the certificate, in C++.
+std::string certificate_comment(const std::string& certificate) {
+  if (certificate.empty()) return "";
+  return fmt::format(
+      "// The next line is a certificate of this, which check.py of nearmiss (tools/certificates/) checks.\n"
+      "// {}\n",
+      certificate);
+}
+
+/// A text in parts of a line each, as a literal of Python.
+std::string literal_in_lines(std::string_view text) {
+  constexpr std::size_t width = 90;
+  std::string lines;
+  for (; !text.empty(); text.remove_prefix(std::min(width, text.size())))
+    lines += fmt::format("    '{}'\n", text.substr(0, width));
+  return "(\n" + lines + ")";
+}
+
+/// A number of a statement, in Python.
+std::string literal(const mpq_class& value) {
+  return mpq_class(value.get_d()) == value ? literal(value.get_d(), Form::python)
+                                           : fmt::format("check.Fraction('{}')", value.get_str());
+}
+
+/// The part of a test in Python that defines the certificate.
+std::string certificate_definition(const std::string& certificate) {
+  if (certificate.empty()) return "";
+  return fmt::format(
+      "# Copy check.py, the checker of certificates, beside this file. It is share/nearmiss/check.py of an\n"
+      "# installed nearmiss, and tools/certificates/check.py of its sources.\n"
+      "import check\n\nCERTIFICATE = {}\n\n\n",
+      literal_in_lines(certificate));
+}
+
+/// The part of a test in Python that checks the certificate.
+std::string certificate_assertion(const std::string& certificate) {
+  if (certificate.empty()) return "";
+  const certificates::Statement proven = certificates::check(certificate);
+  const auto truth = [](bool value) { return value ? "True" : "False"; };
+  return fmt::format(
+      "    # The certificate proves, about exactly these points, what this test expects.\n"
+      "    x = tuple(c for point in start + end for c in point)\n"
+      "    proven = '{}', x, {}, '{}', {}, {}, {}, {}\n"
+      "    assert check.check(CERTIFICATE) == check.Statement(*proven)\n",
+      proven.kind, literal(proven.h, Form::python), proven.claim, literal(proven.from), literal(proven.to),
+      truth(proven.open), truth(proven.strict));
+}
+
 /// A function that the test calls and that the reader of the test must write.
 struct Asked {
   std::string name, returns;
@@ -171,14 +227,17 @@ std::string pasted_test(const Finding& finding, Form language) {
   const std::string arguments =
       fmt::format("(start, end{})", has_separation ? ", " + literal(query.separation, language) : "");
   const bool python = language == Form::python;
+  const std::string heading = comment(finding, python ? "#" : "//");
+  const std::string proof = certificate(finding);
   return fmt::format(
-      fmt::runtime(python ? "{}{}def test_{}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
-                            "    assert {}\n"
-                          : "{}{}bool test_{}() {{\n  const double start[4][3] = {{\n{}  }};\n"
-                            "  const double end[4][3] = {{\n{}  }};\n  return {};\n}}\n"),
-      comment(finding, python ? "#" : "//"), request(functions(finding), has_separation, language),
+      fmt::runtime(python ? "{}{}{}def test_{}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
+                            "{}    assert {}\n"
+                          : "{}{}{}bool test_{}() {{\n  const double start[4][3] = {{\n{}  }};\n"
+                            "  const double end[4][3] = {{\n{}  }};\n{}  return {};\n}}\n"),
+      heading, python ? "" : certificate_comment(proof),
+      request(functions(finding), has_separation, language) + (python ? certificate_definition(proof) : ""),
       topology(query.kind).name, vertices(query, 0, language), vertices(query, 1, language),
-      expectation(finding, arguments, language));
+      python ? certificate_assertion(proof) : "", expectation(finding, arguments, language));
 }
 
 }  // namespace nearmiss::tools

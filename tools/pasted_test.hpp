@@ -21,6 +21,9 @@ Form parse_form(std::string_view text, std::string_view option);
 ///     bool detects(const double (&start)[4][3], const double (&end)[4][3]);  // adapt this
 ///     bool test_vertex_triangle();  // whether `detects` gives the right answer
 ///
+/// A comment contains the certificate of what the test expects (certificate_of), if there is one. The test in
+/// Python checks it first, with check.py (tools/certificates/).
+///
 /// In Python, the test is `test_vertex_triangle()`, which asserts that the answer is right, and the points
 /// are lists. For a pair of edges, the name is test_edge_edge. A query with a separation adds `double
 /// separation` to the arguments. For a late time, the maintainer's function is `double time_of_impact` with

@@ -22,6 +22,21 @@ certificates::Statement statement_about(const Query& query, const char* claim, c
           .strict = is_strict};
 }
 
+std::string certificate_of(const Finding& finding) {
+  const Query& query = finding.shrunk;
+  const auto certificate = [&] {
+    switch (finding.what) {
+      case Finding::What::late:
+        return certify_meets(query, {0, finding.time, true}, query.separation > 0);
+      case Finding::What::refuted_bound:
+        return certify_apart(with_separation(query, separation_and_bound(query, finding.bound)), {});
+      default:
+        return certify(query);
+    }
+  };
+  return certificate().value_or("");
+}
+
 namespace {
 
 /// "" if the certificate proves one of these statements.
@@ -71,11 +86,15 @@ std::string complaint_about_distance(const Query& query) {
 
 }  // namespace
 
+std::string decision_disagreement(const Query& query, const Decision& decision) {
+  const bool meets = decision.collision || decision.is_tie;
+  const bool is_strict = !meets || (query.separation > 0 && !decision.is_tie);
+  return complaint(certify(query), {statement_about(query, meets ? "meets" : "apart", {}, is_strict)});
+}
+
 std::string certificate_disagreement(const Query& query, const Decision& decision) {
   if (decision.is_tie) return "";
-  const char* const claim = decision.collision ? "meets" : "apart";
-  std::string text = complaint(
-      certify(query), {statement_about(query, claim, {}, !decision.collision || query.separation > 0)});
+  std::string text = decision_disagreement(query, decision);
   if (text.empty() && decision.collision) text = complaint_about_time(query, decision);
   return text.empty() ? complaint_about_distance(query) : text;
 }

@@ -79,6 +79,7 @@ Outcome Judge::judge(const Verdict& verdict, Truth& truth, double least_kept) co
   if (!unit) return outcome;
   const auto [ratio, exceeds] = truth.distance(*unit);
   outcome.bound_refuted = exceeds && subject_.claims_bound();
+  if (outcome.bound_refuted) outcome.bound = *unit;
   const bool is_kept = outcome.bound_refuted || ratio >= least_kept;
   outcome.ratio = is_kept ? truth.precise_ratio(*unit, ratio) : ratio;
   return outcome;

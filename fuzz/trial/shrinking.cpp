@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fuzz/parallel.hpp"
+#include "fuzz/trial/certified.hpp"
 #include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
@@ -36,6 +37,7 @@ void Shrinking::sift(TrialResult& result) {
     if (nth <= findings_kept) add(finding, nth);
     return nth > findings_kept;
   });
+  for (Finding& finding : result.findings) finding.certificate = certificate_of(finding);
   result.shrunk = take();
 }
 
@@ -79,6 +81,7 @@ void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
       task.finding.is_shrunk = true;
     else
       shrinker_.shrink(task.finding, rest);
+    task.finding.certificate = certificate_of(task.finding);
     const std::lock_guard lock(mutex_);
     --under_way_;
     shrunk_.emplace(task.number, std::move(task.finding));

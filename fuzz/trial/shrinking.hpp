@@ -35,8 +35,9 @@ class Shrinking {
   /// Takes on a finding, which gets the next number, from 0 on.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
-  /// Removes from a result all findings but the first ones of each signature and class (FirstFindings), which
-  /// it takes on. Adds the findings that have been shrunk since the last call. Throws what shrinking threw.
+  /// Removes from a result all findings but the first ones of each signature and class (FirstFindings),
+  /// which it takes on, and gives these their certificates. Adds the findings that have been shrunk since
+  /// the last call. Throws what shrinking threw.
   void sift(TrialResult& result);
 
   /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.

@@ -178,7 +178,11 @@ class FindingShrinker::OfSubject {
     const bool is_simpler = complexity(finding.shrunk) < complexity(simplest);
     finding.simplest = is_simpler ? finding.shrunk : simplest;
     finding.simplest_class = is_simpler ? finding.query_class : classify(simplest);
-    if (finding.what == Finding::What::late) finding.time = time_of(finding);
+    if (finding.shrunk == finding.query) return;
+    if (finding.what == Finding::What::late)
+      set(finding.time, subject_.decide(finding.shrunk).time);
+    else if (finding.what == Finding::What::refuted_bound)
+      set(finding.bound, subject_.ask_bound(finding.shrunk).bound);
   }
 
  private:
@@ -218,11 +222,9 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// The subject's time for the shrunk query, or for the original query if the subject gives none now.
-  [[nodiscard]] double time_of(const Finding& finding) const {
-    if (finding.shrunk == finding.query) return finding.time;
-    const double time = subject_.decide(finding.shrunk).time;
-    return std::isnan(time) ? finding.time : time;
+  /// Replaces the subject's number for the original query by that for the shrunk one, if it gives one now.
+  static void set(double& number, double of_shrunk) {
+    if (!std::isnan(of_shrunk)) number = of_shrunk;
   }
 
   const Subject& subject_;

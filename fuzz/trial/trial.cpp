@@ -168,15 +168,22 @@ class Judging {
 
  private:
   /// Counts the oracle's decision, and compares it with a recorded truth and, for sampled queries, with all
-  /// methods.
+  /// methods. Checks the certificate of a recorded truth if that is demanded.
   void try_oracle(std::size_t i, Truth& truth, OracleCounts& counts) {
     ++counts.queries;
     counts.collisions += truth.collision() ? 1 : 0;
     counts.ties += truth.is_tie() ? 1 : 0;
     ++counts.by_stage[static_cast<std::size_t>(truth.decision().stage)];
     counts.near_bounds += is_near_bounds(i) ? 1 : 0;
-    if (asks_all_methods(i)) compare_methods(i, truth, counts);
-    if (!batch_.truths.empty() && batch_.truths[i].value_or(truth.collision()) != truth.collision()) {
+    std::string disagreement = asks_all_methods(i) ? compare_methods(truth, counts) : "";
+    const std::optional<bool> recorded = batch_.truths.empty() ? std::nullopt : batch_.truths[i];
+    if (recorded == truth.collision() && comparison_.certify_truths && disagreement.empty())
+      disagreement = certify(truth, counts);
+    if (!disagreement.empty()) {
+      ++result_.statistics.oracle_disagreements;
+      keep(i, "", {Finding::What::oracle_disagreement, std::move(disagreement)}, truth);
+    }
+    if (recorded.value_or(truth.collision()) != truth.collision()) {
       ++result_.statistics.mismatches_with_recorded_truth;
       keep(i, "", {Finding::What::truth_mismatch, truth.contact()}, truth);
     }
@@ -190,16 +197,22 @@ class Judging {
     return batch_.compare_all || is_near_bounds(i) || is_sampled(batch_.number(i), one_in);
   }
 
-  void compare_methods(std::size_t i, Truth& truth, OracleCounts& counts) {
+  /// The signature of a disagreement; "" if all methods agree.
+  static std::string compare_methods(const Truth& truth, OracleCounts& counts) {
     const Answers answers = truth.ask_methods();
     ++counts.compared;
     counts.compared_collisions += answers.collision() ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
     counts.compared_times += truth.has_time() ? 1 : 0;
-    std::string signature = truth.disagreement(answers);
-    if (signature.empty()) return;
-    ++result_.statistics.oracle_disagreements;
-    keep(i, "", {Finding::What::oracle_disagreement, std::move(signature)}, truth);
+    return truth.disagreement(answers);
+  }
+
+  /// The signature of a missing certificate; "" if there is one, or if none is needed, because both answers are
+  /// right.
+  static std::string certify(const Truth& truth, OracleCounts& counts) {
+    std::string complaint = truth.certificate_complaint();
+    counts.certified += complaint.empty() ? 1 : 0;
+    return truth.is_tie() ? "" : complaint;
   }
 
   /// Judges, counts and stores the answer of subject s to query i.
@@ -230,6 +243,7 @@ class Judging {
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
     result_.findings.back().time = is_late ? outcome.verdict.time : 0;
+    result_.findings.back().bound = outcome.bound;
     result_.findings.back().place = batch_.place ? batch_.place(i) : 0;
     result_.findings.back().simplest = query;
     result_.findings.back().query_class = result_.findings.back().simplest_class = truth.query_class();

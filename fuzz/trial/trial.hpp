@@ -79,6 +79,8 @@ struct Comparison {
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
   bool near_bounds = false;     ///< also compares all queries that the filter decides near its bounds
+  bool certify_truths =
+      false;  ///< also demands a certificate of each recorded truth that the oracle confirms
   /// The names of two subjects of which the second is compared with the first (versions.hpp); or none.
   std::vector<std::string> versions = {};
 

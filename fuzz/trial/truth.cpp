@@ -29,6 +29,10 @@ std::string Truth::disagreement(const Answers& answers) const {
   return disagreement_signature(query_.kind, text);
 }
 
+std::string Truth::certificate_complaint() const {
+  return disagreement_signature(query_.kind, decision_disagreement(query_, decision_));
+}
+
 const std::string& Truth::contact() {
   if (contact_.empty()) contact_ = contact_signature(query_);
   return contact_;

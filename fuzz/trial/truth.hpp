@@ -34,6 +34,9 @@ class Truth {
   /// missing or refused certificate. "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
+  /// The signature of a missing or refused certificate of the decision; "" if it is accepted.
+  [[nodiscard]] std::string certificate_complaint() const;
+
   /// Whether both answers are right, because the smallest distance is exactly h > 0.
   [[nodiscard]] bool is_tie() const { return decision_.is_tie; }
 

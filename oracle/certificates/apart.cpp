@@ -210,7 +210,8 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
   const auto polynomial = [&](const Polynomial& p) {
     return p.is_zero() ? std::string(R"(["0"])") : list(p.coefficients(), number);
   };
-  std::string text = heading(query, "apart", span) + (is_strict ? "" : R"(,"strict":false)");
+  std::string text = heading(query, "apart", span.from, to_text(Number(span.to))) +
+                     (span.is_open ? R"(,"open":true)" : "") + (is_strict ? "" : R"(,"strict":false)");
   std::vector<Number> times{Number(span.from)};
   for (const Piece& piece : separator.pieces()) times.push_back(piece.hi);
   text += R"(,"times":)" + list(times, number);

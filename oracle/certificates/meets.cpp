@@ -41,6 +41,17 @@ std::array<Vec<Real>, 4> positions(const Query& query, const Real& t) {
   return x;
 }
 
+/// Whether a time is in a span.
+template <class Time>
+bool is_in(const Time& time, const Span& span) {
+  return Time(span.from) <= time && (span.is_open ? time < Time(span.to) : time <= Time(span.to));
+}
+
+/// The beginning of a proof that looks at no time after `last`. If the span is open, the proof ends there.
+std::string heading_until(const std::string& last, const Query& query, const Span& span) {
+  return heading(query, "meets", span.from, span.is_open ? last : certificates::to_text(Number(span.to)));
+}
+
 /// Two points that are within h of each other at a rational time.
 class Meeting {
  public:
@@ -53,7 +64,7 @@ class Meeting {
   /// The proof that the primitives come within h at t. It has points that are about the closest ones if these
   /// are near enough, because their weights need fewer digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
-    if (t < mpq_class(span_.from) || t > mpq_class(span_.to)) return std::nullopt;
+    if (!is_in(t, span_)) return std::nullopt;
     const auto x = positions<mpq_class>(query_, t);
     if (query_.separation > 0)
       if (const auto weights = shortened(about_closest(t.get_d()), {3, 8, 20, 50}, x))
@@ -114,7 +125,7 @@ class Meeting {
 
   [[nodiscard]] std::string text_at(const mpq_class& t, const WeightsOfPoints<mpq_class>& weights) const {
     const auto number = [](const mpq_class& x) { return quoted(x.get_str()); };
-    return heading(query_, "meets", span_) + (is_strict_ ? R"(,"strict":true)" : "") + R"(,"at":)" +
+    return heading_until(t.get_str(), query_, span_) + (is_strict_ ? R"(,"strict":true)" : "") + R"(,"at":)" +
            number(t) + R"(,"weights":)" + list(weights, number) + "}";
   }
 
@@ -167,12 +178,12 @@ class Crossing {
 
  private:
   [[nodiscard]] bool is_within_span(const Number& p, const Number& q) const {
-    return Number(span_.from) <= p && p < q && q <= Number(span_.to);
+    return is_in(p, span_) && is_in(q, span_) && p < q;
   }
 
   [[nodiscard]] std::string text(const Number& p, const Number& q, const std::string& edge = "") const {
-    return heading(query_, "meets", span_) + R"(,"bracket":[)" + quoted(certificates::to_text(p)) + "," +
-           quoted(certificates::to_text(q)) + "]" + edge + "}";
+    return heading_until(certificates::to_text(q), query_, span_) + R"(,"bracket":[)" +
+           quoted(certificates::to_text(p)) + "," + quoted(certificates::to_text(q)) + "]" + edge + "}";
   }
 
   /// Whether all components are multiples of one, which changes its sign.
@@ -194,7 +205,7 @@ class Crossing {
 };
 
 /// Any proof of the first contact, which exact arithmetic finds.
-std::optional<std::string> certify_first_contact(const Query& query, const Meeting& meeting,
+std::optional<std::string> certify_first_contact(const Query& query, const Span& span, const Meeting& meeting,
                                                  const Crossing& crossing) {
   constexpr int most_refinements = 40;
   exact::Predicates predicates(query);
@@ -203,6 +214,8 @@ std::optional<std::string> certify_first_contact(const Query& query, const Meeti
   Root& time = contact->time;
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
   for (int i = 0; i < most_refinements; ++i, time.refine()) {
+    const bool is_outside = time.hi() <= Number(span.from) || Number(span.to) <= time.lo();
+    if (is_outside) return std::nullopt;
     if (auto text = crossing.bracket(time.lo(), time.hi())) return text;
     if (auto text = crossing.edge_bracket(time.lo(), time.hi())) return text;
   }
@@ -219,7 +232,7 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span)
     for (const double t : {known->time.lo, known->time.hi})
       if (auto text = meeting.at(t)) return text;
   }
-  return certify_first_contact(query, meeting, crossing);
+  return certify_first_contact(query, span, meeting, crossing);
 }
 
 /// The proof that the distance is h at the first such time, if that is rational, or soon after it, if the
@@ -259,6 +272,8 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
 
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict) {
   const PlainArithmetic guard;
+  if (const double before = std::nextafter(span.to, 0); span.is_open && span.from <= before)
+    if (auto text = certify_meets(query, {span.from, before}, is_strict)) return text;
   return query.separation > 0 ? certify_approach(query, span, is_strict) : certify_contact(query, span);
 }
 

@@ -26,11 +26,11 @@ std::string to_text(const exact::Number& x) {
   return mpq_class(CGAL::Gmpq(x).mpq()).get_str();
 }
 
-std::string heading(const Query& query, const char* claim, const Span& span) {
+std::string heading(const Query& query, const char* claim, double from, const std::string& to) {
   return R"({"kind":")" + std::string(short_name(query.kind)) + R"(","x":)" +
          list(query.x, [](double x) { return quoted(text_of(x)); }) + R"(,"h":")" +
-         text_of(query.separation) + R"(","claim":")" + claim + R"(","from":")" + text_of(span.from) +
-         R"(","to":")" + text_of(span.to) + '"' + (span.is_open ? R"(,"open":true)" : "");
+         text_of(query.separation) + R"(","claim":")" + claim + R"(","from":")" + text_of(from) +
+         R"(","to":")" + to + '"';
 }
 
 }  // namespace nearmiss::certificates

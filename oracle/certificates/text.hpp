@@ -4,7 +4,6 @@
 #include <string>
 
 #include "ccd/query/query.hpp"
-#include "oracle/certificates/certificate.hpp"
 #include "oracle/exact/polynomial.hpp"
 
 namespace nearmiss::certificates {
@@ -13,7 +12,8 @@ namespace nearmiss::certificates {
 std::string to_text(const exact::Number& x);
 
 /// The beginning of a certificate, up to the keys that only one claim has: {"kind": ..., "to": ...
-std::string heading(const Query& query, const char* claim, const Span& span);
+/// `to` is the text of a number.
+std::string heading(const Query& query, const char* claim, double from, const std::string& to);
 
 /// "key":[a,b,...], each element given by text(element).
 template <class List, class Text>

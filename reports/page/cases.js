@@ -13,8 +13,9 @@ function failureTitle(finding) {
 /** A card with a picture and the text that belongs to it. */
 const pictureCard = (figure, content, attributes = {}) => made("article", [figure, made("div", content)], { class: "card", ...attributes });
 
-/** A query that is shown on demand. */
-const fold = (title, query, file) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query)]);
+/** A query that is shown on demand, with a button for its certificate if it has one. */
+const fold = (title, query, file, certificate) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query),
+  ...(certificate ? [" ", copyButton(certificate, "copy the certificate")] : [])]);
 
 /** A finding: its picture, what failed and how often, the command that replays it, and its queries. */
 const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi), [
@@ -24,7 +25,8 @@ const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, fi
   made("div", finding.explanation),
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
   command(finding.again),
-  ...(finding.is_shrunk ? [fold("the shrunk query", finding.shrunk, finding.file)] : []), fold("the original query", finding.original, finding.original_file),
+  ...(finding.is_shrunk ? [fold("the shrunk query", finding.shrunk, finding.file, finding.certificate)] : []),
+  fold("the original query", finding.original, finding.original_file, finding.is_shrunk ? null : finding.certificate),
   ...(String(finding.simplest) === String(finding.shrunk) ? [] : [fold(`the simplest query of any class (${finding.simplest_class})`, finding.simplest)]),
 ], { id: `finding-${index}`, tabindex: -1 });
 

@@ -66,13 +66,17 @@ std::string oracle_lines(const Statistics& statistics) {
   const std::string near_bounds = oracle.near_bounds == 0 ? ""
                                                           : fmt::format(", {} decided near their bounds",
                                                                         with_separators(oracle.near_bounds));
+  const std::string certified =
+      oracle.certified == 0 ? ""
+                            : fmt::format("\n{} certified", counted(oracle.certified, "recorded truth is",
+                                                                    "recorded truths are"));
   return fmt::format(
       "oracle: {} queries, {} left to exact arithmetic by the filters{}; {} decided by all exact methods: "
-      "{}, and {} of {} collisions\nhave an even number of roots, which root parity cannot see\n",
+      "{}, and {} of {} collisions\nhave an even number of roots, which root parity cannot see{}\n",
       with_separators(oracle.queries),
       with_separators(oracle.by_stage[static_cast<std::size_t>(FilterStage::undecided)]), near_bounds,
       with_separators(oracle.compared), statistics.oracle_disagreements == 0 ? "they agree" : "THEY DISAGREE",
-      with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions));
+      with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions), certified);
 }
 
 constexpr const char* footnotes =

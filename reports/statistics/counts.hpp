@@ -57,6 +57,7 @@ struct Outcome {
   /// farthest and is not in the first bin.
   double ratio = 0;
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
+  double bound = 0;            ///< the claimed bound, if it is refuted
   /// Whether the subject claims no bound, so that wang's bound for the same pair divides the distance.
   bool measured_by_wang = false;
   std::string fault_text = {};                        ///< what an exception said
@@ -216,6 +217,8 @@ struct OracleCounts {
   std::uint64_t compared_times =
       0;  ///< earliest times among `compared` that a second method has confirmed or contradicted
   std::uint64_t ties = 0;  ///< queries whose smallest distance is exactly the separation
+  std::uint64_t certified =
+      0;  ///< recorded truths whose certificate was accepted, if certificates are demanded
 
   static constexpr auto counters() {
     return std::tuple{Counter{"queries", &OracleCounts::queries},
@@ -230,7 +233,8 @@ struct OracleCounts {
                       Counter{"compared_collisions", &OracleCounts::compared_collisions},
                       Counter{"missed_by_parity", &OracleCounts::missed_by_parity},
                       Counter{"compared_times", &OracleCounts::compared_times},
-                      Counter{"ties", &OracleCounts::ties}};
+                      Counter{"ties", &OracleCounts::ties},
+                      Counter{"certified", &OracleCounts::certified}};
   }
 
   void merge(const OracleCounts& other) { merge_counters(*this, other); }

@@ -44,6 +44,10 @@ struct Finding {
   QueryClass simplest_class = QueryClass::unclassified;
   /// The earlier version of the subject's CCD, if that version does not fail on `query`; "" otherwise.
   std::string broken_since = {};
+  double bound = 0;  ///< the bound that the subject claims for the shrunk query, if it is refuted
+  /// The proof of what the oracle says against the subject about the shrunk query, as a line of JSON
+  /// (tools/certificates/README.md); "" if there is none.
+  std::string certificate = {};
 
   bool operator==(const Finding&) const = default;
 };

@@ -73,6 +73,29 @@ TEST_P(OfFamily, ProvesTheTime) {
   });
 }
 
+/// Expects a proof that something happens before a time, for h > 0 a distance below h.
+void expect_late(const Query& query, double time) {
+  const auto text = certify_meets(query, {0, time, true}, query.separation > 0);
+  ASSERT_TRUE(text);
+  Statement proven = certificates::check(*text);
+  EXPECT_LT(proven.to, mpq_class(time));
+  proven.to = 0;
+  EXPECT_EQ(proven, statement_about(query, "meets", {0, 0}, query.separation > 0));
+}
+
+TEST_P(OfFamily, ProvesThatTheNextDoubleIsLate) {
+  for_queries(20, [](const Query& query) {
+    auto time = earliest_time(query);
+    if (!time) return;
+    const double next = std::nextafter(time->enclosure().lo, 2);
+    if (next > 1) return;
+    if (time->makes_late(next))
+      expect_late(query, next);
+    else
+      EXPECT_FALSE(certify_meets(query, {0, next, true}, query.separation > 0));
+  });
+}
+
 TEST_P(OfFamily, ProvesTheDistance) {
   for_queries(20, [](const Query& query) {
     const auto [lo, hi] = minimum_distance(query);
@@ -116,6 +139,25 @@ TEST(Certificate, ProvesATimeFarBelowOneThatIsIrrational) {
   ASSERT_LT(t.lo, t.hi);
   expect_apart(query, {0, t.lo, true}, true);
   expect_meets(query, {t.lo, t.hi}, false);
+}
+
+TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
+  // The vertex meets the triangle at t = 1/5, which is less than 0.2.
+  const Query rational{.kind = Kind::vertex_triangle, .x = {0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,  //
+                                                            0.25, 0.25, -4, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
+  expect_late(rational, 0.2);
+  EXPECT_FALSE(certify_meets(rational, {0, std::nextafter(0.2, 0), true}));
+  // The vertex meets the inside of the triangle, or its edge x1x2 in a plane, when 2 t^2 = 1.
+  const Query inside{.kind = Kind::vertex_triangle, .x = {0, 0, 1, -8, -8, 0,  8, -8, 0, 0, 8, 0,  //
+                                                          2, 0, 1, -8, -8, -8, 8, -8, 8, 0, 8, 0}};
+  const Query border{.kind = Kind::vertex_triangle, .x = {0, 1, 0, -8, 0,  0, 8, 0, 0, 0, -20, 0,  //
+                                                          2, 1, 0, -8, -8, 0, 8, 8, 0, 0, -20, 0}};
+  for (const Query& query : {inside, border}) {
+    const Enclosure time = earliest_time(query)->enclosure();
+    ASSERT_LT(time.lo, time.hi);
+    expect_late(query, time.hi);
+    EXPECT_FALSE(certify_meets(query, {0, time.lo, true}));
+  }
 }
 
 TEST(Certificate, AWrongDecisionHasNone) {

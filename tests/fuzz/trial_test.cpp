@@ -77,6 +77,37 @@ TEST(Trial, AWrongRecordedTruthIsAFinding) {
   EXPECT_EQ(result.findings[0].provenance, "1");
 }
 
+TEST(Trial, CertifiesRecordedTruthsOnDemand) {
+  Batch recorded = batch();
+  const auto certified = [&](bool demanded) {
+    const auto result = hold_trial({}, recorded, {.certify_truths = demanded});
+    EXPECT_EQ(result.statistics.oracle_disagreements, 0);
+    return result.statistics.oracle_total().certified;
+  };
+  recorded.truths = {true, false};
+  EXPECT_EQ(certified(true), 2);
+  EXPECT_EQ(certified(false), 0);
+  recorded.truths = {std::nullopt, false};
+  EXPECT_EQ(certified(true), 1);
+  recorded.truths = {false, false};  // the first is wrong
+  EXPECT_EQ(certified(true), 1);
+}
+
+TEST(Trial, ATieNeedsNoCertificate) {
+  // At t = sqrt(17) / 8, the vertex is at a distance of exactly 9/4 from the line through x1 and x2, and farther at
+  // all other times.
+  const Query tie{.kind = Kind::vertex_triangle,
+                  .x = {0,  2.265625, 0, -8, 0,  0, 8, 0, 0, 0, -20, 0,  //
+                        -1, 2.265625, 0, -8, -8, 0, 8, 8, 0, 0, -20, 0},
+                  .separation = 2.25};
+  Batch recorded = batch_of("tie", {tie});
+  recorded.truths = {decide(tie).collision};
+  const auto result = hold_trial({}, recorded, {.certify_truths = true});
+  EXPECT_EQ(result.statistics.oracle_total().ties, 1);
+  EXPECT_EQ(result.statistics.oracle_total().certified, 0);
+  EXPECT_EQ(result.statistics.oracle_disagreements, 0);
+}
+
 TEST(Trial, EveryFindingHasASignatureThatIsCounted) {
   Subjects subjects = one(told("never", false));
   subjects.push_back(told("always", true, 0.5));

@@ -26,6 +26,17 @@ done
 "$nearmiss" demo >said
 grep -q '^wang, the failure-proof CCD, reports it' said || fail "the demo: $(cat said)"
 
+# A miss becomes a test that proves its own expectation with the installed checker.
+"$nearmiss" shrink nearmiss-demo.case --subject basic --as python >pasted.py
+cp "$prefix/share/nearmiss/check.py" .
+for answer in True False; do
+  printf '%s\n' 'import pasted' "pasted.detects = lambda *_: $answer" \
+    '[test() for name, test in vars(pasted).items() if name.startswith("test_")]' >$answer.py
+done
+python3 -B True.py || fail "the pasted test"
+! python3 -B False.py 2>said || fail "the pasted test passes although the CCD misses"
+grep -q 'assert detects' said || fail "$(cat said)"
+
 man=$prefix/share/man/man1/nearmiss-fuzz.1.gz
 [[ ! -e $man ]] || zgrep -q "Time limit per query" "$man" || fail "the man page"
 words() { bash -c 'source "$1"; COMP_WORDS=(nearmiss fu) COMP_CWORD=1; _nearmiss; echo "${COMPREPLY[*]}"' - "$1"; }

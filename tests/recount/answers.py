@@ -24,6 +24,7 @@ class Asked:
     ratios: Enclosed  # distance / bound of a false positive; NaN elsewhere
     judged: list  # the queries by which the subject is judged, as lines
     impact: Impact
+    claimed: typing.Callable  # query, as a line -> the bound that the subject claims
 
     def enclosed(self, name):
         """For each query, the number that the histogram with this key counts; NaN if it has
@@ -152,6 +153,7 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
         Enclosed(ratio_lo, ratio_hi),
         judged,
         compare(nearmiss, times, kind, sort, verdicts, judged, collision),
+        lambda line: nearmiss.verdicts(kind, [line], subject).bound[0],
     )
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from answers import ask
 from asking import KINDS, Nearmiss
+from check_certificates import check_certificates
 from check_counts import check_statistics
 from check_csv import CSV_CHECKS
 from check_deciders import check_deciders
@@ -49,6 +50,7 @@ def report_checks(report, answers, units):
     ), check_trade_offs, 'error_against_time', trade_offs, answers, units
     yield ('ladder',), check_ladder, 'ladder', report, answers, units
     yield ('findings',), check_findings, 'findings', findings, 'original', report, answers
+    yield ('findings',), check_certificates, 'findings', findings, answers
     for name, check in (
         ('verdicts', check_scorecard),
         ('deciders', check_deciders),

@@ -233,6 +233,18 @@ TEST_F(ReportTest, SaysOfAFindingWhetherItIsShrunk) {
   }
 }
 
+TEST_F(ReportTest, AFindingHasItsCertificateAndARefutedBound) {
+  Campaign campaign = some_campaign("wang");
+  Finding& finding = campaign.runs.front().findings.front();
+  EXPECT_TRUE(report_json(campaign)["findings"][0]["certificate"].is_null());
+  EXPECT_FALSE(report_json(campaign)["findings"][0].contains("bound"));
+  finding.certificate = R"({"claim":"apart"})";
+  finding.what = Finding::What::refuted_bound;
+  finding.bound = 0.125;
+  EXPECT_EQ(report_json(campaign)["findings"][0]["certificate"], finding.certificate);
+  EXPECT_EQ(report_json(campaign)["findings"][0]["bound"], 0.125);
+}
+
 TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   Campaign campaign = some_campaign("wang:p24");
   auto& counts = campaign.statistics.counts;

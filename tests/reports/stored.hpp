@@ -50,16 +50,17 @@ inline Statistics some_statistics(const std::string& subject) {
 
 /// A finding. Findings whose provenances have the same length are shrunk to the same query.
 inline Finding some_finding(const std::string& provenance) {
-  return {Finding::What::false_negative,
-          "basic",
-          "uniform",
-          stored_query,
-          provenance,
-          0,
-          "ee simple-root inside crossing",
-          with_separation(falling_edge(static_cast<double>(provenance.size()), -1), 0.1),
-          7,
-          0.75};
+  return {.what = Finding::What::false_negative,
+          .subject = "basic",
+          .family = "uniform",
+          .query = stored_query,
+          .provenance = provenance,
+          .signature = "ee simple-root inside crossing",
+          .shrunk = with_separation(falling_edge(static_cast<double>(provenance.size()), -1), 0.1),
+          .place = 7,
+          .time = 0.75,
+          .bound = 0.125,
+          .certificate = R"({"claim":"meets"})"};
 }
 
 /// An open database.

@@ -11,6 +11,9 @@ using ::testing::HasSubstr;
 
 class PastedTest : public testing::CommandLine {
  protected:
+  /// Tests in Python import the checker of certificates.
+  void SetUp() override { std::filesystem::copy_file(NEARMISS_CHECKER, file("check.py")); }
+
   /// Whether a command in the test's folder succeeds. Writes its output to text.txt.
   [[nodiscard]] bool succeeds(const std::string& command) const {
     return std::system(("cd " + file("").string() + " && " + command + " >text.txt").c_str()) == 0;
@@ -107,10 +110,43 @@ TEST_F(PastedTest, PassesInPythonIfTheDetectorIsRight) {
   EXPECT_THAT(read("error.txt"), HasSubstr("AssertionError"));
 }
 
+/// Replaces a part of a text, which must occur once.
+std::string with(std::string text, const std::string& old, const std::string& part) {
+  EXPECT_THAT(text, HasSubstr(old));
+  return text.replace(text.find(old), old.size(), part);
+}
+
+TEST_F(PastedTest, ProvesItsOwnExpectationInPython) {
+  write("q.vt", hit);
+  const std::string test = tests_of("q.vt --subject " + plugin("never")).python;
+  EXPECT_THAT(test, HasSubstr("# Copy check.py, the checker of certificates, beside"));
+  EXPECT_THAT(test, HasSubstr("    proven = 'vt', x, 0.0, 'meets', 0.0, 1.0, False, False\n"));
+  const auto passes = [&](const std::string& changed) {
+    return passes_in_python(changed, "test_vertex_triangle", "True");
+  };
+  EXPECT_TRUE(passes(test));
+  EXPECT_FALSE(
+      passes(with(test, "    end = [\n        [", "    end = [\n        [1.0 + ")));  // another query
+  EXPECT_THAT(read("error.txt"), HasSubstr("assert check.check(CERTIFICATE) == check.Statement(*proven)"));
+  EXPECT_FALSE(passes(with(test, "'meets', 0.0, 1.0", "'meets', 0.0, 0.75")));  // another claim
+  EXPECT_FALSE(passes(with(test, R"("h":"0")", R"("h":"1")")));                 // another certificate
+}
+
+TEST_F(PastedTest, HasTheCertificateInACommentInCpp) {
+  write("q.vt", hit);
+  const std::string test = tests_of("q.vt --subject " + plugin("never")).cpp;
+  const std::string beginning = "\n// {";
+  const auto first = test.find(beginning) + beginning.size() - 1;
+  write("certificate.jsonl", test.substr(first, test.find('\n', first) + 1 - first));
+  EXPECT_TRUE(succeeds("python3 check.py certificate.jsonl"));
+  EXPECT_EQ(read("text.txt"), "accepted 1 of 1\n");
+}
+
 TEST_F(PastedTest, ExpectsNoCollisionAfterAReportBeyondTheBound) {
   write("q.ee", "0 0 1  1 0 1.1  0.5 -1 0  0.5 1 0.2   0 0 3  1 0 3.3  0.5 -1 0.1  0.5 1 0\n");
   const Tests tests = tests_of("q.ee --subject " + plugin("bounded"));
   EXPECT_THAT(tests.python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
+  EXPECT_THAT(tests.python, HasSubstr("'apart', 0.0, 1.0, False, True\n"));
   expect_both(true, tests, "test_edge_edge", false);
   expect_both(false, tests, "test_edge_edge", true);
 }
@@ -122,6 +158,7 @@ TEST_F(PastedTest, PassesTheSeparation) {
   EXPECT_THAT(cpp, HasSubstr("(&end)[4][3], double separation);\n"));
   EXPECT_THAT(cpp, HasSubstr("  return detects(start, end, 1.0) == true;\n"));
   EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end, separation) that returns whether "));
+  EXPECT_THAT(python, HasSubstr("    proven = 'vt', x, 1.0, 'meets', 0.0, 1.0, False, True\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end, 1.0)\n"));
 }
 

@@ -44,6 +44,10 @@ int run(const Options& options) {
   for (const fs::path& path : options.paths) command += " " + printable_argument(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
   if (!options.bound.empty()) note_option(info, "bound", "--bound", options.bound);
+  if (options.trial.comparison.certify_truths) {
+    info["certified"] = "the recorded truths";
+    info["again"] += " --certify";
+  }
   if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
   Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
   std::uint64_t with_separation = 0;
@@ -94,6 +98,11 @@ void add_replay(CLI::App& app, int& exit_code) {
   options->trial.add_to(*command);
   add_bound_option(*command, options->bound);
   options->separation.add_to(*command);
+  command->add_flag(
+      "--certify", options->trial.comparison.certify_truths,
+      "Demand a certificate of each recorded truth, which the checker of tools/certificates/ accepts; "
+      "a truth without one counts as an oracle disagreement, unless the smallest distance is exactly "
+      "the separation");
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
   command->callback([options, &exit_code] { exit_code = run(*options); });

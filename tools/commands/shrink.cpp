@@ -92,6 +92,7 @@ void run(const Options& options) {
   const auto subject = made_for(each.query, options);
   Finding finding = find_failure(each, *subject);
   finding.shrunk = shrunk_query(finding, subject.get());
+  if (finding.what == Finding::What::refuted_bound) finding.bound = subject->ask_bound(finding.shrunk).bound;
   const Complexity before = complexity(finding.query);
   const Complexity after = complexity(finding.shrunk);
   const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
@@ -114,9 +115,10 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   options->separation.add_to(*command);
   command->add_option("-o,--output", options->out, "Write to this file instead of stdout")->type_name("FILE");
   command
-      ->add_option(
-          "--as", options->form,
-          "What to print: a case, or a test in c++ or python to paste into the subject's own project")
+      ->add_option("--as", options->form,
+                   "What to print: a case, or a test in c++ or python to paste into the subject's own "
+                   "project; the tests "
+                   "contain a certificate of the right answer, and that in python checks it")
       ->type_name("case|c++|python")
       ->capture_default_str();
   command->footer(

@@ -145,7 +145,7 @@ async function checkThatAPictureTurns(page) {
   assert.notEqual(await drawn(), byMouse);
 }
 
-/** The texts that the first finding's buttons copy: the command, and the query. */
+/** The texts that the first finding's buttons copy: the command, the query, and its certificate. */
 async function checkCopies(page, report, command) {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   const copied = async (number) => {
@@ -157,6 +157,8 @@ async function checkCopies(page, report, command) {
   assert.equal(await copied(0), command);
   await page.locator("#finding-0 summary").first().click();
   assert.deepEqual((await copied(1)).split(" ").map(Number), report.findings[0].shrunk);
+  assert.equal(await copied(2), report.findings[0].certificate);
+  assert.equal(JSON.parse(report.findings[0].certificate).claim, "meets");
 }
 
 async function checkOtherSections(page) {
