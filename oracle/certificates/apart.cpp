@@ -218,7 +218,7 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
   text += R"(,"normals":)" + list(separator.pieces(), [&](const Piece& piece) {
             return list(piece.normal.vector(), polynomial);
           });
-  return text + "}";
+  return if_short(text + "}");
 }
 
 }  // namespace nearmiss

@@ -123,10 +123,11 @@ class Meeting {
     return result;
   }
 
-  [[nodiscard]] std::string text_at(const mpq_class& t, const WeightsOfPoints<mpq_class>& weights) const {
+  [[nodiscard]] std::optional<std::string> text_at(const mpq_class& t,
+                                                   const WeightsOfPoints<mpq_class>& weights) const {
     const auto number = [](const mpq_class& x) { return quoted(x.get_str()); };
-    return heading_until(t.get_str(), query_, span_) + (is_strict_ ? R"(,"strict":true)" : "") + R"(,"at":)" +
-           number(t) + R"(,"weights":)" + list(weights, number) + "}";
+    return if_short(heading_until(t.get_str(), query_, span_) + (is_strict_ ? R"(,"strict":true)" : "") +
+                    R"(,"at":)" + number(t) + R"(,"weights":)" + list(weights, number) + "}");
   }
 
   Query query_;
@@ -149,7 +150,7 @@ class Crossing {
     const auto is_negative = [&](const Polynomial& each) { return is_positive(Polynomial() - each, p, q); };
     const bool is_proof = is_within_span(p, q) && of_.F.sign_at(p) * of_.F.sign_at(q) <= 0 &&
                           is_positive(of_.squared_N, p, q) && std::ranges::all_of(of_.outside, is_negative);
-    return is_proof ? std::optional(text(p, q)) : std::nullopt;
+    return is_proof ? text(p, q) : std::nullopt;
   }
 
   /// The shortest such proof for an interval that contains the known one.
@@ -181,9 +182,11 @@ class Crossing {
     return is_in(p, span_) && is_in(q, span_) && p < q;
   }
 
-  [[nodiscard]] std::string text(const Number& p, const Number& q, const std::string& edge = "") const {
-    return heading_until(certificates::to_text(q), query_, span_) + R"(,"bracket":[)" +
-           quoted(certificates::to_text(p)) + "," + quoted(certificates::to_text(q)) + "]" + edge + "}";
+  [[nodiscard]] std::optional<std::string> text(const Number& p, const Number& q,
+                                                const std::string& edge = "") const {
+    return if_short(heading_until(certificates::to_text(q), query_, span_) + R"(,"bracket":[)" +
+                    quoted(certificates::to_text(p)) + "," + quoted(certificates::to_text(q)) + "]" + edge +
+                    "}");
   }
 
   /// Whether all components are multiples of one, which changes its sign.
@@ -245,8 +248,20 @@ std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   return std::nullopt;
 }
 
+/// The proof that the distance is below h right after a time: at the first, second or third next multiple of
+/// 2^-bits.
+std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
+  constexpr unsigned most_bits = 5'000;
+  for (unsigned bits = 4; bits < most_bits; bits *= 2) {
+    while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();
+    const mpq_class scaled = mpq_class(CGAL::Gmpq(after.lo()).mpq()) << bits;
+    for (const int next : {1, 2, 3})
+      if (auto text = meeting.at(mpq_class(mpz_class(scaled) + next) >> bits)) return text;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> certify_approach(const Query& query, const Span& span, bool is_strict) {
-  constexpr unsigned most_bits_after = 5'000;  // of a time at which the distance is below h
   const Meeting meeting(query, span, is_strict);
   const KnownApproach known = known_approach(query);
   for (const double t : {span.from, std::round(known.time.hi * 16) / 16,
@@ -254,18 +269,10 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
     if (auto text = meeting.at(t)) return text;
   auto approach = exact::first_approach(query);
   if (!approach) return std::nullopt;
-  if (!is_strict)
-    if (auto text = certify_touch(approach->time, meeting)) return text;
-  if (!approach->below) return std::nullopt;
-  // The distance is below h right after this time: at the first, second or third next multiple of 2^-bits.
-  Root below = *approach->below;
-  for (unsigned bits = 4; bits < most_bits_after; bits *= 2) {
-    while (exact::power_of_half(bits) < below.hi() - below.lo()) below.refine();
-    const mpq_class scaled = mpq_class(CGAL::Gmpq(below.lo()).mpq()) << bits;
-    for (const int next : {1, 2, 3})
-      if (auto text = meeting.at(mpq_class(mpz_class(scaled) + next) >> bits)) return text;
-  }
-  return std::nullopt;
+  // Where the distance is below h, other points than the closest ones prove it, too, with shorter weights.
+  if (approach->below)
+    if (auto text = certify_below(*approach->below, meeting)) return text;
+  return is_strict ? std::nullopt : certify_touch(approach->time, meeting);
 }
 
 }  // namespace

@@ -33,4 +33,15 @@ std::string heading(const Query& query, const char* claim, double from, const st
          R"(","to":")" + to + '"';
 }
 
+std::optional<std::string> if_short(std::string certificate) {
+  constexpr std::size_t longest_line = 1 << 19;
+  constexpr std::size_t longest_number = 10'000;
+  if (certificate.size() > longest_line) return std::nullopt;
+  for (std::size_t from = 0, to = 0; to != certificate.npos; from = to + 1) {
+    to = certificate.find('"', from);
+    if (to != certificate.npos && to - from > longest_number) return std::nullopt;
+  }
+  return certificate;
+}
+
 }  // namespace nearmiss::certificates

@@ -1,6 +1,7 @@
 // Certificates as text: JSON with all numbers as strings.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "ccd/query/query.hpp"
@@ -14,6 +15,9 @@ std::string to_text(const exact::Number& x);
 /// The beginning of a certificate, up to the keys that only one claim has: {"kind": ..., "to": ...
 /// `to` is the text of a number.
 std::string heading(const Query& query, const char* claim, double from, const std::string& to);
+
+/// A certificate, unless it or one of its numbers is longer than the checkers accept.
+std::optional<std::string> if_short(std::string certificate);
 
 /// "key":[a,b,...], each element given by text(element).
 template <class List, class Text>

@@ -120,6 +120,23 @@ TEST(Certificate, OfADistanceThatIsReachedAtAnIrrationalTimeIsThatOfTheNextDoubl
   EXPECT_EQ(certificate_disagreement(query, decide(query)), "");
 }
 
+// The points that are closest at the rational time of the smallest distance have weights of 30,000 digits.
+TEST(Certificate, HasNoLongerNumbersThanTheCheckersRead) {
+  const Query query{.kind = Kind::edge_edge,
+                    .x = {-0x1.d29303170fab2p+1018, -0x1.cd28dd6e89c6ap-1000, -0x1.8e4ed253d9e3p-500,
+                          0x1.47aa2d9e2ec8dp+1018,  -0x1.54313be3e00fcp+1015, -0x1.ff6af81df6383p-500,
+                          -0x1.c814deab7658cp+0,    -0x1.c75a28d0d866bp+1018, 0x1.783be88b224fp-500,
+                          -0x1.71dba459ccb82p+1015, 0x1.93af0184cf29ap+1018,  0x1.b44a79866f058p-500,
+                          -0x1.efd5959f63b7ep+1018, 0x1.d0b75ec7530d8p+0,     -0x1.929a1381ad12p-500,
+                          0x1.bcf756713ac59p+1018,  -0x1.cb4b20fec3971p+0,    -0x1.7eed80d5f1c83p-500,
+                          -0x1.169213d6a78d8p-1000, -0x1.fc520418bccadp+0,    0x1.a69110e532388p-500,
+                          0x1.dd32c1d0b6d6dp+1015,  0x1.c2b88257cc465p+1018,  -0x1.d7eff04653cb9p-500}};
+  for (const auto& text : certify_distance(query)) {
+    ASSERT_TRUE(text);
+    EXPECT_NO_THROW(certificates::check(*text));
+  }
+}
+
 TEST(Certificate, ATieIsProvedIfItsTimeIsRational) {
   // The vertex passes the triangle's corner at a distance of exactly 1, at t = 1/2.
   const Query query{.kind = Kind::vertex_triangle,

@@ -69,28 +69,32 @@ mpq_class number(std::string_view text) {
   return value;
 }
 
+/// The library's message without its name of the error, as in "[json.exception.parse_error.101] ...".
+std::string message(const Json::exception& error) {
+  const std::string_view text = error.what();
+  return std::string(text.substr(text.find("] ") + 2));
+}
+
 /// The library's parser does not recurse; it calls `look` as it goes.
-Json parse(std::string_view line) {
+Json parse(std::string_view line) try {
   demand(line.size() <= 1 << 19, "a line of more than 512 KiB");
   // The library would take a zero byte for the end of the line.
   if (!std::ranges::all_of(line, [](unsigned char c) { return 0 < c && c < 128 && c != '\\'; }))
     throw Unreadable("a backslash, or not ASCII");
   std::size_t keys = 0;
-  const auto look = [&keys](int depth, Json::parse_event_t event, const Json&) {
-    demand(depth <= 4, "brackets nested too deeply");
+  int deepest = 0;
+  const auto look = [&](int depth, Json::parse_event_t event, const Json&) {
+    deepest = std::max(deepest, depth);
     keys += event == Json::parse_event_t::key ? 1 : 0;
     return true;
   };
   Json object = Json::parse(line, look);
   if (!object.is_object()) throw Unreadable("not a JSON object");
+  demand(deepest <= 4, "brackets nested too deeply");
   demand(keys == object.size(), "a key that occurs twice, or an object inside the object");
   return object;
-}
-
-/// The library's message without its name of the error, as in "[json.exception.parse_error.101] ...".
-std::string message(const Json::exception& error) {
-  const std::string_view text = error.what();
-  return std::string(text.substr(text.find("] ") + 2));
+} catch (const Json::exception& error) {
+  throw Unreadable(message(error));
 }
 
 void demand_keys(const Json& object, std::initializer_list<const char*> own) {
@@ -337,8 +341,6 @@ Statement check(std::string_view line) try {
   const auto prove = apart ? prove_apart : object.contains("at") ? prove_at : prove_bracket;
   prove(object, read_query(statement), statement);
   return statement;
-} catch (const Json::parse_error& error) {
-  throw Unreadable(message(error));
 } catch (const Json::exception& error) {
   throw Refused(message(error));
 }

@@ -46,7 +46,7 @@ def read(line):
     try:
         pairs = JSON.decode(line)
     except (RecursionError, ValueError) as e:
-        raise Refused('unreadable' if isinstance(e, ValueError) else 'nested too deeply') from None
+        raise Refused(f'unreadable: {type(e).__name__}') from None
     require(isinstance(pairs, tuple), 'unreadable: not an object')
     require(len(dict(pairs)) == len(pairs), 'a key comes twice')
     return dict(pairs)
@@ -195,6 +195,6 @@ if __name__ == '__main__':
                         )
         print(f'accepted {verdicts.count(True)} of {len(verdicts)}')
         sys.stdout.close()
-    except (OSError, Refused) as error:
+    except (OSError, Refused, ValueError, AttributeError) as error:
         sys.exit(print(f'check: {error}', file=sys.stderr) or 2)
     sys.exit(not all(verdicts))

@@ -3,7 +3,8 @@
 
 #include "tools/certificates/check.hpp"
 
-constexpr auto help = R"(check [-q] [FILE...] checks certificates, one a line; - or no FILE is standard input.
+constexpr auto help =
+    R"(check_certificates [-q] [FILE...] checks certificates, one a line; - or no FILE is standard input.
 It prints 'FILE:LINE: refused: REASON' and a summary; -q: only the summary.
 Exit code: 0 all are accepted, 1 one is refused, 2 a line is no JSON object, or a file is empty or unreadable.
 )";

@@ -30,10 +30,11 @@ Certificates statements_about(const Query& query, const Options& options) {
   return all;
 }
 
-/// Why a statement about a query has no certificate.
+/// What is said of a statement about a query that has no certificate.
 const char* why_none(const Query& query) {
   return query.separation > 0
-             ? "the distance reaches h at an irrational time, and neither falls below it nor stays at it"
+             ? "no proof was found: perhaps the distance reaches h at an irrational time, and neither falls "
+               "below it nor stays at it"
              : "no proof was found";
 }
 
