@@ -7,6 +7,7 @@
 #include "ccd/subjects/stopwatch.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/trial_stream.hpp"
+#include "oracle/oracle.hpp"
 #include "reports/campaign/campaign.hpp"
 #include "tests/fuzz/made_up_subjects.hpp"
 #include "tests/fuzz/trials.hpp"
