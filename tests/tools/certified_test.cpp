@@ -31,10 +31,9 @@ TEST_F(Certified, ReplayDemandsACertificateOfEachRecordedTruth) {
 }
 
 TEST_F(Certified, AReportHasTheCertificatesOfItsFindings) {
-  const std::string late = plugin("promises");
+  const std::string subjects = "basic," + plugin("promises") + "," + plugin("bounded");
   for (const char* shrinking : {"", " --no-shrink"}) {
-    const std::string trial =
-        "--family uniform,parallel --cases 1000 -q --subject basic,defect:D2*10," + late;
+    const std::string trial = "--family uniform,parallel --cases 1000 -q --subject " + subjects;
     expect_code(1, "fuzz " + trial + shrinking + " --db a.db");
     std::string certificates;
     std::set<std::string> sorts;
