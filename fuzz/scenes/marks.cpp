@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <utility>
+#include <vector>
 
 #include "reports/text/json.hpp"
 
@@ -27,6 +29,9 @@ std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& prim
 
 std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// The vertices of a triangle, a line or a dot.
+using Vertices = boost::container::static_vector<int, 3>;
+
 using Numbers = std::vector<std::int64_t>;
 
 std::string to_text(const Numbers& numbers) { return fmt::format("{}", fmt::join(numbers, " ")); }
@@ -45,7 +50,7 @@ class ShownPoints {
   }
 
   /// Adds a primitive to a list: the numbers of its points, then its mark.
-  void show(Numbers& list, const std::vector<int>& vertices, std::uint32_t mark) {
+  void show(Numbers& list, const Vertices& vertices, std::uint32_t mark) {
     for (const int vertex : vertices) list.push_back(number(vertex));
     list.push_back(mark);
   }
@@ -83,9 +88,8 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   return some;
 }
 
-/// A triangle, a line or a dot.
 struct Marked {
-  std::vector<int> vertices;
+  Vertices vertices;
   std::uint32_t mark;
 };
 
@@ -119,9 +123,7 @@ void Marks::merge(const Marks& other) {
 struct Marks::Primitives {
   std::vector<Marked> marked, others;
 
-  void add(std::vector<int> vertices, Mark mark) {
-    (mark != 0 ? marked : others).push_back({std::move(vertices), mark});
-  }
+  void add(const Vertices& vertices, Mark mark) { (mark != 0 ? marked : others).push_back({vertices, mark}); }
 };
 
 /// Adds the triangles, each with the marks of its edges, then the edges that are in no triangle.
@@ -133,12 +135,12 @@ void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
       mark |= mark_of(edges_, side);
       of_triangles.push_back(side);
     }
-    primitives.add({t.begin(), t.end()}, mark);
+    primitives.add(Vertices(t.begin(), t.end()), mark);
   }
   std::ranges::sort(of_triangles);
   std::vector<std::array<int, 2>> lines;
   std::ranges::set_difference(mesh.edges, of_triangles, std::back_inserter(lines));
-  for (const auto& e : lines) primitives.add({e.begin(), e.end()}, mark_of(edges_, e));
+  for (const auto& e : lines) primitives.add(Vertices(e.begin(), e.end()), mark_of(edges_, e));
 }
 
 /// Adds the points with a mark, and those in no primitive.
