@@ -15,8 +15,8 @@ namespace nearmiss {
 certificates::Statement statement_about(const Query& query, const char* claim, const Span& span,
                                         bool is_strict);
 
-/// The proof of what the oracle says against the subject about the finding's shrunk query. For h > 0, "meets" is
-/// strict if the subject must report a distance below h.
+/// The proof of what the oracle says against the subject about the finding's shrunk query. For h > 0, "meets"
+/// is strict if the subject must report a distance below h.
 ///   a miss: meets in [0, 1]
 ///   a late time: meets before that time, so the certificate ends before it
 ///   a refuted bound: apart in [0, 1] for the distance of separation_and_bound()
@@ -28,8 +28,8 @@ std::string certificate_of(const Finding& finding);
 /// decision. Returns "" if it accepts it, else "no certificate" or "certificate (refused)".
 std::string decision_disagreement(const Query& query, const Decision& decision);
 
-/// Lets the checker also judge the certificates of the narrowest enclosure of the earliest time, if there is one.
-/// Returns "" for a tie, which may have no certificate.
+/// Lets the checker also judge the certificates of the narrowest enclosure of the earliest time, if there is
+/// one. Returns "" for a tie, which may have no certificate.
 std::string certificate_disagreement(const Query& query, const Decision& decision);
 
 }  // namespace nearmiss

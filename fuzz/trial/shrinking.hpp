@@ -36,7 +36,8 @@ class Shrinking {
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
   /// Removes from a result all findings but the first ones of each signature and class (FirstFindings), which
-  /// it takes on, and gives these their certificates. Adds the findings that have been shrunk since the last call. Throws what shrinking threw.
+  /// it takes on, and gives these their certificates. Adds the findings that have been shrunk since the last
+  /// call. Throws what shrinking threw.
   void sift(TrialResult& result);
 
   /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.

@@ -21,8 +21,9 @@ struct Span {
 std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict = true);
 
 /// Proof that the distance is at most the query's separation h at some time in a part of the step; or, if
-/// `is_strict`, that it is below h > 0. If the span is open, the certificate's own `to` is below that of the span:
-/// the double before it if possible, otherwise a fraction. Nothing if that is wrong, or if no proof is found.
+/// `is_strict`, that it is below h > 0. If the span is open, the certificate's own `to` is below that of the
+/// span: the double before it if possible, otherwise a fraction. Nothing if that is wrong, or if no proof is
+/// found.
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false);
 
 /// The certificate of decide(query). If the smallest distance is exactly h > 0, it proves that the distance is at
