@@ -32,8 +32,8 @@ bool distance_exceeds(const Query& query, double bound);
 /// Whether the smallest distance is above h + bound. For h > 0, the sum is rounded up.
 bool distance_exceeds_separation_by(const Query& query, double bound);
 
-/// The distance with which distance_exceeds_separation_by() compares: the bound, or for h > 0 a number just above
-/// h + bound.
+/// The distance with which distance_exceeds_separation_by() compares: the bound, or for h > 0 a number just
+/// above h + bound.
 double separation_and_bound(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -24,12 +24,11 @@ certificates::Statement statement_about(const Query& query, const char* claim, c
 
 std::string certificate_of(const Finding& finding) {
   const Query& query = finding.shrunk;
-  const auto certificate = [&]() -> std::optional<std::string> {
+  const auto certificate = [&] {
     switch (finding.what) {
       case Finding::What::late:
         return certify_meets(query, {0, finding.time, true}, query.separation > 0);
       case Finding::What::refuted_bound:
-        if (!distance_exceeds_separation_by(query, finding.bound)) return std::nullopt;  // found sooner here
         return certify_apart(with_separation(query, separation_and_bound(query, finding.bound)), {});
       default:
         return certify(query);

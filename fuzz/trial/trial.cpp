@@ -207,8 +207,8 @@ class Judging {
     return truth.disagreement(answers);
   }
 
-  /// The signature of a missing certificate; "" if there is one, or if none is needed, because both answers are
-  /// right.
+  /// The signature of a missing certificate; "" if there is one, or if none is needed, because both answers
+  /// are right.
   static std::string certify(const Truth& truth, OracleCounts& counts) {
     std::string complaint = truth.certificate_complaint();
     counts.certified += complaint.empty() ? 1 : 0;

@@ -74,8 +74,8 @@ TEST(FindingCertificate, OfAnotherFailureIsTheDecision) {
   EXPECT_EQ(check(certificate(What::fault, apart)), statement_about(apart, "apart", {}, true));
 }
 
-/// A subject that takes separations, promises a time, and claims a bound of 0. It misses every third query, fails
-/// to answer every other third, and reports the others as collisions at t = 1.
+/// A subject that takes separations, promises a time, and claims a bound of 0. It misses every third query,
+/// fails to answer every other third, and reports the others as collisions at t = 1.
 Subjects often_wrong() {
   const auto answer = [](const Query& query) {
     const auto third = static_cast<int>(std::fmod(std::abs(query.x[0]) * 1e6, 3));
@@ -87,7 +87,8 @@ Subjects often_wrong() {
       "wrong", answer, Claims{.time_sort = TimeSort::lower_bound, .takes_separation = true}));
 }
 
-/// What fails, and the claim of the certificate unless it is that of a fault. Expects that each certificate is about the shrunk query.
+/// What fails, and the claim of the certificate unless it is that of a fault. Expects that each certificate
+/// is about the shrunk query.
 std::set<std::pair<What, std::string>> claims_of(const std::vector<Finding>& findings) {
   std::set<std::pair<What, std::string>> claims;
   for (const Finding& each : findings) {

@@ -96,6 +96,19 @@ TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
   EXPECT_EQ(shrunk.time, 0.5);
 }
 
+TEST(Shrinking, ARefutedFindingHasTheBoundOfItsShrunkQuery) {
+  const Subjects subjects = one(std::make_unique<testing::MadeUpSubject>(
+      "always", [](const Query&) { return Verdict::accepted(Stage::unspecified, 0); },
+      testing::Claims{.bound = 0.5}));
+  Finding finding =
+      hold_trial(subjects, testing::batch_of("f", {falling_vertex(0.3, 0.3, 3, 1)})).findings.at(0);
+  EXPECT_EQ(finding.bound, 0.5);
+  finding.bound = 0.25;  // another bound, to see that it is replaced
+  const Finding shrunk = after_shrinking(subjects, {finding}).front();
+  EXPECT_NE(shrunk.shrunk, finding.query);
+  EXPECT_EQ(shrunk.bound, 0.5);
+}
+
 /// Answers timed queries, such as those of a campaign, at once. Answers other queries only when `timed`
 /// queries have been timed.
 class Patient final : public ForwardingSubject {

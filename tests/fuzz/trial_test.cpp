@@ -95,8 +95,8 @@ TEST(Trial, CertifiesRecordedTruthsOnDemand) {
 }
 
 TEST(Trial, ATieNeedsNoCertificate) {
-  // At t = sqrt(17) / 8, the vertex is at a distance of exactly 9/4 from the line through x1 and x2, and farther at
-  // all other times.
+  // At t = sqrt(17) / 8, the vertex is at a distance of exactly 9/4 from the line through x1 and x2, and
+  // farther at all other times.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  2.265625, 0, -8, 0,  0, 8, 0, 0, 0, -20, 0,  //
                         -1, 2.265625, 0, -8, -8, 0, 8, 8, 0, 0, -20, 0},
