@@ -7,7 +7,8 @@ namespace nearmiss {
 namespace {
 
 TEST(Printable, LeavesTextAsItIs) {
-  for (const char* text : {"", "wang-tight:p24", "naïve CCD", "ψ ≤ 41 B ε^¼", "水", "\ud7fb", "\ue000", "𝕏"})
+  for (const char* text :
+       {"", "wang-tight:p24", "naïve CCD", "ψ ≤ 41 B ε^¼", "水", "a\u00a0b", "\ud7fb", "\ue000", "𝕏"})
     EXPECT_EQ(printable(text), text);
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/json.hpp"
+#include "reports/text/json.hpp"
 #include "tests/queries.hpp"
 #include "tests/refused.hpp"
 
@@ -53,6 +55,16 @@ Campaign merged(const std::vector<std::uint64_t>& shards) {
     names.push_back(std::to_string(shard) + ".db");
   }
   return merge_campaigns(campaigns, names);
+}
+
+TEST(Campaign, ARunBeganWithItsFirstShard) {
+  nearmiss::Run run{info, {}, {}};
+  for (const char* started : {"2026-02-02T00:00:00Z", "2026-02-01T00:00:00Z", "2026-02-03T00:00:00Z"})
+    run.shards.push_back(
+        {.index = run.shards.size(), .count = 3, .cases = 10, .complete = true, .started = started});
+  const auto json = runs_json({run})[0];
+  EXPECT_EQ(json["started"], "2026-02-01T00:00:00Z");
+  EXPECT_EQ(json["cases_done"], 30);
 }
 
 // The query of the finding that is not shrunk has no coincident vertices.

@@ -151,6 +151,16 @@ TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   EXPECT_EQ(found[0].kind, "ee");
 }
 
+// The spread between a few families is itself uncertain.
+TEST(ChangedTimes, OfAFewFamiliesSayLessThanThoseOfMany) {
+  const Slowness slower = [](const CountsKey& key) {
+    return key.subject == "mine" && key.kind == Kind::edge_edge && key.family == "f2" ? 1.08 : 1;
+  };
+  const std::vector<std::string> subjects{"mine", "wang"};
+  EXPECT_THAT(changed(night("2", slower, subjects, 4), {night("1", usual, subjects, 4)}), IsEmpty());
+  EXPECT_THAT(changed(night("2", slower), {night("1", usual)}), SizeIs(1));
+}
+
 TEST(ChangedTimes, OfAnotherProcessorAreNotCompared) {
   Campaign before = night("1", usual);
   before.runs[0].shards[0].environment["cpu"] = "another";
