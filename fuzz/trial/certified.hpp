@@ -28,8 +28,9 @@ std::string certificate_of(const Finding& finding);
 /// decision. Returns "" if it accepts it, else "no certificate" or "certificate (refused)".
 std::string decision_disagreement(const Query& query, const Decision& decision);
 
-/// Lets the checker also judge the certificates of the narrowest enclosure of an earliest time, and of the
-/// bounds of the smallest distance. Returns "" for a tie, which may have no certificate.
+/// Lets the checker also judge the certificates of the narrowest enclosure of an earliest time. Returns ""
+/// for a tie, which may have no certificate. Bounds of distances have certificates, too, which take several
+/// times as long.
 std::string certificate_disagreement(const Query& query, const Decision& decision);
 
 }  // namespace nearmiss

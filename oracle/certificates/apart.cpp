@@ -33,6 +33,7 @@ using certificates::Normal;
 using certified::ClosestFeatures;
 
 constexpr int most_tries = 500'000;  ///< of a normal in an interval
+constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
 constexpr int depth_of_doubles = 50;  ///< below it, doubles tell which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
@@ -69,11 +70,12 @@ Gaps gaps_of(const Query& query, const exact::Unit& unit, const std::array<Polyn
 /// Separates the primitives of a query piece by piece.
 class Separator {
  public:
-  Separator(const Query& query, bool is_strict)
+  Separator(const Query& query, bool is_strict, int tries)
       : kind_(query.kind),
         differences_(query),
         x_(moving_points(query, exact::Unit(query))),
-        gaps_(gaps_of(query, exact::Unit(query), x_, is_strict)) {}
+        gaps_(gaps_of(query, exact::Unit(query), x_, is_strict)),
+        tries_left_(tries) {}
 
   /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are halved.
   bool cover(const Number& lo, const Number& hi, bool open) {
@@ -82,7 +84,7 @@ class Separator {
       const Part part = std::move(parts.back());
       parts.pop_back();
       if (find(part, open && parts.empty())) continue;
-      if (part.depth == most_depth || tries_ > most_tries) return false;
+      if (part.depth == most_depth || tries_left_ < 0) return false;
       const Number middle = between(part.lo, part.hi, 0.5);
       parts.push_back({middle, part.hi, part.depth + 1});
       parts.push_back({part.lo, middle, part.depth + 1});
@@ -175,7 +177,7 @@ class Separator {
 
   /// Keeps a piece with this normal if it separates the primitives.
   bool take(Normal& normal, const Part& part, bool open) {
-    if (++tries_ > most_tries || !normal.separates(part.lo, part.hi, open)) return false;
+    if (--tries_left_ < 0 || !normal.separates(part.lo, part.hi, open)) return false;
     pieces_.push_back({part.lo, part.hi, normal});
     return true;
   }
@@ -186,11 +188,11 @@ class Separator {
   Gaps gaps_;
   std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
   std::vector<Piece> pieces_;
-  int tries_ = 0;
+  int tries_left_;
 };
 
-/// Whether the primitives come within h in a span that begins with the step. Without this, the search for
-/// normals would go on until it gives up.
+/// Whether the primitives come within h in a span that begins with the step. Then the search for normals does
+/// not end, unless the distance is exactly h, and only at the ends of pieces.
 bool is_reached(const Query& query, const Span& span) {
   if (span.from != 0) return false;
   auto time = earliest_time(query);
@@ -201,8 +203,9 @@ bool is_reached(const Query& query, const Span& span) {
 
 std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict) {
   const PlainArithmetic guard;
-  if (is_strict && is_reached(query, span)) return std::nullopt;
-  Separator separator(query, is_strict);
+  const bool reaches_h = is_reached(query, span);
+  if (is_strict && reaches_h) return std::nullopt;
+  Separator separator(query, is_strict, reaches_h ? most_tries_if_reached : most_tries);
   if (!separator.cover(span.from, span.to, span.is_open)) return std::nullopt;
   separator.merge(span.is_open);
   using namespace certificates;
