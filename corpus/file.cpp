@@ -48,10 +48,6 @@ fs::path new_file_beside(const fs::path& place) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// The path of a part file, for a signal handler, which may use only lock-free objects and allocate nothing.
 struct KnownPart {
   enum State : std::uint8_t { unused, changing, used };

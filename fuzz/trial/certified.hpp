@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// What a certificate of this claim about a query must state. `claim` is "apart" or "meets".
+/// The statement that a certificate of this claim about a query must prove. `claim` is "apart" or "meets".
 certificates::Statement statement_about(const Query& query, const char* claim, const Span& span,
                                         bool is_strict);
 

@@ -72,9 +72,10 @@ class Separator {
  public:
   Separator(const Query& query, bool is_strict, int tries)
       : kind_(query.kind),
+        unit_(query),
         differences_(query),
-        x_(moving_points(query, exact::Unit(query))),
-        gaps_(gaps_of(query, exact::Unit(query), x_, is_strict)),
+        x_(moving_points(query, unit_)),
+        gaps_(gaps_of(query, unit_, x_, is_strict)),
         tries_left_(tries) {}
 
   /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are halved.
@@ -183,6 +184,7 @@ class Separator {
   }
 
   Kind kind_;
+  exact::Unit unit_;
   certified::VertexDifferences differences_;
   std::array<PolynomialVector, 4> x_;
   Gaps gaps_;

@@ -75,9 +75,10 @@ const Normal::Along& Normal::along(std::size_t gap) {
   along_.resize(gaps_->exact.size());
   if (!along_[gap]) {
     along_[gap] = {dot(n_, gaps_->exact[gap]), {}};
-    if (sign(gaps_->squared_h) > 0)
-      along_[gap]->excess =
-          along_[gap]->n_d * along_[gap]->n_d - Polynomial({gaps_->squared_h}) * dot(n_, n_);
+    if (sign(gaps_->squared_h) > 0) {
+      if (!least_) least_ = Polynomial({gaps_->squared_h}) * dot(n_, n_);
+      along_[gap]->excess = along_[gap]->n_d * along_[gap]->n_d - *least_;
+    }
   }
   return *along_[gap];
 }

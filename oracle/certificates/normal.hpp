@@ -63,8 +63,8 @@ class Normal {
   [[nodiscard]] bool is_behind_at(const Number& t) { return along(0).n_d.sign_at(t) < 0; }
 
  private:
-  /// n · d for the gap d of this number, and (n · d)² - h² n · n, which is needed for h > 0. Made when they
-  /// are asked for first.
+  /// n · d for the gap d of this number, and (n · d)² - h² n · n, which is needed for h > 0. These are made
+  /// when they are asked for first.
   struct Along {
     Polynomial n_d, excess;
   };
@@ -74,6 +74,7 @@ class Normal {
   RoughVector rough_;
   const Gaps* gaps_;
   std::vector<std::optional<Along>> along_;
+  std::optional<Polynomial> least_;  ///< h² n · n
 };
 
 /// Bits of the integers to which normals are rounded, in turn; 0: not rounded.

@@ -46,7 +46,7 @@ enum class DecidedBy : std::uint8_t {
   exact = NEARMISS_BY_EXACT,
 };
 
-/// What a certificate proves.
+/// The statements that a certificate proves.
 enum class Prove : int {
   decision = NEARMISS_PROVE_DECISION,
   time = NEARMISS_PROVE_TIME,

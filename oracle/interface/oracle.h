@@ -24,7 +24,7 @@ extern "C" {
 #define NEARMISS_BY_FILTER 1 /**< double arithmetic with certified bounds */
 #define NEARMISS_BY_EXACT 2  /**< exact arithmetic */
 
-/* What a certificate proves. */
+/* The statements that a certificate proves. */
 #define NEARMISS_PROVE_DECISION 0 /**< the answer of nearmiss_collides() */
 #define NEARMISS_PROVE_TIME 1     /**< the bounds lo and hi of nearmiss_earliest_time() for a `width` of 0 */
 #define NEARMISS_PROVE_DISTANCE 2 /**< bounds of the smallest distance, of a relative width of 1e-3 */

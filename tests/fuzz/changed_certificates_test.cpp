@@ -19,6 +19,7 @@
 #include "oracle/certificates/statements.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/text/json.hpp"
+#include "tests/fuzz/family_queries.hpp"
 #include "tools/certificates/check.hpp"
 
 namespace nearmiss {
@@ -104,19 +105,13 @@ std::string changed(const std::string& text, Random& random) {
   return certificate.dump();
 }
 
-/// The number of queries of each family.
-std::uint64_t query_count() {
-  const char* const given = std::getenv("NEARMISS_QUERIES");
-  return given == nullptr ? 4 : std::stoull(given);
-}
-
 TEST(ChangedCertificate, ProvesNothingFalse) {
   Random random(1, 2, 3);
   int changes = 0;
   int accepted = 0;
   int judged = 0;
   for (const Family& family : all_families())
-    for (std::uint64_t i = 0; i < query_count(); ++i)
+    for (std::uint64_t i = 0; i < testing::query_count(4); ++i)
       for (const auto& text : certify_time(make_query(family, 1, i)))
         for (int change = 0; text && change < 40; ++change) {
           const std::string line = changed(*text, random);

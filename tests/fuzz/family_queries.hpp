@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -28,6 +29,13 @@ inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
+}
+
+/// The number of queries of each family: NEARMISS_QUERIES of the environment, for long runs by hand, or the
+/// usual one.
+inline std::uint64_t query_count(std::uint64_t usual) {
+  const char* const given = std::getenv("NEARMISS_QUERIES");
+  return given == nullptr ? usual : std::stoull(given);
 }
 
 /// The number of the first 400 queries of a family, with seed 5, that have a property. `nearmiss family NAME

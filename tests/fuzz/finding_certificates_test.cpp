@@ -87,8 +87,8 @@ Subjects often_wrong() {
       "wrong", answer, Claims{.time_sort = TimeSort::lower_bound, .takes_separation = true}));
 }
 
-/// What fails, and the claim of the certificate unless it is that of a fault. Expects that each certificate
-/// is about the shrunk query.
+/// The kind of each failure, and the claim that its certificate proves, or "" for a fault. Expects that each
+/// certificate is about the shrunk query.
 std::set<std::pair<What, std::string>> claims_of(const std::vector<Finding>& findings) {
   std::set<std::pair<What, std::string>> claims;
   for (const Finding& each : findings) {

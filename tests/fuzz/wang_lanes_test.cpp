@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
@@ -18,12 +17,6 @@
 
 namespace nearmiss {
 namespace {
-
-/// The number of queries of each family.
-std::uint64_t query_count() {
-  const char* const given = std::getenv("NEARMISS_QUERIES");
-  return given == nullptr ? 4000 : std::stoull(given);
-}
 
 bool equal(const Verdict& a, const Verdict& b) {
   return a.hit == b.hit && a.stage == b.stage && a.rejection == b.rejection && a.fault == b.fault &&
@@ -54,8 +47,8 @@ class InLanes : public ::testing::TestWithParam<Family> {};
 
 TEST_P(InLanes, VerdictsAreThoseOfOneQueryAtATime) {
   constexpr std::uint64_t most = 4000;
-  for (std::uint64_t first = 0; first < query_count(); first += most) {
-    const auto queries = contacts(GetParam(), first, std::min(most, query_count() - first));
+  for (std::uint64_t first = 0; first < testing::query_count(4000); first += most) {
+    const auto queries = contacts(GetParam(), first, std::min(most, testing::query_count(4000) - first));
     const auto expected = one_by_one(queries);
     for (const Instructions instructions : all_instructions) {
       if (!has(instructions)) continue;

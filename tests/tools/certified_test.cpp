@@ -9,7 +9,7 @@ using ::testing::HasSubstr;
 
 class Certified : public CommandLine {
  protected:
-  /// What check.py says about certificates, one a line.
+  /// The output of check.py for certificates, one a line.
   [[nodiscard]] std::string checked(const std::string& certificates) const {
     write("certificates.jsonl", certificates);
     const std::string command = "cd " + file("").string() + " && python3 " NEARMISS_CHECKER;

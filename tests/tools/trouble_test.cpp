@@ -225,23 +225,30 @@ TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
   EXPECT_EQ(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 1);
 }
 
-TEST_F(CommandLine, ACampaignNeedsNoMoreThreadsThanTheSystemStarts) {
-  const std::string campaign = "fuzz --subject basic --family planted-ulp --cases 3000 --json - --jobs ";
-  const json expected = json::parse(expect_code(1, campaign + "2").out)["oracle"];
-  // The address space for the stacks of threads is limited (a thread of TBB has a stack of 4 MB), or the
-  // number of threads of a user.
-  std::vector<std::string> limits{"ulimit -s 8192; ulimit -v 4000000;",
-                                  "ulimit -s 2000000; ulimit -v 4000000;"};
-  // Limits of numbers do not apply to root.
-  const std::string few_threads =
-      std::string(geteuid() == 0 ? "setpriv --reuid 12345 --regid 12345 --clear-groups " : "") +
-      "prlimit --nproc=300";
-  if (run("--version", few_threads).code == 0) limits.push_back(few_threads);
-  for (const std::string& limit : limits) {
+class FewThreads : public CommandLine {
+ protected:
+  /// Expects the results of two threads from a campaign that asks for many, after these words.
+  void expect_same_results(const std::string& limit) const {
+    const std::string campaign = "fuzz --subject basic --family planted-ulp --cases 3000 --json - --jobs ";
+    const json expected = json::parse(expect_code(1, campaign + "2").out)["oracle"];
     const Output limited = expect_code(1, campaign + "1500", limit);
     EXPECT_EQ(json::parse(limited.out)["oracle"], expected) << limit;
   }
-  if (limits.size() == 2) GTEST_SKIP() << "Another user cannot start nearmiss here.";
+};
+
+TEST_F(FewThreads, AreEnoughIfTheAddressSpaceForTheirStacksIsLimited) {
+  // A thread of TBB has a stack of 4 MB.
+  expect_same_results("ulimit -s 8192; ulimit -v 4000000;");
+  expect_same_results("ulimit -s 2000000; ulimit -v 4000000;");
+}
+
+TEST_F(FewThreads, AreEnoughIfTheirNumberIsLimited) {
+  // Limits of numbers do not apply to root.
+  const std::string limit =
+      std::string(geteuid() == 0 ? "setpriv --reuid 12345 --regid 12345 --clear-groups " : "") +
+      "prlimit --nproc=300";
+  if (run("--version", limit).code != 0) GTEST_SKIP() << "Another user cannot start nearmiss here.";
+  expect_same_results(limit);
 }
 
 TEST_F(CommandLine, ATimeLimitCountsTheCollectingOfPairs) {

@@ -30,7 +30,7 @@ Certificates statements_about(const Query& query, const Options& options) {
   return all;
 }
 
-/// What is said of a statement about a query that has no certificate.
+/// The reason that is printed if a statement about a query has no certificate.
 const char* why_none(const Query& query) {
   return query.separation > 0
              ? "no proof was found: perhaps the distance reaches h at an irrational time, and neither falls "
