@@ -4,7 +4,7 @@
 #include <span>
 
 #include "fuzz/libfuzzer/query_target.hpp"
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss::libfuzzer {

@@ -7,7 +7,6 @@
 
 #include "ccd/query/query.hpp"
 #include "ccd/subjects/subject.hpp"
-#include "oracle/agreement.hpp"
 
 namespace nearmiss {
 
@@ -28,7 +27,7 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
 bool is_of_invalid_time(std::string_view text);
 
 /// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists
-/// the answers (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if
+/// the answers (oracle/agreement/), as in "vt collision (no: filter; yes: exact, certificate, parity)". "" if
 /// they agree.
 std::string disagreement_signature(Kind kind, std::string_view text);
 

@@ -210,9 +210,9 @@ class Judging {
   /// The signature of a missing certificate; "" if there is one, or if none is needed, because both answers
   /// are right.
   static std::string certify(const Truth& truth, OracleCounts& counts) {
-    std::string complaint = truth.certificate_complaint();
-    counts.certified += complaint.empty() ? 1 : 0;
-    return truth.is_tie() ? "" : complaint;
+    const bool is_proved = truth.is_proved();
+    counts.certified += is_proved ? 1 : 0;
+    return is_proved || truth.is_tie() ? "" : disagreement_signature(truth.query().kind, "no certificate");
   }
 
   /// Judges, counts and stores the answer of subject s to query i.

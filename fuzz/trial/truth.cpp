@@ -8,8 +8,8 @@
 #include "ccd/subjects/subject.hpp"
 #include "ccd/wang/pair_bound.hpp"
 #include "fuzz/families/classify.hpp"
-#include "fuzz/trial/certified.hpp"
 #include "fuzz/trial/signatures.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/distance.hpp"
 #include "reports/statistics/statistics.hpp"
 
@@ -24,13 +24,14 @@ Answers Truth::ask_methods() const {
 
 std::string Truth::disagreement(const Answers& answers) const {
   std::string text = answers.disagreement(decision_.by_filter());
-  if (text.empty() && has_time()) text = time_disagreement(query_);
-  if (text.empty()) text = certificate_disagreement(query_, decision_);
+  if (text.empty() && has_time()) text = time_disagreement(query_, decision_);
   return disagreement_signature(query_.kind, text);
 }
 
-std::string Truth::certificate_complaint() const {
-  return disagreement_signature(query_.kind, decision_disagreement(query_, decision_));
+bool Truth::is_proved() const {
+  const Answer answer = proved_answer(query_);
+  const Answer expected = to_answer(query_, decision_);
+  return answer.at_most == expected.at_most && (is_tie() || answer.collision == expected.collision);
 }
 
 const std::string& Truth::contact() {

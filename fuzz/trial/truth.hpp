@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ccd/query/query.hpp"
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/query_class.hpp"
 
@@ -30,12 +30,12 @@ class Truth {
   /// Whether there is an earliest time: a collision, or a distance of exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement of these answers with the decision, or about the earliest time, or of a
-  /// missing or refused certificate. "" if they agree.
+  /// The signature of a disagreement of these answers with the decision, or of an earliest time without
+  /// accepted certificates. "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
-  /// The signature of a missing or refused certificate of the decision; "" if it is accepted.
-  [[nodiscard]] std::string certificate_complaint() const;
+  /// Whether the decision has a certificate that is accepted.
+  [[nodiscard]] bool is_proved() const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.
   [[nodiscard]] bool is_tie() const { return decision_.is_tie; }

@@ -1,4 +1,4 @@
-// The third exact method: the root parity of Brochu and Bridson, in exact arithmetic.
+// The root parity of Brochu and Bridson, in exact arithmetic: the method `parity`.
 #pragma once
 
 #include "ccd/query/query.hpp"

@@ -11,8 +11,8 @@
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/coverage.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss::crossed {
 namespace {
@@ -91,7 +91,7 @@ TEST(Crossed, FHasTheRootsOfItsFactor) {
   for_each_query(8000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
     if (levels.when() != When::inside || levels.where() == Where::outside) return;
     ++counted;
-    const RootCount roots = count_roots(query);
+    const testing::RootCount roots = testing::count_roots(query);
     const std::string where = std::to_string(index) + " " + to_text(levels);
     EXPECT_EQ(roots.planar, levels.roots() == Roots::all) << where;
     EXPECT_GE(roots.with_multiplicity - (roots.distinct - 1),

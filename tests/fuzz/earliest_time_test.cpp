@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "fuzz/families/families.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
-#include "oracle/sturm/times.hpp"
+#include "tests/exact_times.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -32,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(All, EarliestTimes,
                          ::testing::ValuesIn(all_families().begin(), all_families().end()),
                          testing::name_of_test);
 
-TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
+TEST_P(EarliestTimes, AreComparedAsInExactArithmetic) {
   const Family& family = GetParam();
   const std::uint64_t count = family.block_cases < 25 ? 20 : 200;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -44,10 +45,13 @@ TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
     EXPECT_LE(known.lo, narrow.lo) << i;
     EXPECT_LE(narrow.hi, known.hi) << i;
     EXPECT_LE(narrow.hi, above(narrow.lo)) << i;
-    SturmTimes by_sturm(query);
+    auto exactly = testing::exact_times(query);
+    ASSERT_TRUE(exactly) << family.name << ':' << i;
     for (const double at : times_around(known, narrow)) {
-      EXPECT_EQ(time->is_before(at), by_sturm.is_before(at)) << family.name << ':' << i << " at " << at;
-      EXPECT_EQ(time->makes_late(at), by_sturm.makes_late(at)) << family.name << ':' << i << " at " << at;
+      const bool is_late = exactly->below && testing::is_before(*exactly->below, at);
+      EXPECT_EQ(time->is_before(at), testing::is_before(exactly->time, at))
+          << family.name << ':' << i << " at " << at;
+      EXPECT_EQ(time->makes_late(at), is_late) << family.name << ':' << i << " at " << at;
     }
   }
 }
@@ -80,20 +84,10 @@ TEST(EarliestTime, IsOfTheFirstOfTwoContacts) {
     const Query query = make_query(find_family("even-roots"), 1, i);
     auto time = earliest_time(query);
     if (!time || !(time->known().hi < 1)) continue;
-    const RootCount roots = count_roots(query);
-    later += roots.distinct > 1 ? 1 : 0;
-    SturmTimes by_sturm(query);
-    EXPECT_FALSE(by_sturm.is_before(time->known().lo)) << i;
-    EXPECT_TRUE(by_sturm.is_before(above(time->known().hi))) << i;
+    later += testing::count_roots(query).distinct > 1 ? 1 : 0;
+    EXPECT_EQ(time_disagreement(query, decide(query)), "") << i;
   }
   EXPECT_GT(later, 100);
-}
-
-TEST(SturmTimes, AreComparedWithTimesOfAnySize) {
-  SturmTimes by_sturm(falling());
-  for (const double time : {-1.0, 0.0, 0x1p-1074, 0.25, 0.375})
-    EXPECT_FALSE(by_sturm.is_before(time)) << time;
-  for (const double time : {above(0.375), 1.0, 3.0, 0x1p60}) EXPECT_TRUE(by_sturm.is_before(time)) << time;
 }
 
 }  // namespace

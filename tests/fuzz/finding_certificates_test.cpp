@@ -12,6 +12,7 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/certified.hpp"
 #include "fuzz/trial/shrinking.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/distance.hpp"
 #include "tests/fuzz/made_up_subjects.hpp"
 #include "tests/fuzz/trials.hpp"

@@ -202,7 +202,7 @@ TEST(Signature, OfTheOracleSaysWhichMethodsDisagree) {
   const Answers answers = ask_all(hit);
   EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement(true)), "");
   EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement(false)),
-            "ee collision (no: filter; yes: exact, sturm, parity)");
+            "ee collision (no: filter; yes: exact, certificate, parity)");
 }
 
 }  // namespace

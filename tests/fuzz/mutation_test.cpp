@@ -16,9 +16,9 @@
 #include "ccd/wang/cubic.hpp"
 #include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -180,7 +180,7 @@ TEST(Mutation, CoplanarMakesARootOfFByMovingOnePosition) {
 
 TEST(Mutation, PlanarMakesFZeroIdentically) {
   // After rounding, F is zero only where all vertices are in a plane perpendicular to an axis.
-  const auto planar = [](const Query&, const Query& after) { return count_roots(after).planar; };
+  const auto planar = [](const Query&, const Query& after) { return testing::count_roots(after).planar; };
   for (const char* family : {"uniform", "small-integer"})
     EXPECT_GE(count_of_1000("planar", family, planar), 350) << family;
 }

@@ -9,8 +9,8 @@
 #include "oracle/distance.hpp"
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -81,7 +81,7 @@ TEST(Sliver, PrimitivesHaveNearlyNoAreaOrAreNearlyParallel) {
 }
 
 TEST(Planar, FIsZeroIdentically) {
-  expect_all("planar", [](const Query& query) { return count_roots(query).planar; });
+  expect_all("planar", [](const Query& query) { return testing::count_roots(query).planar; });
 }
 
 /// Expects that every coordinate of 400 queries of a family has a property.

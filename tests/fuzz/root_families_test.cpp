@@ -6,8 +6,8 @@
 #include "fuzz/families/contacts.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -32,7 +32,7 @@ void expect_more_of_each_kind(std::string_view family, int above, const Property
 /// Whether F has one root, of this multiplicity.
 auto has_one_root(int multiplicity) {
   return [=](const Query& query) {
-    const RootCount roots = count_roots(query);
+    const testing::RootCount roots = testing::count_roots(query);
     return roots.distinct == 1 && roots.with_multiplicity == multiplicity;
   };
 }
@@ -66,14 +66,15 @@ TEST(EndContact, OneCoordinateIsMovedByTheParameter) {
 // One query in four turns back before contact. In some queries, contact is outside of the primitives.
 TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
   for (const char* family : {"even-roots@-16", "even-roots@-8", "even-roots@-2"})
-    expect_more_of_each_kind(family, 15, [](const Query& query) { return count_roots(query).distinct == 2; });
+    expect_more_of_each_kind(family, 15,
+                             [](const Query& query) { return testing::count_roots(query).distinct == 2; });
 }
 
 TEST(EvenRoots, TheTimeBetweenTheContactsIsTheParameter) {
   for (const Kind kind : kinds) {
     int twice = 0;
     const int as_far = count_of_200("even-roots@-2", kind, [&](const Query& query) {
-      if (count_roots(query).distinct != 2) return false;
+      if (testing::count_roots(query).distinct != 2) return false;
       ++twice;
       const double first = earliest_time(query)->enclosure().hi;
       const double last = 1 - earliest_time(reversed(query))->enclosure().hi;

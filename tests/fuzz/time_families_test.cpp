@@ -7,12 +7,11 @@
 
 #include "fuzz/families/contacts.hpp"
 #include "oracle/distance.hpp"
+#include "oracle/exact/predicates.hpp"
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/primitives.hpp"
-#include "oracle/sturm/root.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -25,18 +24,12 @@ using testing::expect_more;
 using testing::first_queries;
 using testing::first_time;
 using testing::reversed;
+using testing::roots_before;
 
 /// The time of the last contact, for times that are multiples of 2^-52.
 double last_time(const Query& query) { return 1 - first_time(reversed(query)); }
 
 bool is_sixteenths(double time) { return 16 * time == std::floor(16 * time); }
-
-/// The number of different roots of F in [0, time).
-std::ptrdiff_t roots_before(const Query& query, double time) {
-  const auto roots = sturm::roots_in_unit_interval(sturm::Primitives(query).F());
-  return std::count_if(roots.begin(), roots.end(),
-                       [&](const sturm::SturmRoot& root) { return root.is_below(sturm::to_dyadic(time)); });
-}
 
 /// The first root of F, which is a multiple of 1/16.
 double first_root(const Query& query) {
@@ -50,7 +43,7 @@ TEST(CloseRoots, AllRootsAreInTheStepAndAsCloseAsTheParameterSays) {
     for (const Query& query : first_queries(at("close-roots", x), 200)) {
       const double first = first_root(query);
       const double gap = std::ldexp(1.0, x);
-      const auto roots = roots_before(query, 2);
+      const int roots = roots_before(query, 2);
       EXPECT_TRUE(roots == 2 || roots == 3) << roots;
       EXPECT_EQ(roots_before(query, first + gap), 1);
       EXPECT_GE(roots_before(query, first + 4 * gap), 2);
@@ -67,12 +60,12 @@ TEST(CloseRoots, TheFirstContactIsExactlyAtARoot) {
 }
 
 TEST(CloseRoots, ContactIsAtAnyOfTheRoots) {
-  for (const std::ptrdiff_t earlier : {0, 1, 2})
+  for (const int earlier : {0, 1, 2})
     expect_more("close-roots", 30,
                 [&](const Query& query) { return roots_before(query, first_time(query)) == earlier; });
   for (const int contacts : {1, 2, 3})
     expect_more("close-roots", 30,
-                [&](const Query& query) { return count_roots(query).distinct == contacts; });
+                [&](const Query& query) { return testing::count_roots(query).distinct == contacts; });
 }
 
 TEST(TouchOnce, HalfTouchExactlyAtOneTime) {
@@ -87,10 +80,10 @@ TEST(TouchOnce, HalfTouchExactlyAtOneTime) {
 
 TEST(TouchOnce, ManyTouchInADoubleRootAndManyInAPlane) {
   expect_more("touch-once", 90, [](const Query& query) {
-    const RootCount roots = count_roots(query);
+    const testing::RootCount roots = testing::count_roots(query);
     return roots.distinct == 1 && roots.with_multiplicity == 2;
   });
-  expect_more("touch-once", 90, [](const Query& query) { return count_roots(query).planar; });
+  expect_more("touch-once", 90, [](const Query& query) { return testing::count_roots(query).planar; });
 }
 
 TEST(TouchOnce, AQuarterPassesAtATinyDistance) {
@@ -115,7 +108,8 @@ TEST(BorderFirst, ThePrimitivesMeetAtTwoTimes) {
   for (const int x : {-40, -5})
     expect_all(at("border-first", x), [](const Query& query) {
       const double first = first_time(query);
-      return count_roots(query).distinct == 2 && is_sixteenths(first) && last_time(query) >= first + 1.0 / 16;
+      return testing::count_roots(query).distinct == 2 && is_sixteenths(first) &&
+             last_time(query) >= first + 1.0 / 16;
     });
 }
 
@@ -130,10 +124,10 @@ TEST(BorderFirst, TheSecondContactIsInsideAndTwoThirdsOfTheFirstAreNot) {
 TEST(BorderFirst, TheSidesAreParallelAsNearTheFirstContactAsTheParameterSays) {
   for (const int x : {-40, -5})
     expect_all(at("border-first", x), [x](const Query& query) {
-      sturm::Primitives primitives(query);
+      exact::Predicates predicates(query);
       const auto is_parallel_at = [&](double time) {
-        const sturm::Dyadic dyadic{sturm::Integer(std::ldexp(time, 52)), 52};
-        return primitives.area().sign_at(dyadic) == 0;
+        const auto vanishes = [&](const exact::Polynomial& each) { return each.sign_at(time) == 0; };
+        return std::all_of(predicates.N().begin(), predicates.N().end(), vanishes);
       };
       const double first = first_time(query);
       const double off = std::ldexp(1.0, x);
@@ -153,7 +147,7 @@ TEST(ReturnLater, TheFirstContactIsAtTheStartOrAsSoonAsTheParameterSays) {
 TEST(ReturnLater, ThereIsASecondContactInside) {
   for (const int x : {-49, -10})
     for (const Query& query : first_queries(at("return-later", x), 400)) {
-      EXPECT_EQ(count_roots(query).distinct, 2);
+      EXPECT_EQ(testing::count_roots(query).distinct, 2);
       EXPECT_GE(last_time(query), 0.25);
       EXPECT_EQ(contact_features(reversed(query))->location, ContactFeatures::Location::interior);
     }

@@ -3,7 +3,7 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <vector>
 
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/distance/proximity.hpp"
 #include "oracle/features.hpp"

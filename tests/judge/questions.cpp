@@ -5,12 +5,12 @@
 #include <limits>
 #include <vector>
 
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/features.hpp"
 #include "oracle/filter/box.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 
@@ -93,10 +93,10 @@ std::string filters_against(bool exact, const Query& query, std::size_t i, const
   return "";
 }
 
-/// Compares the features of the first contact with the roots that Sturm sequences count.
-std::string features_against(const RootCount& count, const Query& query) {
+/// Compares the features of the first contact with the roots of F.
+std::string features_against(const testing::RootCount& count, const Query& query) {
   const auto features = contact_features(query);
-  if (features.has_value() != count.collision) return "features against sturm";
+  if (features.has_value() != count.collision) return "features against roots";
   if (!features) return "";
   if ((features->multiplicity == ContactFeatures::Multiplicity::planar) != count.planar)
     return "features: planar";
@@ -111,7 +111,7 @@ std::string features_against(const RootCount& count, const Query& query) {
 std::string exact_answers_disagree(const Query& query, bool exact) {
   if (const std::string parts = ask_others(query, {.collision = exact}).disagreement(); !parts.empty())
     return "three answers: " + parts;
-  return features_against(count_roots(query), query);
+  return features_against(testing::count_roots(query), query);
 }
 
 std::string slow_answers_disagree(const Query& query, bool exact) {

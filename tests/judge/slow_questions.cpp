@@ -7,7 +7,6 @@
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "oracle/translation.hpp"
 #include "tests/judge/questions.hpp"
 
@@ -88,7 +87,7 @@ std::string translation_disagreement(const Query& query) {
       return "translation: not seen";
     if (motion == RelativeMotion::other) continue;
     const auto meets = meets_by_translation(each);
-    if (meets && *meets != count_roots(each).collision) return "translation: meets";
+    if (meets && *meets != collides_exactly(each)) return "translation: meets";
   }
   return "";
 }

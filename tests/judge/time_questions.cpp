@@ -5,11 +5,10 @@
 
 #include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/exact.hpp"
-#include "oracle/exact/first_approach.hpp"
-#include "oracle/exact/first_contact.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/times.hpp"
 #include "oracle/within_separation.hpp"
+#include "tests/exact_times.hpp"
 #include "tests/judge/questions.hpp"
 
 namespace nearmiss {
@@ -19,16 +18,6 @@ namespace {
 using exact::Number;
 using exact::Root;
 using Rational = boost::multiprecision::mpq_rational;
-
-/// The exact times at which the distance is first at most h and is first below h, by the first exact method.
-/// For contact (h = 0), both are the time of contact.
-std::optional<exact::FirstApproach> exact_times(const Query& query) {
-  if (query.separation > 0) return exact::first_approach(query);
-  exact::Predicates predicates(query);
-  auto contact = exact::first_contact(predicates);
-  if (!contact) return std::nullopt;
-  return exact::FirstApproach{contact->time, contact->time};
-}
 
 /// The earliest time, as far as certified bounds show it; an invalid enclosure, [1, 0], if they show that
 /// there is no such time.
@@ -58,22 +47,23 @@ std::string known_times_disagree(const Query& query, exact::FirstApproach& exact
   return "";
 }
 
-/// Compares t* with other times, and checks the results with the second exact method.
-std::string comparisons_disagree(const Query& query, EarliestTime& time, SturmTimes& by_sturm) {
+/// Compares t* with other times, and checks the results with the exact times.
+std::string comparisons_disagree(const Query& query, EarliestTime& time, exact::FirstApproach& exactly) {
   std::set<double> others;
   for (const auto& [lo, hi] : {time.known(), known_time(query, 0).time})
     for (const double other :
          {lo / 2, below(lo), lo, above(lo), lo + (hi - lo) / 2, below(hi), hi, above(hi), (1 + hi) / 2})
       others.insert(other);
   for (const double other : others) {
-    if (time.is_before(other) != by_sturm.is_before(other)) return "time: before";
-    if (time.makes_late(other) != by_sturm.makes_late(other)) return "time: late";
+    if (time.is_before(other) != testing::is_before(exactly.time, other)) return "time: before";
+    const bool is_late = exactly.below && testing::is_before(*exactly.below, other);
+    if (time.makes_late(other) != is_late) return "time: late";
   }
   return "";
 }
 
 /// Checks the enclosures of all widths.
-std::string enclosures_disagree(const Query& query, EarliestTime& time, SturmTimes& by_sturm, Root& exactly) {
+std::string enclosures_disagree(const Query& query, EarliestTime& time, Root& exactly) {
   for (const double width : {1.0, 1e-3, 1e-12, 0.0}) {
     const Enclosure enclosure = time.enclosure(width);
     if (!is_enclosure(enclosure) || !contains(enclosure, exactly)) return "time: no enclosure of it";
@@ -83,8 +73,6 @@ std::string enclosures_disagree(const Query& query, EarliestTime& time, SturmTim
   }
   const auto [lo, hi] = time.enclosure();
   if (lo < time.known().lo || time.known().hi < hi) return "time: enclosures apart";
-  if (by_sturm.is_before(lo)) return "time: too late";
-  if (!by_sturm.is_before(above(hi))) return "time: too early";
   if ((lo == hi) != (exactly.is(Number(lo)) || exactly.is(Number(hi)))) return "time: not exact";
   const std::string rational = time.rational();
   if (lo == hi && rational.empty()) return "time: no rational";
@@ -102,7 +90,7 @@ std::string time_disagreement(const Query& query, bool happens) {
   const Verdict verdict = subject->decide(query);
   if (verdict.hit != happens) return "subject: hit";
   auto time = earliest_time(query);
-  auto exactly = exact_times(query);
+  auto exactly = testing::exact_times(query);
   if (time.has_value() != happens || exactly.has_value() != happens) return "time: of nothing";
   const bool happens_at_start = happens && exactly->time.is(0);
   if (keeps_contract(query, {.apart_at_start = true}) == happens_at_start) return "contract: apart at start";
@@ -113,9 +101,9 @@ std::string time_disagreement(const Query& query, bool happens) {
   if (!happens) return "";
   if (!is_enclosure(time->known())) return "time: no enclosure";
   std::string what = known_times_disagree(query, *exactly);
-  SturmTimes by_sturm(query);
-  if (what.empty()) what = comparisons_disagree(query, *time, by_sturm);
-  if (what.empty()) what = enclosures_disagree(query, *time, by_sturm, exactly->time);
+  if (what.empty()) what = comparisons_disagree(query, *time, *exactly);
+  if (what.empty()) what = enclosures_disagree(query, *time, exactly->time);
+  if (what.empty()) what = time_disagreement(query, decide(query));
   if (what.empty() && verdict.time != time->enclosure().lo) what = "subject: time";
   return what;
 }

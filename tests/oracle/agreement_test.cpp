@@ -1,5 +1,5 @@
 // The comparison of exact methods: what it allows, what it catches, and how a method is added.
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -67,6 +67,17 @@ TEST(Agreement, ACompleteMethodHasToAnswer) {
   EXPECT_EQ(disagreement(methods), "no answer of second");
 }
 
+TEST(Agreement, ACompleteMethodNeedNotKnowATie) {
+  const auto disagreement_beside = [](const Answer& answer) {
+    return disagreement({saying("first", Claim::complete, {.collision = false, .at_most = true}),
+                         saying("second", Claim::complete, answer)});
+  };
+  EXPECT_EQ(disagreement_beside({}), "");
+  EXPECT_EQ(disagreement_beside({.at_most = true}), "");
+  EXPECT_EQ(disagreement_beside({.at_most = false}), "at most h (no: second; yes: first)");
+  EXPECT_EQ(disagreement_beside({.collision = true, .at_most = true}), "collision (no: first; yes: second)");
+}
+
 TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   const auto missed = [](bool collision, std::optional<bool> parity) {
     const std::vector<Method> methods{saying("complete", Claim::complete, {.collision = collision}),
@@ -116,12 +127,18 @@ TEST(Methods, AnswerAsTheyClaim) {
   }
 }
 
-TEST(Methods, DetailsOfSturmTellRootsAndPlanes) {
-  const auto sturm = std::find_if(methods().begin(), methods().end(),
-                                  [](const Method& method) { return method.name == "sturm"; });
-  EXPECT_EQ(sturm->ask(hit).detail, 4 * 1 + 1);
-  const Query in_its_plane = testing::falling_vertex(0.25, 0.25, 0, 0);
-  EXPECT_GE(sturm->ask(in_its_plane).detail, 16);
+TEST(Methods, ACertificateProvesAnswersAndTies) {
+  EXPECT_EQ(proved_answer(hit).collision, true);
+  EXPECT_EQ(proved_answer(hit).at_most, std::nullopt);
+  EXPECT_EQ(proved_answer(miss).collision, false);
+  const auto expect = [](double h, std::optional<bool> collision, bool at_most) {  // miss has the distance 1
+    const Answer answer = proved_answer(with_separation(miss, h));
+    EXPECT_EQ(answer.collision, collision) << h;
+    EXPECT_EQ(answer.at_most, at_most) << h;
+  };
+  expect(0.5, false, false);
+  expect(1, std::nullopt, true);
+  expect(2, true, true);
 }
 
 TEST(Methods, AParityMethodCountsRootsOffTheBoundary) {

@@ -9,12 +9,12 @@
 #include <limits>
 #include <vector>
 
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -197,7 +197,7 @@ TEST(Extremes, RootsOfEveryMultiplicity) {
   const Query triple = make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
                                   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   expect_collision(triple, true);
-  EXPECT_EQ(count_roots(triple).with_multiplicity, 3);
+  EXPECT_EQ(testing::count_roots(triple).with_multiplicity, 3);
   EXPECT_EQ(earliest_time(triple)->rational(), "1/2");
   // The same triangle with a vertex that moves away from the origin.
   Query missed = triple;

@@ -1,4 +1,4 @@
-// Compares features of the first contact with features found by hand, and with Sturm sequences.
+// Compares features of the first contact with features found by hand, and with the roots of F.
 #include "oracle/features.hpp"
 
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <array>
 
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -91,7 +91,7 @@ TEST(Features, KnowPrimitivesWithoutANormal) {
   EXPECT_EQ(features_of(Query{}), "planar at-start on-vertex degenerate");
 }
 
-TEST(Features, FitTheSecondAnswer) {
+TEST(Features, FitTheRoots) {
   int collisions = 0;
   int at_border = 0;
   for (std::size_t i = 0; i < 4000; ++i) {
@@ -99,7 +99,7 @@ TEST(Features, FitTheSecondAnswer) {
     const Query query = testing::integer_query(random, testing::kind_of_case(i), 2);
     SCOPED_TRACE(testing::repeat(i, query));
     const auto features = contact_features(query);
-    const RootCount count = count_roots(query);
+    const testing::RootCount count = testing::count_roots(query);
     ASSERT_EQ(features.has_value(), count.collision);
     if (!features) continue;
     ++collisions;

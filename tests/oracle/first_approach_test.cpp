@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/separation.hpp"
+#include "tests/exact_times.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"
 
@@ -110,9 +111,6 @@ TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   ASSERT_TRUE(approach && approach->below);
   EXPECT_TRUE(approach->time.is(0));
   EXPECT_TRUE(approach->below->is(exact::Number(0.5)));
-  SturmApproach approach_by_sturm(query);
-  EXPECT_TRUE(approach_by_sturm.is_below_before(0.75));
-  EXPECT_FALSE(approach_by_sturm.is_below_before(0.5));
 }
 
 /// Separations of about the size of a query with coordinates up to 1, some of them exact distances of points
@@ -133,12 +131,14 @@ void expect_agreement(const Query& query, const std::string& repeat) {
   EXPECT_LE(known.lo, narrow.lo) << repeat;
   EXPECT_GE(known.hi, narrow.hi) << repeat;
   EXPECT_LE(narrow.hi, std::nextafter(narrow.lo, 2)) << repeat;
-  SturmApproach by_sturm(query);
+  EXPECT_EQ(time_disagreement(query, found), "") << repeat;
+  auto exactly_when = exact::first_approach(query);
   for (const double at :
        {known.lo, known.hi, narrow.lo, narrow.hi, std::nextafter(narrow.hi, 2), narrow.lo / 2, 1.0}) {
     if (at > 1) continue;
-    EXPECT_EQ(time->is_before(at), by_sturm.is_at_most_before(at)) << repeat << " at " << at;
-    EXPECT_EQ(time->makes_late(at), by_sturm.is_below_before(at)) << repeat << " at " << at;
+    EXPECT_EQ(time->is_before(at), testing::is_before(exactly_when->time, at)) << repeat << " at " << at;
+    const bool is_late = exactly_when->below && testing::is_before(*exactly_when->below, at);
+    EXPECT_EQ(time->makes_late(at), is_late) << repeat << " at " << at;
   }
 }
 

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"
+#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
@@ -33,7 +33,7 @@ TEST(RootParity, EvenIsMissed) {
       testing::make_query(Kind::vertex_triangle, {{-0.375, -0.3125, 0.25}, {0, 0, 0}, {1, -1, 0}, {1, 0, 1}},
                           {{1.125, 0.4375, 0.25}, {0, 0, 0}, {1, 1, 0}, {-1, 0, 1}});
   EXPECT_TRUE(collides_exactly(query));
-  EXPECT_EQ(count_roots(query).distinct, 2);
+  EXPECT_EQ(testing::count_roots(query).distinct, 2);
   EXPECT_FALSE(root_parity(query).collision());
 }
 
@@ -41,7 +41,7 @@ TEST(RootParity, EvenIsMissed) {
 /// of roots, unless the origin is on the boundary.
 void expect_agreement(std::size_t index, const Query& query) {
   SCOPED_TRACE(testing::repeat(index, query));
-  const RootCount count = count_roots(query);
+  const testing::RootCount count = testing::count_roots(query);
   ASSERT_EQ(collides_exactly(query), count.collision);
   const RootParity parity = root_parity(query);
   ASSERT_EQ(parity.on_boundary, count.on_boundary);

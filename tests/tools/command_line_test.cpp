@@ -20,11 +20,25 @@ TEST_F(CommandLine, OracleAnswersByEveryMethod) {
   write("q.vt", hit + miss);
   // The vertex goes through the triangle and back. Parity cannot distinguish its two roots from none.
   write("even.vt", "-0.375 -0.3125 0.25  0 0 0  1 -1 0  1 0 1   1.125 0.4375 0.25  0 0 0  1 1 0  -1 0 1\n");
-  for (const char* method : {"filtered", "exact", "sturm", "parity", "all"})
+  for (const char* method : {"filtered", "exact", "certificate", "parity", "all"})
     EXPECT_EQ(run(std::string("oracle --kind vt q.vt --method ") + method).out, "1\n0\n") << method;
   EXPECT_EQ(run("oracle --kind vt even.vt --method all").out, "1\n");
-  EXPECT_EQ(run("oracle --kind vt even.vt --method sturm").out, "1\n");
+  EXPECT_EQ(run("oracle --kind vt even.vt --method certificate").out, "1\n");
   EXPECT_EQ(run("oracle --kind vt even.vt --method parity").out, "0\n");
+}
+
+TEST_F(CommandLine, OracleSaysWhatAMethodDoesNotKnow) {
+  // The triangle is an edge, which is exactly 1 below the vertex when 2 t² = 1, and never nearer.
+  write("q.vt", "0 -.5 1  -1 0 0  1 0 0  -1 0 0   -1 -.5 1  -1 -1 0  1 1 0  -1 -1 0   1\n");
+  EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n");
+  const auto proof = run("oracle --kind vt q.vt --method certificate");
+  EXPECT_EQ(proof.out, "-\n");
+  EXPECT_EQ(proof.code, 1);
+}
+
+TEST_F(CommandLine, OracleSaysWhatReplacesAMethodThatIsGone) {
+  write("q.vt", hit);
+  expect_refused("oracle --kind vt q.vt --method sturm", {"'sturm' is gone", "--method certificate"});
 }
 
 TEST_F(CommandLine, OraclePrintsTimeAndDistance) {

@@ -36,7 +36,7 @@ TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
 
 TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
   write("tie.vt", miss);  // its distance falls from 2 to 1
-  for (const char* method : {"filtered", "exact", "sturm", "all"})
+  for (const char* method : {"filtered", "exact", "certificate", "all"})
     EXPECT_EQ(run(std::string("oracle --kind vt --toi --separation 1 tie.vt --method ") + method).out,
               "1 0x1p+0 0x1p+0\n")
         << method;

@@ -9,7 +9,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
@@ -48,21 +48,25 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// Whether the answer is yes. As in the library, a smallest distance of exactly h > 0 is a yes, too.
-bool is_yes(const Answer& answer) { return answer.at_most.value_or(answer.collision.value_or(false)); }
+/// As in the library, a smallest distance of exactly h > 0 is a yes. "-" if a complete method does not know.
+const char* show(const Answer& answer, Claim claim) {
+  const auto said = answer.at_most ? answer.at_most : answer.collision;
+  if (!said && claim == Claim::complete) return "-";
+  return said.value_or(false) ? "1" : "0";
+}
 
 /// The answer of `method`: of the oracle as trials use it ("filtered"), of one exact method, or of all.
 /// Throws Disagreement if all methods are asked and their answers differ.
-bool collides_by(const std::string& method, const Query& query) {
-  if (method == filtered) return is_yes(to_answer(query, decide(query)));
+const char* answer_by(const std::string& method, const Query& query) {
+  if (method == filtered) return show(to_answer(query, decide(query)), Claim::complete);
   if (method == all) {
     const Answers answers = ask_all(query);
     if (!answers.disagreement(decide(query).by_filter()).empty()) throw Disagreement(query);
-    return is_yes(answers.all().front());
+    return show(answers.all().front(), Claim::complete);
   }
   const auto named = [&](const Method& each) { return each.name == method; };
   const auto chosen = std::find_if(methods().begin(), methods().end(), named);
-  return is_yes(chosen->ask(query));
+  return show(chosen->ask(query), chosen->claim);
 }
 
 std::vector<std::string> choices() {
@@ -80,12 +84,12 @@ std::string help_on_methods() {
     help += fmt::format("{} ({}): {}; ", method.name, name(method.claim), method.about);
   return help + fmt::format(
                     "{}: all of these, compared. A parity method cannot distinguish an even number of roots "
-                    "from no root",
+                    "from no root; a query without a certificate has the answer -, and the exit code is 1",
                     all);
 }
 
 std::string answer(const Query& query, const Options& options) {
-  std::string line = collides_by(options.method, query) ? "1" : "0";
+  std::string line = answer_by(options.method, query);
   if (options.toi || options.rational) {
     auto time = earliest_time(query);
     line += time ? show(time->enclosure(options.width)) : " inf inf";
@@ -105,6 +109,12 @@ void add_oracle(CLI::App& app, int& exit_code) {
       "Decide queries exactly: one line each, 1 for a collision or a distance of at most h, 0 for none");
   options->input.add_to(*command);
   command->add_option("--method", options->method, help_on_methods())
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return text == "sturm" ? "'sturm' is gone; use --method certificate, which proves the answer"
+                                   : "";
+          },
+          ""))
       ->check(CLI::IsMember(choices()))
       ->capture_default_str();
   command->add_flag("--toi", options->toi,
@@ -133,7 +143,11 @@ void add_oracle(CLI::App& app, int& exit_code) {
       "nearmiss oracle --kind vt --toi");
   command->callback([options, &exit_code] {
     try {
-      options->input.read([&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
+      options->input.read([&](const Query& query) {
+        const std::string line = answer(query, *options);
+        if (line.starts_with('-')) exit_code = exit_found;
+        fmt::print("{}\n", line);
+      });
     } catch (const Disagreement& disagreement) {
       fmt::print(stderr, "nearmiss: {}\n", disagreement.what());
       exit_code = exit_found;

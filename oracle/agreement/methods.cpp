@@ -1,31 +1,19 @@
-#include "oracle/methods.hpp"
+#include "oracle/agreement/methods.hpp"
 
 #include <array>
+#include <bit>
+#include <string>
 
+#include "oracle/agreement/checked.hpp"
+#include "oracle/certificates/certificate.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/parity/parity.hpp"
-#include "oracle/sturm/separation.hpp"
-#include "oracle/sturm/sturm.hpp"
 
 namespace nearmiss {
 
 namespace {
 
 Answer by_exact(const Query& query) { return to_answer(query, decide_exactly(query)); }
-
-Answer by_sturm(const Query& query) {
-  if (query.separation > 0) {
-    SturmApproach approach(query);
-    const bool below = approach.is_below_before(SturmApproach::step_is_over);
-    return {.collision = below, .at_most = below || approach.is_at_most_before(SturmApproach::step_is_over)};
-  }
-  const RootCount count = count_roots(query);
-  Answer answer{.collision = count.collision, .on_boundary = count.on_boundary};
-  if (!count.on_boundary) answer.odd = count.odd();
-  answer.detail =
-      static_cast<std::size_t>((count.planar ? 16 : 0) + 4 * count.with_multiplicity + count.distinct);
-  return answer;
-}
 
 Answer by_parity(const Query& query) {
   if (query.separation > 0) return {};
@@ -44,13 +32,27 @@ Answer to_answer(const Query& query, const Decision& decision) {
   return answer;
 }
 
+Answer proved_answer(const Query& query) {
+  const auto certificate = certify(query);
+  const auto said = proved(certificate);
+  if (!said || *said != statement_about(query, said->claim, {}, said->strict)) return {};
+  const bool meets = said->claim == "meets";
+  const bool has_separation = query.separation > 0;
+  Answer answer;
+  if (said->strict || !meets || !has_separation) answer.collision = meets;
+  if (has_separation && (said->strict || meets)) answer.at_most = meets;
+  answer.detail = static_cast<std::size_t>(std::bit_width(certificate->size()));
+  return answer;
+}
+
 std::string_view name(Claim claim) { return claim == Claim::complete ? "complete" : "parity"; }
 
 std::span<const Method> methods() {
   static const std::array<Method, 3> all{{
       {"exact", "signs of polynomials at the roots of F, as algebraic numbers", Claim::complete, by_exact},
-      {"sturm", "roots counted by Sturm sequences over the integers, signs by intervals and common factors",
-       Claim::complete, by_sturm},
+      {"certificate",
+       "a proof of the answer, which a short program that shares no code with the others accepts",
+       Claim::complete, proved_answer},
       {"parity", "root parity of Brochu and Bridson: rays against the boundary's image, in integers",
        Claim::parity, by_parity},
   }};

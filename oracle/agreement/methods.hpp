@@ -1,4 +1,4 @@
-// The table of exact methods that decide a query. The comparison of answers and the command line use it, and
+// The table of methods that decide a query. The comparison of answers and the command line use it, and
 // README.md repeats it and says how to add a method.
 #pragma once
 
@@ -25,12 +25,16 @@ struct Answer {
 
 /// The promise of a method.
 enum class Claim {
-  complete,  ///< the method always knows whether there is a collision
+  complete,  ///< the method always knows whether there is a collision, unless the smallest distance is h > 0
   parity,    ///< it detects collisions on the boundary and odd numbers of roots; it says nothing about h > 0
 };
 
 /// A decision as the answer of a method.
 Answer to_answer(const Query& query, const Decision& decision);
+
+/// What the certificate of the oracle's decision proves about a query; nothing if there is no certificate, or
+/// if the checker of tools/certificates/, which shares no code with the oracle, refuses it.
+Answer proved_answer(const Query& query);
 
 /// "complete" or "parity".
 std::string_view name(Claim claim);
@@ -43,8 +47,7 @@ struct Method {
   std::function<Answer(const Query&)> ask;
 };
 
-/// All methods; they share no code. The first one is complete, and decides the queries that the filter leaves
-/// undecided.
+/// All methods. The first one is complete, and decides the queries that the filter leaves undecided.
 std::span<const Method> methods();
 
 }  // namespace nearmiss

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ccd/query/query.hpp"
-#include "oracle/methods.hpp"
+#include "oracle/agreement/methods.hpp"
 
 namespace nearmiss {
 
@@ -22,9 +22,10 @@ class Answers {
   [[nodiscard]] bool collision() const;
 
   /// Whether no two methods contradict each other about the collision, the boundary or the number of roots,
-  /// and every complete method says whether there is a collision.
+  /// and every complete method says whether there is a collision. If the smallest distance is exactly h > 0,
+  /// a complete method need not say so.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// The contradictions, such as "collision (no: exact; yes: sturm)"; "" if they agree. The filter takes part
+  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if they agree. The filter takes part
   /// if its answer is given.
   [[nodiscard]] std::string disagreement(std::optional<bool> by_filter = {}) const;
 
@@ -41,9 +42,5 @@ Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
 /// Asks all methods except the first one, which is complete, and whose answer `first` is already known.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
-
-/// How the method `sturm` contradicts the earliest time of a query with a collision or a tie, such as "time
-/// (sturm: earlier)"; "" if it agrees. It is asked about the ends of the narrowest enclosure.
-std::string time_disagreement(const Query& query);
 
 }  // namespace nearmiss

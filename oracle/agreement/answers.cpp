@@ -1,11 +1,7 @@
-#include "oracle/agreement.hpp"
+#include "oracle/agreement/answers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
-
-#include "ccd/query/arithmetic.hpp"
-#include "oracle/sturm/times.hpp"
 
 namespace nearmiss {
 
@@ -50,10 +46,13 @@ std::string Answers::disagreement(std::optional<bool> by_filter) const {
   Votes boundary;
   Votes odd;
   std::string text;
+  const bool is_tie = std::any_of(answers_.begin(), answers_.end(), [](const Answer& answer) {
+    return answer.collision == false && answer.at_most == true;
+  });
   for (std::size_t i = 0; i < answers_.size(); ++i) {
     const Method& method = methods_[i];
     const Answer& answer = answers_[i];
-    if (method.claim == Claim::complete && !answer.collision)
+    if (method.claim == Claim::complete && !answer.collision && !is_tie)
       text.append(text.empty() ? "" : ", ").append("no answer of ").append(method.name);
     collision.add(method.name, answer.collision);
     at_most.add(method.name, answer.at_most);
@@ -88,19 +87,6 @@ Answers ask_others(const Query& query, const Answer& first, std::span<const Meth
   std::vector<Answer> answers{first};
   for (const Method& method : asked.subspan(1)) answers.push_back(method.ask(query));
   return {asked, std::move(answers)};
-}
-
-std::string time_disagreement(const Query& query) {
-  const PlainArithmetic guard;
-  EarliestTime time(query);
-  SturmTimes by_sturm(query);
-  const auto [lo, hi] = time.enclosure();
-  const double after = std::nextafter(hi, 2.0);
-  if (by_sturm.is_before(lo)) return "time (sturm: earlier)";
-  if (!by_sturm.is_before(after)) return "time (sturm: later)";
-  return by_sturm.makes_late(after) == time.makes_late(after)
-             ? ""
-             : "time at which the distance falls below h (sturm: another)";
 }
 
 }  // namespace nearmiss

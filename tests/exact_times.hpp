@@ -1,0 +1,27 @@
+// The first times of a query by the exact method, without any enclosure.
+#pragma once
+
+#include <optional>
+
+#include "oracle/exact/first_approach.hpp"
+#include "oracle/exact/first_contact.hpp"
+
+namespace nearmiss::testing {
+
+/// The exact times at which the distance is first at most h and is first below h. For contact (h = 0), both
+/// are the time of contact.
+inline std::optional<exact::FirstApproach> exact_times(const Query& query) {
+  if (query.separation > 0) return exact::first_approach(query);
+  exact::Predicates predicates(query);
+  auto contact = exact::first_contact(predicates);
+  if (!contact) return std::nullopt;
+  return exact::FirstApproach{contact->time, contact->time};
+}
+
+/// Whether a root is before a time, which may be any number.
+inline bool is_before(exact::Root& root, double time) {
+  exact::Root other{exact::Number(time)};
+  return root.is_below(other);
+}
+
+}  // namespace nearmiss::testing
