@@ -1,6 +1,7 @@
 #include "tests/root_count.hpp"
 
 #include <CGAL/Algebraic_kernel_d_1.h>
+#include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-int sign_at(const Polynomial& p, const Root& t) { return CGAL::sign(Kernel().sign_at_1_object()(p, t)); }
+int sign_at(const Polynomial& p, const Root& t) { return Kernel().sign_at_1_object()(p, t); }
 
 /// The distinct roots in [0, 1] of a polynomial that is not zero.
 std::vector<Root> roots_in_step(const Polynomial& p) {
@@ -154,7 +155,7 @@ RootCount count_roots(const Query& query) {
 
 int roots_before(const Query& query, double time) {
   const auto roots = roots_in_step(Polynomials(query).F);
-  const Root end(CGAL::Gmpq(time));
+  const Root end{CGAL::Gmpq(time)};
   return static_cast<int>(std::count_if(roots.begin(), roots.end(), [&](const Root& t) { return t < end; }));
 }
 

@@ -14,6 +14,7 @@
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
+#include "tools/certificates/check.hpp"
 
 namespace nearmiss::tools {
 

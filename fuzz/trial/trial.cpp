@@ -9,6 +9,7 @@
 #include "ccd/query/error.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/sample.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/versions.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/failure.hpp"

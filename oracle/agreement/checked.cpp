@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "ccd/query/arithmetic.hpp"
+
 namespace nearmiss {
 
 certificates::Statement statement_about(const Query& query, std::string_view claim, const Span& span,
@@ -26,6 +28,7 @@ std::optional<certificates::Statement> proved(const std::optional<std::string>& 
 }
 
 std::string time_disagreement(const Query& query, const Decision& decision) {
+  const PlainArithmetic guard;
   EarliestTime time(query, decision.known);
   const Enclosure t = time.enclosure();
   const Span before{0, t.lo, true};

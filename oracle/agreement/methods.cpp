@@ -4,6 +4,7 @@
 #include <bit>
 #include <string>
 
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/agreement/checked.hpp"
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/oracle.hpp"
@@ -33,6 +34,7 @@ Answer to_answer(const Query& query, const Decision& decision) {
 }
 
 Answer proved_answer(const Query& query) {
+  const PlainArithmetic guard;
   const auto certificate = certify(query);
   const auto said = proved(certificate);
   if (!said || *said != statement_about(query, said->claim, {}, said->strict)) return {};

@@ -44,10 +44,20 @@ struct Piece {
   bool is_extended = false;  ///< as far as the normal separates the primitives
 };
 
-/// A part of the step for which a normal is to be found, after so many halvings.
+/// A part of the step for which a normal is to be found.
 struct Part {
   Number lo, hi;
-  int depth;
+  int depth = 0;                 ///< the number of cuts that made it
+  int kept_lo = 0, kept_hi = 0;  ///< how many of the last cuts kept this end
+
+  /// Where to cut it: in the middle, unless cuts approach an end. The primitives may be nearest there for a
+  /// time as short as 2^-2000, so the next cut is nearer to the end by ever more powers of two.
+  [[nodiscard]] Number cut() const {
+    constexpr int usual = 4;
+    const int kept = std::max(kept_lo, kept_hi);
+    const double part = std::ldexp(1.0, kept > usual ? -kept : -1);
+    return kept_lo < kept_hi ? between(hi, lo, part) : between(lo, hi, part);
+  }
 };
 
 PolynomialVector constant(const certified::Vec<double>& n) {
@@ -78,17 +88,17 @@ class Separator {
         gaps_(gaps_of(query, unit_, x_, is_strict)),
         tries_left_(tries) {}
 
-  /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are halved.
+  /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are cut.
   bool cover(const Number& lo, const Number& hi, bool open) {
-    std::vector<Part> parts{{lo, hi, 0}};  // the first one last
+    std::vector<Part> parts{{lo, hi}};  // the first one last
     while (!parts.empty()) {
       const Part part = std::move(parts.back());
       parts.pop_back();
       if (find(part, open && parts.empty())) continue;
       if (part.depth == most_depth || tries_left_ < 0) return false;
-      const Number middle = between(part.lo, part.hi, 0.5);
-      parts.push_back({middle, part.hi, part.depth + 1});
-      parts.push_back({part.lo, middle, part.depth + 1});
+      const Number cut = part.cut();
+      parts.push_back({cut, part.hi, part.depth + 1, 0, part.kept_hi + 1});
+      parts.push_back({part.lo, cut, part.depth + 1, part.kept_lo + 1, 0});
     }
     return true;
   }

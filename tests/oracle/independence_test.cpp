@@ -48,7 +48,7 @@ std::map<std::string, std::set<std::string>> borrowed(const std::string& folder)
 }
 
 /// The checker of certificates, which the comparison of the oracle's methods uses.
-constexpr const char* checker = "tools/certificates/";
+constexpr const char* checker = "tools/certificates";
 
 /// The folder of the library that offers the oracle and wang to other programs. No other part of the oracle
 /// uses it.
