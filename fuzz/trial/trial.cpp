@@ -11,6 +11,7 @@
 #include "fuzz/trial/sample.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/versions.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/failure.hpp"
 
@@ -208,12 +209,12 @@ class Judging {
     return truth.disagreement(answers);
   }
 
-  /// The signature of a missing certificate; "" if there is one, or if none is needed, because both answers
-  /// are right.
+  /// The signature of a missing certificate; "" if there is one.
   static std::string certify(const Truth& truth, OracleCounts& counts) {
-    const bool is_proved = truth.is_proved();
-    counts.certified += is_proved ? 1 : 0;
-    return is_proved || truth.is_tie() ? "" : disagreement_signature(truth.query().kind, "no certificate");
+    if (!is_proved(truth.query(), truth.decision()))
+      return disagreement_signature(truth.query().kind, "no certificate");
+    ++counts.certified;
+    return "";
   }
 
   /// Judges, counts and stores the answer of subject s to query i.

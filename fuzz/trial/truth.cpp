@@ -24,14 +24,9 @@ Answers Truth::ask_methods() const {
 
 std::string Truth::disagreement(const Answers& answers) const {
   std::string text = answers.disagreement(decision_.by_filter());
+  if (text.empty() && is_tie() && !is_proved(query_, decision_)) text = "tie (not proved)";
   if (text.empty() && has_time()) text = time_disagreement(query_, decision_);
   return disagreement_signature(query_.kind, text);
-}
-
-bool Truth::is_proved() const {
-  const Answer answer = proved_answer(query_);
-  const Answer expected = to_answer(query_, decision_);
-  return answer.at_most == expected.at_most && (is_tie() || answer.collision == expected.collision);
 }
 
 const std::string& Truth::contact() {

@@ -30,12 +30,9 @@ class Truth {
   /// Whether there is an earliest time: a collision, or a distance of exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement of these answers with the decision, or of an earliest time without
-  /// accepted certificates. "" if they agree.
+  /// The signature of a disagreement of these answers with the decision, or of a tie or an
+  /// earliest time that is not proved. "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
-
-  /// Whether the decision has a certificate that is accepted.
-  [[nodiscard]] bool is_proved() const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.
   [[nodiscard]] bool is_tie() const { return decision_.is_tie; }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "ccd/query/query.hpp"
 #include "oracle/certificates/certificate.hpp"
@@ -18,10 +19,15 @@ certificates::Statement statement_about(const Query& query, std::string_view cla
 /// What a certificate proves; nothing if there is no certificate, or if the checker refuses it.
 std::optional<certificates::Statement> proved(const std::optional<std::string>& certificate);
 
+/// Whether certificates prove a decision. A smallest distance of exactly h > 0 that is reached only at an
+/// irrational time has no certificate. So a tie is proved up to the doubles next to h: the smallest distance
+/// is above the one below h, and at most the one above h.
+bool is_proved(const Query& query, const Decision& decision);
+
 /// Checks the certificates of the narrowest enclosure of the earliest time of a query with a collision or a
-/// tie: nothing happens before it, and something happens in it. Returns "" if the checker accepts both, else
-/// "time (not proved: before)" or "time (not proved: within)". If the distance touches h, and does not fall
-/// below it at once, the time may be irrational and may have no certificate; this returns "" then.
+/// tie: nothing happens before it, and something happens in it. If the distance touches h, and does not fall
+/// below it at once, something happens for the double above h at least. Returns "" if the checker accepts
+/// both, else "time (not proved: before)" or "time (not proved: within)".
 ///
 /// Bounds of distances have certificates, too, which take several times as long.
 std::string time_disagreement(const Query& query, const Decision& decision);

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "fuzz/families/families.hpp"
-#include "fuzz/trial/truth.hpp"
 #include "oracle/agreement/checked.hpp"
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/certificates/statements.hpp"
@@ -181,9 +180,9 @@ TEST(Certificate, AWrongDecisionHasNone) {
   for (const char* family : {"uniform", "planted", "near-separation"}) {
     const Query query = make_query(find_family(family), 1, 0);
     Decision decision = decide(query);
-    EXPECT_TRUE(Truth(query, decision).is_proved());
+    EXPECT_TRUE(is_proved(query, decision));
     decision.collision = !decision.collision;
-    EXPECT_FALSE(Truth(query, decision).is_proved());
+    EXPECT_FALSE(is_proved(query, decision));
   }
 }
 

@@ -1,5 +1,6 @@
 // The comparison of exact methods: what it allows, what it catches, and how a method is added.
 #include "oracle/agreement/answers.hpp"
+#include "oracle/agreement/checked.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -76,6 +77,17 @@ TEST(Agreement, ACompleteMethodNeedNotKnowATie) {
   EXPECT_EQ(disagreement_beside({.at_most = true}), "");
   EXPECT_EQ(disagreement_beside({.at_most = false}), "at most h (no: second; yes: first)");
   EXPECT_EQ(disagreement_beside({.collision = true, .at_most = true}), "collision (no: first; yes: second)");
+}
+
+TEST(Agreement, ATieIsProvedUpToTheDoublesNextToIt) {
+  const auto is_tie_at = [](double h) {
+    return is_proved(with_separation(miss, h),
+                     {.collision = false, .is_tie = true});  // miss has the distance 1
+  };
+  EXPECT_TRUE(is_tie_at(1));
+  EXPECT_FALSE(is_tie_at(1 - 0x1p-52));
+  EXPECT_FALSE(is_tie_at(1 + 0x1p-51));
+  EXPECT_FALSE(is_tie_at(2));
 }
 
 TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
