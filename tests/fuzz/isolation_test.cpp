@@ -168,6 +168,13 @@ TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
                    "It was refused memory: expected at most twice --query-memory");
 }
 
+TEST(Isolation, StaticDataIsLimitedWhileAPluginIsLoaded) {
+  for (const char* each : {"too_large_static", "too_large_static_used"})
+    EXPECT_REFUSED(
+        make_isolated_plugin(plugin(each), limits_for(Fault::memory)),
+        "found more memory of the plug-in while it was loaded, expected at most twice --query-memory");
+}
+
 TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {
   const auto subject = make_isolated_plugin(plugin("large"), limits_for(Fault::memory));
   EXPECT_TRUE(subject->decide(one_batch(1).front()).hit);

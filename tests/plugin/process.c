@@ -123,7 +123,8 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory when it is loaded (from mmap(2) or malloc(3)), and USED_MIB for each
+/* Takes LOADED_MIB of memory when it is loaded (from mmap(2) or malloc(3), or STATIC data, of which
+ * it uses so many bytes), and USED_MIB for each
  * query. */
 #define NAME "large"
 static void* taken(size_t mib) {
@@ -134,7 +135,11 @@ static void* taken(size_t mib) {
 
 static void* loaded;
 __attribute__((constructor)) static void begin(void) {
-#if defined(MAPPED)
+#if defined(STATIC)
+  static char data[(size_t)LOADED_MIB << 20];
+  memset(data, 1, STATIC);
+  loaded = data;
+#elif defined(MAPPED)
   loaded = mmap(NULL, (size_t)LOADED_MIB << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (loaded == MAP_FAILED) abort();
 #else

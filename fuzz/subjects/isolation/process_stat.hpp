@@ -2,8 +2,11 @@
 #pragma once
 
 #include <sys/types.h>
+#include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace nearmiss::isolation {
@@ -19,6 +22,23 @@ inline std::string stat_behind_name(pid_t process) {
   std::fclose(file);
   const std::size_t end_of_name = text.rfind(')');
   return end_of_name == std::string::npos ? "" : text.substr(end_of_name + 1);
+}
+
+/// The memory of a process in bytes.
+struct Memory {
+  std::uint64_t addresses = 0;  ///< its address space
+  std::uint64_t data = 0;       ///< what it can write to, and shares with nobody
+};
+
+/// The memory of the process with this folder in /proc; nothing if there is no such process.
+inline std::optional<Memory> memory_in(const std::string& folder) {
+  std::FILE* const file = std::fopen((folder + "/statm").c_str(), "re");
+  if (file == nullptr) return std::nullopt;
+  unsigned long addresses = 0, data = 0;
+  const bool is_read = std::fscanf(file, "%lu %*u %*u %*u %*u %lu", &addresses, &data) == 2;
+  std::fclose(file);
+  const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return is_read ? std::optional(Memory{addresses * page, data * page}) : std::nullopt;
 }
 
 }  // namespace nearmiss::isolation

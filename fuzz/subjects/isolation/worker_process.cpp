@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ccd/query/printable.hpp"
+#include "fuzz/subjects/isolation/process_stat.hpp"
 
 namespace nearmiss::isolation {
 
@@ -157,14 +158,23 @@ void WorkerProcess::start(const std::string& plugin) {
                     {replies.theirs.number(), questions_.file(), answers_.file()}, *limits_.stop);
 }
 
+std::uint64_t WorkerProcess::data() const {
+  return memory_in("/proc/" + std::to_string(supervisor_.process())).value_or(Memory{}).data;
+}
+
 void WorkerProcess::load(const std::string& plugin) {
+  // The worker's limit does not count static data, which dlopen(3) maps in place of parts of the file.
+  if (limits_.bytes != 0) most_data_ = data() + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
   const End end = ask({0, Request::load}, limit, limit);
   if (end == End::query_late || end == End::call_late)
     throw Error(
         fmt::format("{}: the plug-in takes longer than {:.0f} s to load", plugin, limits_.loading.count()));
-  const std::string memory =
-      answers_->memory_refused == 0 ? "" : ". It was refused memory: expected at most twice --query-memory";
+  const std::string expected = "expected at most twice --query-memory";
+  if (end == End::too_large)
+    throw Error(
+        fmt::format("{}: found more memory of the plug-in while it was loaded, {}", plugin, expected));
+  const std::string memory = answers_->memory_refused == 0 ? "" : ". It was refused memory: " + expected;
   if (end != End::done) {
     const std::string exception = text(answers_->exception);
     throw Error(plugin + ": the plug-in " +
@@ -271,6 +281,7 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
       next_look = now + most_looking * (steady_clock::now() - now);
     }
     elapsed_ = watch.elapsed();
+    if (call.request == Request::load && data() > most_data_) return End::too_large;
     if (spoke)
       if (const auto end = end_of(call.number)) return *end;
     if (const std::uint32_t begun = answers_->calls; begun != calls) {

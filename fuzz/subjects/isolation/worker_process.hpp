@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -94,8 +95,9 @@ class WorkerProcess {
 
  private:
   /// How a call ended: it is done; the plug-in threw an exception; the process died; a query or the whole
-  /// call took too long; or the worker closed its socket, or wrote something to it that is no reply.
-  enum class End : std::uint8_t { done, threw, dead, query_late, call_late, broken };
+  /// call took too long; loading took too much memory; or the worker closed its socket, or wrote something to
+  /// it that is no reply.
+  enum class End : std::uint8_t { done, threw, dead, query_late, call_late, too_large, broken };
 
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
@@ -122,6 +124,8 @@ class WorkerProcess {
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
+  /// The data (Memory::data) of the plug-in's process in bytes.
+  [[nodiscard]] std::uint64_t data() const;
   /// Whether the supervisor reports within this time that the process has ended.
   bool ends_within(std::chrono::milliseconds time);
   [[nodiscard]] WorkerFailure failure(End end, std::uint32_t query);
@@ -134,9 +138,10 @@ class WorkerProcess {
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
-  bool is_waiting_ = false;                                         ///< for a call
-  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
-  Elapsed elapsed_;                                                 ///< of the last call
+  std::uint64_t most_data_ = std::numeric_limits<std::uint64_t>::max();  ///< while the plug-in is loaded
+  bool is_waiting_ = false;                                              ///< for a call
+  std::optional<std::chrono::steady_clock::time_point> leaves_by_;       ///< if it is dismissed
+  Elapsed elapsed_;                                                      ///< of the last call
   ComputingTime others_;         ///< of all processes of the worker except the plug-in's
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
   Duration suspended_{};         ///< during all calls so far

@@ -8,9 +8,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <cstdio>
 #include <fstream>
 #include <string>
+
+#include "fuzz/subjects/isolation/process_stat.hpp"
 
 namespace nearmiss::isolation {
 
@@ -77,12 +78,6 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The memory of a process in bytes.
-struct Memory {
-  rlim_t addresses = 0;  ///< its address space
-  rlim_t data = 0;       ///< what it can write to, and shares with nobody
-};
-
 /// The folder in /proc of this process or of its only child, a program. /proc may be that of another PID
 /// namespace, where processes have other numbers.
 std::string folder_of(pid_t process) {
@@ -92,12 +87,9 @@ std::string folder_of(pid_t process) {
 }
 
 Memory memory_of(pid_t process) {
-  std::FILE* const statm = std::fopen((folder_of(process) + "/statm").c_str(), "r");
-  unsigned long addresses = 0, data = 0;
-  if (statm == nullptr || std::fscanf(statm, "%lu %*u %*u %*u %*u %lu", &addresses, &data) != 2) _exit(1);
-  std::fclose(statm);
-  const auto page = static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-  return {addresses * page, data * page};
+  const auto memory = memory_in(folder_of(process));
+  if (!memory) _exit(1);
+  return *memory;
 }
 
 void limit(pid_t process, __rlimit_resource resource, rlim_t now, rlim_t later) {
