@@ -94,7 +94,7 @@ TEST(Trial, CertifiesRecordedTruthsOnDemand) {
   EXPECT_EQ(certified(true), 1);
 }
 
-TEST(Trial, ATieNeedsNoCertificate) {
+TEST(Trial, ATieIsProvedUpToTheDoublesNextToIt) {
   // At t = sqrt(17) / 8, the vertex is at a distance of exactly 9/4 from the line through x1 and x2, and
   // farther at all other times.
   const Query tie{.kind = Kind::vertex_triangle,
@@ -105,7 +105,7 @@ TEST(Trial, ATieNeedsNoCertificate) {
   recorded.truths = {decide(tie).collision};
   const auto result = hold_trial({}, recorded, {.certify_truths = true});
   EXPECT_EQ(result.statistics.oracle_total().ties, 1);
-  EXPECT_EQ(result.statistics.oracle_total().certified, 0);
+  EXPECT_EQ(result.statistics.oracle_total().certified, 1);
   EXPECT_EQ(result.statistics.oracle_disagreements, 0);
 }
 

@@ -110,7 +110,7 @@ std::string features_against(const testing::RootCount& count, const Query& query
 
 std::string exact_answers_disagree(const Query& query, bool exact) {
   if (const std::string parts = ask_others(query, {.collision = exact}).disagreement(); !parts.empty())
-    return "three answers: " + parts;
+    return "answers: " + parts;
   return features_against(testing::count_roots(query), query);
 }
 

@@ -1,4 +1,4 @@
-// Tests the third exact method, and all three methods together.
+// Tests root parity, and compares it with exact decisions and with the roots of F.
 #include "oracle/parity/parity.hpp"
 
 #include <gtest/gtest.h>
@@ -37,8 +37,8 @@ TEST(RootParity, EvenIsMissed) {
   EXPECT_FALSE(root_parity(query).collision());
 }
 
-/// Checks that the first and the second method agree, and that the third one gives the parity of the number
-/// of roots, unless the origin is on the boundary.
+/// Checks that the exact decision fits the roots of F, and that root parity is the parity of their number,
+/// unless the origin is on the boundary.
 void expect_agreement(std::size_t index, const Query& query) {
   SCOPED_TRACE(testing::repeat(index, query));
   const testing::RootCount count = testing::count_roots(query);
@@ -59,10 +59,10 @@ TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   }
 }
 
-class ThreeAnswers : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Range, ThreeAnswers, ::testing::Values(1, 2, 3, 1000));
+class Answers : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Range, Answers, ::testing::Values(1, 2, 3, 1000));
 
-TEST_P(ThreeAnswers, AgreeOnIntegers) {
+TEST_P(Answers, AgreeOnIntegers) {
   for (std::size_t i = 0; i < 2000 && !HasFatalFailure(); ++i) {
     Random random(7, 0, i);
     expect_agreement(i, testing::integer_query(random, testing::kind_of_case(i), GetParam()));
@@ -71,7 +71,7 @@ TEST_P(ThreeAnswers, AgreeOnIntegers) {
 
 // For these queries every patch of the boundary is flat, and many patches touch the origin only between t = 0
 // and t = 1.
-TEST_P(ThreeAnswers, AgreeOnIntegersOfAPlaneAndOfALine) {
+TEST_P(Answers, AgreeOnIntegersOfAPlaneAndOfALine) {
   for (std::size_t i = 0; i < 2000 && !HasFatalFailure(); ++i) {
     Random random(8, 0, i);
     Query query = testing::integer_query(random, testing::kind_of_case(i), GetParam());
