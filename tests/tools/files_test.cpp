@@ -64,6 +64,17 @@ TEST_F(CommandLine, ADeviceIsWrittenNotReplaced) {
   EXPECT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
 }
 
+TEST_F(CommandLine, AReportThatMightNeedAllMemoryIsRefused) {
+  expect_code(0, "fuzz --cases 100 --subject exact --db a.db");
+  expect_code(0, "merge b.db a.db");
+  write("b.db-wal", "");
+  for (const char* part : {"a.db", "b.db-wal"})
+    std::filesystem::resize_file(file(part), std::uintmax_t{257} << 20);
+  for (const std::string store : {"a.db", "b.db"})
+    expect_refused("report " + store + " -o new", {store + ": found more than 256 MiB of stores"});
+  EXPECT_FALSE(std::filesystem::exists(file("new")));
+}
+
 TEST_F(CommandLine, AStoreWithItsLogInAReadOnlyFolderIsRefusedWithAdvice) {
   {
     Background campaign(file(""), "fuzz --family uniform --time 24h --db a.db");

@@ -101,8 +101,9 @@ void add_replay(CLI::App& app, int& exit_code) {
   command->add_flag(
       "--certify", options->trial.comparison.certify_truths,
       "Demand a certificate of each recorded truth, which the checker of tools/certificates/ accepts; "
-      "a truth without one counts as an oracle disagreement, unless the smallest distance is exactly "
-      "the separation");
+      "a truth without one counts as an oracle disagreement. A smallest distance of exactly the separation "
+      "is "
+      "proved up to the doubles next to it");
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
   command->callback([options, &exit_code] { exit_code = run(*options); });

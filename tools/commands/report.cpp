@@ -3,6 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <system_error>
+
+#include "ccd/query/error.hpp"
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/store/store.hpp"
@@ -32,8 +38,25 @@ std::string load_audit(const std::filesystem::path& file) {
   return text;
 }
 
+/// Throws Error if the stores are so large that a report might need all memory: 20 bytes for each of theirs.
+void expect_to_fit(std::span<const std::filesystem::path> stores) {
+  constexpr std::uintmax_t most = std::uintmax_t{256} << 20;
+  std::uintmax_t bytes = 0;
+  for (const auto& store : stores)
+    for (const char* part : {"", "-wal"}) {
+      std::error_code missing;
+      const auto size = std::filesystem::file_size(store.string() + part, missing);
+      if (!missing) bytes += size;
+      if (bytes > most)
+        throw Error(fmt::format("{}: found more than {} MiB of stores, expected at most as much in a report",
+                                store.string(), most >> 20));
+    }
+}
+
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
+  expect_to_fit(options.stores);
+  expect_to_fit(options.baseline);
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
