@@ -1,17 +1,20 @@
-// Prints the oracle's answers to queries of all families, and whether certificates prove them: usage:
-// judge_answers QUERIES. It prints one line for each query:
+// Prints the oracle's answers to queries of all families, and whether certificates prove them. Usage:
+// judge_answers QUERIES [all]. It prints one line for each query:
 //
 //   FAMILY:SEED:INDEX KIND ANSWER PROVED TIME TIME PROVED DISTANCE DISTANCE PROVED
 //
 // ANSWER is 0, 1 or tie. TIME TIME enclose the earliest time, and DISTANCE DISTANCE the smallest distance;
-// "-" stands for what there is not. PROVED is 1 or 0.
+// "-" stands for what there is not. PROVED is 1 or 0. At the first 0, it prints "found FAMILY:SEED:INDEX
+// QUERIES" and, without `all`, ends. The exit code is then 1.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "corpus/query_text.hpp"
 #include "fuzz/families/families.hpp"
@@ -43,19 +46,34 @@ bool is_proved_distance(const Query& query, const Enclosure& d) {
          (d.hi == infinity || is_proved_bound(query, "meets", d.hi, std::nextafter(d.hi, infinity), meets));
 }
 
-std::string line(const Query& query) {
-  const Decision decision = decide(query);
-  const std::string_view answer = decision.is_tie ? "tie" : decision.collision ? "1" : "0";
-  std::string text = fmt::format("{} {} {:d}", short_name(query.kind), answer, is_proved(query, decision));
-  if (decision.collision || decision.is_tie) {
-    const Enclosure t = EarliestTime(query, decision.known).enclosure();
-    text +=
-        fmt::format(" {} {} {:d}", to_hex(t.lo), to_hex(t.hi), time_disagreement(query, decision).empty());
-  } else {
-    text += " - - 1";
+/// A line about a query.
+struct Line {
+  std::string text;
+  bool is_proved = true;
+
+  /// Adds answers, and whether they are proved.
+  void add(std::string_view answers, bool are_proved) {
+    text += fmt::format(" {} {:d}", answers, are_proved);
+    is_proved &= are_proved;
   }
+};
+
+std::string ends(const Enclosure& enclosure) {
+  return fmt::format("{} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
+}
+
+Line line(const Query& query) {
+  const Decision decision = decide(query);
+  Line line{std::string(short_name(query.kind))};
+  line.add(decision.is_tie ? "tie" : decision.collision ? "1" : "0", is_proved(query, decision));
+  if (decision.collision || decision.is_tie)
+    line.add(ends(EarliestTime(query, decision.known).enclosure()),
+             time_disagreement(query, decision).empty());
+  else
+    line.add("- -", true);
   const Enclosure d = minimum_distance(query);
-  return text + fmt::format(" {} {} {:d}", to_hex(d.lo), to_hex(d.hi), is_proved_distance(query, d));
+  line.add(ends(d), is_proved_distance(query, d));
+  return line;
 }
 
 }  // namespace
@@ -63,12 +81,20 @@ std::string line(const Query& query) {
 
 int main(int argc, char** argv) {
   using namespace nearmiss;
-  const auto most = static_cast<std::uint64_t>(argc > 1 ? parse_number(argv[1], "QUERIES") : 1000);
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const double most = arguments.empty() ? 3000 : parse_number(arguments[0], "QUERIES");
+  const bool goes_on = arguments.size() > 1;
   const auto families = all_families();
-  for (std::uint64_t i = 0; i < most; ++i) {
+  bool is_proved = true;
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(most) && (is_proved || goes_on); ++i) {
     const Family& family = families[i % families.size()];
     const std::uint64_t index = i / families.size();
-    fmt::print("{}:1:{} {}\n", family.name, index, line(make_query(family, 1, index)));
+    const std::string name = fmt::format("{}:1:{}", family.name, index);
+    const Line about = line(make_query(family, 1, index));
+    fmt::print("{} {}\n", name, about.text);
+    if (!about.is_proved && is_proved) fmt::print("found {} {}\n", name, i + 1);
+    is_proved &= about.is_proved;
     std::fflush(stdout);
   }
+  return is_proved ? 0 : 1;
 }

@@ -15,7 +15,7 @@ class Answer:
 
     noticed_by: str = ''  # the first test that failed, or ''
     how: str = ''  # 'failed', 'crashed' or 'too slow'
-    found: str = ''  # the hunter's words: what it found, the query, and how many it asked
+    found: str = ''  # the query whose answer is not proved, and the number of queries
     cpu: float = 0
     wall: float = 0
     asked: int = 0  # number of tests

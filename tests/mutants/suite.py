@@ -45,7 +45,7 @@ def commands():
     """The commands of the groups of tests that are not GoogleTests."""
     recount = COPY / 'tests/recount/recount_test.py'
     return {
-        'judge_hunter': [BUILD / 'tests/judge/judge_hunter'],
+        'judge_answers': [BUILD / 'tests/judge/judge_answers'],
         'recount': ['/usr/bin/python3', '-B', recount, BUILD / 'nearmiss'],
     }
 
@@ -77,11 +77,11 @@ def tests_of(group):
     return names
 
 
-def steps_of(group, queries=10000):
-    """The steps of a group. `queries` is the number that the judge's hunter asks."""
+def steps_of(group, queries=3000):
+    """The steps of a group. `queries` is the number of judge_answers."""
     if group in EXECUTABLES:
         return [Step(group, test) for test in tests_of(group)]
-    return [Step(group, str(queries) if group == 'judge_hunter' else '')]
+    return [Step(group, str(queries) if group == 'judge_answers' else '')]
 
 
 def all_steps():
@@ -106,7 +106,7 @@ def state():
     """A hash of the tests' executables, as far as they are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
-    files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_hunter']
+    files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_answers']
     for file in filter(Path.exists, files + sorted((BUILD / 'plugins').glob('*'))):
         digest.update(file.read_bytes())
     return digest.hexdigest()

@@ -84,7 +84,7 @@ def costs(results):
     queries = sorted(int(each['found'].split()[-1]) for each in noticed if each.get('found'))
     if queries:
         lines.append(
-            f'by the hunter after {median(queries):.0f} queries in the median, {queries[-1]} at most'
+            f'by missing proofs after {median(queries):.0f} queries in the median, {queries[-1]} at most'
         )
     survived = [result['cpu'] for _, result in results if result['verdict'] == 'survived']
     if survived:
