@@ -1,7 +1,7 @@
 // A pair that is apart is separated by planes. At any time, the direction between the closest points
 // separates the primitives strictly, and so does the normal of the closest features, which moves with them:
 // x - y for two vertices, (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. What separates
-// at a time does so for a while, and [from, to] is compact; so bisection ends, unless the smallest distance
+// at a time does so for a while, and [from, to] is compact; so cutting it ends, unless the smallest distance
 // is exactly h.
 #include <algorithm>
 #include <array>
