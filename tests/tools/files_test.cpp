@@ -69,9 +69,9 @@ TEST_F(CommandLine, AReportThatMightNeedAllMemoryIsRefused) {
   expect_code(0, "merge b.db a.db");
   write("b.db-wal", "");
   for (const char* part : {"a.db", "b.db-wal"})
-    std::filesystem::resize_file(file(part), std::uintmax_t{257} << 20);
+    std::filesystem::resize_file(file(part), std::uintmax_t{129} << 20);
   for (const std::string store : {"a.db", "b.db"})
-    expect_refused("report " + store + " -o new", {store + ": found more than 256 MiB of stores"});
+    expect_refused("report " + store + " -o new", {store + ": found more than 128 MiB of stores"});
   EXPECT_FALSE(std::filesystem::exists(file("new")));
 }
 

@@ -40,7 +40,7 @@ std::string load_audit(const std::filesystem::path& file) {
 
 /// Throws Error if the stores are so large that a report might need all memory: 20 bytes for each of theirs.
 void expect_to_fit(std::span<const std::filesystem::path> stores) {
-  constexpr std::uintmax_t most = std::uintmax_t{256} << 20;
+  constexpr std::uintmax_t most = std::uintmax_t{128} << 20;
   std::uintmax_t bytes = 0;
   for (const auto& store : stores)
     for (const char* part : {"", "-wal"}) {
