@@ -137,7 +137,8 @@ static void* loaded;
 __attribute__((constructor)) static void begin(void) {
 #if defined(STATIC)
   static char data[(size_t)LOADED_MIB << 20];
-  memset(data, 1, STATIC);
+  const volatile size_t used = STATIC;
+  memset(data, 1, used);
   loaded = data;
 #elif defined(MAPPED)
   loaded = mmap(NULL, (size_t)LOADED_MIB << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
