@@ -4,9 +4,13 @@
 //   FAMILY:SEED:INDEX KIND ANSWER PROVED TIME TIME PROVED DISTANCE DISTANCE PROVED
 //
 // ANSWER is 0, 1 or tie. TIME TIME enclose the earliest time, and DISTANCE DISTANCE the smallest distance;
-// "-" stands for what there is not. PROVED is 1 or 0. At the first 0, it prints "found FAMILY:SEED:INDEX
-// QUERIES" and, without `all`, ends. The exit code is then 1.
+// "-" stands for what there is not. PROVED is 1 or 0. A query that crashes or takes too long has no line; after
+// ten of these, the program ends. At the first query that has no line, or a 0, it prints "found
+// FAMILY:SEED:INDEX QUERIES" and, without `all`, ends. The exit code is then 1.
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
@@ -76,6 +80,28 @@ Line line(const Query& query) {
   return line;
 }
 
+enum class Result : std::uint8_t { proved, not_proved, missing };
+
+/// Calls a function that returns whether all answers are proved. An error of the oracle may crash the process or
+/// make a search endless, so it runs in a process of its own.
+template <class IsProved>
+Result in_a_process(const IsProved& is_proved) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr rlim_t seconds = 5;
+    const rlimit limit{seconds, seconds};
+    setrlimit(RLIMIT_CPU, &limit);
+    const bool all = is_proved();
+    std::fflush(stdout);
+    _exit(all ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) > 1) return Result::missing;
+  return WEXITSTATUS(status) == 0 ? Result::proved : Result::not_proved;
+}
+
 }  // namespace
 }  // namespace nearmiss
 
@@ -85,16 +111,22 @@ int main(int argc, char** argv) {
   const double most = arguments.empty() ? 3000 : parse_number(arguments[0], "QUERIES");
   const bool goes_on = arguments.size() > 1;
   const auto families = all_families();
+  constexpr int most_missing = 10;
+  int missing = 0;
   bool is_proved = true;
-  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(most) && (is_proved || goes_on); ++i) {
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(most); ++i) {
     const Family& family = families[i % families.size()];
     const std::uint64_t index = i / families.size();
     const std::string name = fmt::format("{}:1:{}", family.name, index);
-    const Line about = line(make_query(family, 1, index));
-    fmt::print("{} {}\n", name, about.text);
-    if (!about.is_proved && is_proved) fmt::print("found {} {}\n", name, i + 1);
-    is_proved &= about.is_proved;
-    std::fflush(stdout);
+    const Result result = in_a_process([&] {
+      const Line about = line(make_query(family, 1, index));
+      fmt::print("{} {}\n", name, about.text);
+      return about.is_proved;
+    });
+    missing += result == Result::missing ? 1 : 0;
+    if (result != Result::proved && is_proved) fmt::print("found {} {}\n", name, i + 1);
+    is_proved &= result == Result::proved;
+    if ((!is_proved && !goes_on) || missing == most_missing) break;
   }
   return is_proved ? 0 : 1;
 }
