@@ -20,11 +20,6 @@ struct Decision {
   /// The smallest distance is exactly h > 0, so that both answers are right.
   bool is_tie = false;
   KnownTimes known = {};  ///< from which EarliestTime can start
-
-  /// The answer of the boxes or the filter; nothing if exact arithmetic decided.
-  [[nodiscard]] std::optional<bool> by_filter() const {
-    return stage == FilterStage::undecided ? std::nullopt : std::optional(collision);
-  }
 };
 
 /// The answer that a stage of the filter means; if the stage is `undecided`, exact arithmetic decides.

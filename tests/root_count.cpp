@@ -39,7 +39,7 @@ std::vector<Root> roots_in_step(const Polynomial& p) {
   return roots;
 }
 
-/// A vertex is on the line of an edge iff off_line = 0, and then between its ends iff beyond <= 0.
+/// A vertex is on an edge iff off_line = 0 and beyond <= 0.
 struct OnEdge {
   Polynomial off_line, beyond;
 };

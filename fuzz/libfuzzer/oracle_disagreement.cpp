@@ -5,6 +5,7 @@
 
 #include "fuzz/libfuzzer/query_target.hpp"
 #include "oracle/agreement/answers.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss::libfuzzer {
@@ -50,7 +51,7 @@ void examine(const Query& query) {
   const Decision decision = decide(query);
   show(Signal::filter_stage, query.kind, static_cast<std::size_t>(decision.stage));
   show_all(query.kind, answers.all());
-  if (!answers.disagreement(decision.by_filter()).empty() || !filter_agrees(query, answers.collision()))
+  if (!disagreement(query, decision, answers).empty() || !filter_agrees(query, answers.collision()))
     fail(Finding::What::oracle_disagreement, query);
 }
 

@@ -23,10 +23,7 @@ Answers Truth::ask_methods() const {
 }
 
 std::string Truth::disagreement(const Answers& answers) const {
-  std::string text = answers.disagreement(decision_.by_filter());
-  if (text.empty() && is_tie() && !is_proved(query_, decision_)) text = "tie (not proved)";
-  if (text.empty() && has_time()) text = time_disagreement(query_, decision_);
-  return disagreement_signature(query_.kind, text);
+  return disagreement_signature(query_.kind, nearmiss::disagreement(query_, decision_, answers));
 }
 
 const std::string& Truth::contact() {

@@ -40,7 +40,7 @@ bool Answers::collision() const {
   throw std::invalid_argument("expected a method that is complete");
 }
 
-std::string Answers::disagreement(std::optional<bool> by_filter) const {
+std::string Answers::disagreement(const Answer& by_filter) const {
   Votes collision;
   Votes at_most;
   Votes boundary;
@@ -59,7 +59,8 @@ std::string Answers::disagreement(std::optional<bool> by_filter) const {
     boundary.add(method.name, answer.on_boundary);
     odd.add(method.name, answer.odd);
   }
-  collision.add("filter", by_filter);
+  collision.add("filter", by_filter.collision);
+  at_most.add("filter", by_filter.at_most);
   collision.complain(text, "collision");
   at_most.complain(text, "at most h");
   boundary.complain(text, "boundary");

@@ -22,12 +22,12 @@ class Answers {
   [[nodiscard]] bool collision() const;
 
   /// Whether no two methods contradict each other about the collision, the boundary or the number of roots,
-  /// and every complete method says whether there is a collision. If the smallest distance is exactly h > 0,
-  /// a complete method need not say so.
+  /// and every complete method says whether there is a collision. If another one says that the smallest
+  /// distance is exactly h > 0, it may leave that open.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if they agree. The filter takes part
-  /// if its answer is given.
-  [[nodiscard]] std::string disagreement(std::optional<bool> by_filter = {}) const;
+  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if they agree. The filter takes
+  /// part if its answer is given.
+  [[nodiscard]] std::string disagreement(const Answer& by_filter = {}) const;
 
   /// Whether there is a collision that root parity cannot detect, because the number of roots is even.
   [[nodiscard]] bool missed_by_parity() const;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "ccd/query/query.hpp"
+#include "oracle/agreement/answers.hpp"
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/certificates/check.hpp"
@@ -20,16 +21,21 @@ certificates::Statement statement_about(const Query& query, std::string_view cla
 std::optional<certificates::Statement> proved(const std::optional<std::string>& certificate);
 
 /// Whether certificates prove a decision. A smallest distance of exactly h > 0 that is reached only at an
-/// irrational time has no certificate. So a tie is proved up to the doubles next to h: the smallest distance
-/// is above the one below h, and at most the one above h.
+/// irrational time has no certificate. So every tie is proved only up to the doubles next to h: the smallest
+/// distance is above the one below h, and at most the one above h, if there is one.
 bool is_proved(const Query& query, const Decision& decision);
 
 /// Checks the certificates of the narrowest enclosure of the earliest time of a query with a collision or a
-/// tie: nothing happens before it, and something happens in it. If the distance touches h, and does not fall
-/// below it at once, something happens for the double above h at least. Returns "" if the checker accepts
-/// both, else "time (not proved: before)" or "time (not proved: within)".
+/// tie: nothing happens before it, and something happens in it. For h > 0, they must also show whether the
+/// distance falls below h right after it. If it only touches h there, it is enough to prove that it is at most
+/// the double above h, and above the one below h. Returns "" if the checker accepts them, else what is not
+/// proved, such as "time (not proved: before)".
 ///
 /// Bounds of distances have certificates, too, which take several times as long.
 std::string time_disagreement(const Query& query, const Decision& decision);
+
+/// How the answers of all methods contradict each other and the decision, or what of the decision and of the
+/// earliest time is not proved; "" if all agree, and all is proved.
+std::string disagreement(const Query& query, const Decision& decision, const Answers& answers);
 
 }  // namespace nearmiss

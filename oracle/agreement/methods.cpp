@@ -33,6 +33,10 @@ Answer to_answer(const Query& query, const Decision& decision) {
   return answer;
 }
 
+Answer filter_answer(const Query& query, const Decision& decision) {
+  return decision.stage == FilterStage::undecided ? Answer{} : to_answer(query, decision);
+}
+
 Answer proved_answer(const Query& query) {
   const PlainArithmetic guard;
   const auto certificate = certify(query);

@@ -25,15 +25,17 @@ struct Answer {
 
 /// The promise of a method.
 enum class Claim {
-  complete,  ///< the method always knows whether there is a collision, unless the smallest distance is h > 0
+  complete,  ///< the method knows whether there is a collision, unless the smallest distance is exactly h > 0
   parity,    ///< it detects collisions on the boundary and odd numbers of roots; it says nothing about h > 0
 };
 
 /// A decision as the answer of a method.
 Answer to_answer(const Query& query, const Decision& decision);
+/// The same if the boxes or the filter decided; an empty answer if exact arithmetic did.
+Answer filter_answer(const Query& query, const Decision& decision);
 
-/// What the certificate of the oracle's decision proves about a query; nothing if there is no certificate, or
-/// if the checker of tools/certificates/, which shares no code with the oracle, refuses it.
+/// What the certificate of the oracle's decision proves about a query; an empty answer if there is none, or if
+/// the checker of tools/certificates/, which shares no code with the oracle, refuses it.
 Answer proved_answer(const Query& query);
 
 /// "complete" or "parity".

@@ -47,16 +47,21 @@ struct Piece {
 /// A part of the step for which a normal is to be found.
 struct Part {
   Number lo, hi;
-  int depth = 0;                 ///< the number of cuts that made it
-  int kept_lo = 0, kept_hi = 0;  ///< how many of the last cuts kept this end
+  int depth = 0;                 ///< how often it was halved, at least
+  int kept_lo = 0, kept_hi = 0;  ///< how many cuts in a row kept this end
 
-  /// Where to cut it: in the middle, unless cuts approach an end. The primitives may be nearest there for a
-  /// time as short as 2^-2000, so the next cut is nearer to the end by ever more powers of two.
-  [[nodiscard]] Number cut() const {
+  /// The parts behind and before a cut in the middle. If cuts approach an end and `may_be_uneven`, the cut
+  /// divides by 2^n instead: what happens near an end may last only 2^-2000, so each further cut makes the part
+  /// near the end smaller by a larger power of two.
+  [[nodiscard]] std::array<Part, 2> cut(bool may_be_uneven) const {
     constexpr int usual = 4;
     const int kept = std::max(kept_lo, kept_hi);
-    const double part = std::ldexp(1.0, kept > usual ? -kept : -1);
-    return kept_lo < kept_hi ? between(hi, lo, part) : between(lo, hi, part);
+    const int n = may_be_uneven && kept > usual ? kept : 1;
+    const bool is_near_lo = kept_lo >= kept_hi;
+    const double part = std::ldexp(1.0, -n);
+    const Number at = is_near_lo ? between(lo, hi, part) : between(hi, lo, part);
+    return {{{at, hi, depth + (is_near_lo ? 1 : n), 0, kept_hi + 1},
+             {lo, at, depth + (is_near_lo ? n : 1), kept_lo + 1, 0}}};
   }
 };
 
@@ -80,13 +85,16 @@ Gaps gaps_of(const Query& query, const exact::Unit& unit, const std::array<Polyn
 /// Separates the primitives of a query piece by piece.
 class Separator {
  public:
-  Separator(const Query& query, bool is_strict, int tries)
+  /// If the primitives come within h, a proof exists only if a cut is where they do, so all cuts are in the
+  /// middle, and few normals are tried.
+  Separator(const Query& query, bool is_strict, bool reaches_h)
       : kind_(query.kind),
         unit_(query),
         differences_(query),
         x_(moving_points(query, unit_)),
         gaps_(gaps_of(query, unit_, x_, is_strict)),
-        tries_left_(tries) {}
+        cuts_unevenly_(!reaches_h),
+        tries_left_(reaches_h ? most_tries_if_reached : most_tries) {}
 
   /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are cut.
   bool cover(const Number& lo, const Number& hi, bool open) {
@@ -95,10 +103,8 @@ class Separator {
       const Part part = std::move(parts.back());
       parts.pop_back();
       if (find(part, open && parts.empty())) continue;
-      if (part.depth == most_depth || tries_left_ < 0) return false;
-      const Number cut = part.cut();
-      parts.push_back({cut, part.hi, part.depth + 1, 0, part.kept_hi + 1});
-      parts.push_back({part.lo, cut, part.depth + 1, part.kept_lo + 1, 0});
+      if (part.depth >= most_depth || tries_left_ < 0) return false;
+      for (Part& each : part.cut(cuts_unevenly_)) parts.push_back(std::move(each));
     }
     return true;
   }
@@ -200,6 +206,7 @@ class Separator {
   Gaps gaps_;
   std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
   std::vector<Piece> pieces_;
+  bool cuts_unevenly_;
   int tries_left_;
 };
 
@@ -217,7 +224,7 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
   const PlainArithmetic guard;
   const bool reaches_h = is_reached(query, span);
   if (is_strict && reaches_h) return std::nullopt;
-  Separator separator(query, is_strict, reaches_h ? most_tries_if_reached : most_tries);
+  Separator separator(query, is_strict, reaches_h);
   if (!separator.cover(span.from, span.to, span.is_open)) return std::nullopt;
   separator.merge(span.is_open);
   using namespace certificates;

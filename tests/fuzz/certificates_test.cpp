@@ -176,6 +176,27 @@ TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
   }
 }
 
+// The edge passes below the vertex at a distance of exactly 1 at t, and nowhere nearer.
+TEST(Certificate, ProvesThatADistanceIsNeverBelowOneThatIsReachedAtATimeOfFewBits) {
+  for (int k = 1; k <= 15; ++k) {
+    SCOPED_TRACE(k);
+    const double t = std::ldexp(1.0, -k);
+    const Query query{.kind = Kind::vertex_triangle,
+                      .x = {0, -2 * t,      1, -1, 0, t,     1, 0, -t,    -1, 0, t,  //
+                            0, 2 * (1 - t), 1, -1, 0, t - 1, 1, 0, 1 - t, -1, 0, t - 1},
+                      .separation = 1};
+    ASSERT_TRUE(decide(query).is_tie);
+    expect_apart(query, {}, false);
+  }
+}
+
+// The search for a proof of what is wrong ends, however near the end of the span the primitives meet.
+TEST(Certificate, TheSearchEndsForContactAtTheEndOfASpan) {
+  const Query query{.kind = Kind::vertex_triangle, .x = {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0,  //
+                                                         0.25, 0.25, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
+  EXPECT_FALSE(certify_apart(query, {0.5, 1}));
+}
+
 TEST(Certificate, AWrongDecisionHasNone) {
   for (const char* family : {"uniform", "planted", "near-separation"}) {
     const Query query = make_query(find_family(family), 1, 0);

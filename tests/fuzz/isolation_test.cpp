@@ -172,7 +172,7 @@ TEST(Isolation, StaticDataIsLimitedWhileAPluginIsLoaded) {
   for (const char* each : {"too_large_static", "too_large_static_used"})
     EXPECT_REFUSED(
         make_isolated_plugin(plugin(each), limits_for(Fault::memory)),
-        "found more memory of the plug-in while it was loaded, expected at most twice --query-memory");
+        "the plug-in took too much memory while it was loaded: expected at most twice --query-memory");
 }
 
 TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {

@@ -78,7 +78,7 @@ def tests_of(group):
 
 
 def steps_of(group, queries=3000):
-    """The steps of a group. `queries` is the number of judge_answers."""
+    """The steps of a group. `queries` is the number that judge_answers asks."""
     if group in EXECUTABLES:
         return [Step(group, test) for test in tests_of(group)]
     return [Step(group, str(queries) if group == 'judge_answers' else '')]

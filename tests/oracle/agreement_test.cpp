@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ Method saying(std::string_view name, Claim claim, const Answer& answer) {
 }
 
 std::string disagreement(const std::vector<Method>& methods, std::optional<bool> by_filter = {}) {
-  return ask_all(hit, methods).disagreement(by_filter);
+  return ask_all(hit, methods).disagreement({.collision = by_filter});
 }
 
 /// Three methods that agree on one root inside.
@@ -77,6 +78,35 @@ TEST(Agreement, ACompleteMethodNeedNotKnowATie) {
   EXPECT_EQ(disagreement_beside({.at_most = true}), "");
   EXPECT_EQ(disagreement_beside({.at_most = false}), "at most h (no: second; yes: first)");
   EXPECT_EQ(disagreement_beside({.collision = true, .at_most = true}), "collision (no: first; yes: second)");
+}
+
+TEST(Agreement, TheFilterContradictsATie) {
+  const std::vector<Method> methods{saying("first", Claim::complete, {.collision = false, .at_most = true})};
+  EXPECT_EQ(ask_all(hit, methods).disagreement({.collision = false, .at_most = false}),
+            "at most h (no: filter; yes: first)");
+}
+
+// The answers of all methods are right, but the decision is not.
+TEST(Agreement, AWrongDecisionIsNotProved) {
+  const Query far = with_separation(miss, 0.5);  // miss has the distance 1
+  const Query near = with_separation(miss, 2);
+  const std::vector<Method> none;
+  const auto without_methods = [&](const Query& query, const Decision& decision) {
+    return disagreement(query, decision, Answers(none, {}));
+  };
+  for (const Query& query : {far, near})
+    EXPECT_EQ(without_methods(query, {.stage = FilterStage::undecided, .is_tie = true}), "tie (not proved)");
+}
+
+TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
+  constexpr double M = std::numeric_limits<double>::max();
+  // The triangle is an edge, which is exactly M below the vertex when 2 t² = 1, and never nearer.
+  const Query tie{.kind = Kind::vertex_triangle,
+                  .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
+                        -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},
+                  .separation = M};
+  ASSERT_TRUE(decide(tie).is_tie);
+  EXPECT_EQ(disagreement(tie, decide(tie), ask_all(tie)), "");
 }
 
 TEST(Agreement, ATieIsProvedUpToTheDoublesNextToIt) {

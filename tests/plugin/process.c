@@ -123,8 +123,8 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory when it is loaded (from mmap(2) or malloc(3), or STATIC data, of which
- * it uses so many bytes), and USED_MIB for each
+/* Takes LOADED_MIB of memory when it is loaded (from mmap(2), from malloc(3), or as static data, of
+ * which it writes STATIC bytes), and USED_MIB for each
  * query. */
 #define NAME "large"
 static void* taken(size_t mib) {

@@ -10,6 +10,7 @@
 #include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/agreement/answers.hpp"
+#include "oracle/agreement/checked.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
@@ -61,7 +62,7 @@ const char* answer_by(const std::string& method, const Query& query) {
   if (method == filtered) return show(to_answer(query, decide(query)), Claim::complete);
   if (method == all) {
     const Answers answers = ask_all(query);
-    if (!answers.disagreement(decide(query).by_filter()).empty()) throw Disagreement(query);
+    if (!disagreement(query, decide(query), answers).empty()) throw Disagreement(query);
     return show(answers.all().front(), Claim::complete);
   }
   const auto named = [&](const Method& each) { return each.name == method; };
@@ -84,7 +85,8 @@ std::string help_on_methods() {
     help += fmt::format("{} ({}): {}; ", method.name, name(method.claim), method.about);
   return help + fmt::format(
                     "{}: all of these, compared. A parity method cannot distinguish an even number of roots "
-                    "from no root; a query without a certificate has the answer -, and the exit code is 1",
+                    "from no root; with certificate, a query without one has the answer -, and the exit code "
+                    "is then 1",
                     all);
 }
 

@@ -102,8 +102,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       "--certify", options->trial.comparison.certify_truths,
       "Demand a certificate of each recorded truth, which the checker of tools/certificates/ accepts; "
       "a truth without one counts as an oracle disagreement. A smallest distance of exactly the separation "
-      "is "
-      "proved up to the doubles next to it");
+      "is proved up to the doubles next to it");
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
   command->callback([options, &exit_code] { exit_code = run(*options); });

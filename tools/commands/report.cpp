@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <system_error>
 
 #include "ccd/query/error.hpp"
@@ -38,25 +37,27 @@ std::string load_audit(const std::filesystem::path& file) {
   return text;
 }
 
-/// Throws Error if the stores are so large that a report might need all memory: 20 bytes for each of theirs.
-void expect_to_fit(std::span<const std::filesystem::path> stores) {
+/// Throws Error if the stores are so large that their report might take all memory: it needs about 20 bytes for
+/// each byte of its stores.
+void expect_to_fit(const Options& options) {
   constexpr std::uintmax_t most = std::uintmax_t{128} << 20;
   std::uintmax_t bytes = 0;
-  for (const auto& store : stores)
-    for (const char* part : {"", "-wal"}) {
-      std::error_code missing;
-      const auto size = std::filesystem::file_size(store.string() + part, missing);
-      if (!missing) bytes += size;
-      if (bytes > most)
-        throw Error(fmt::format("{}: found more than {} MiB of stores, expected at most as much in a report",
-                                store.string(), most >> 20));
-    }
+  for (const auto* stores : {&options.stores, &options.baseline})
+    for (const auto& store : *stores)
+      for (const char* part : {"", "-wal"}) {
+        std::error_code missing;
+        const auto file = std::filesystem::weakly_canonical(store, missing).string() + part;
+        const auto size = std::filesystem::file_size(file, missing);
+        if (!missing) bytes += size;
+        if (bytes > most)
+          throw Error(fmt::format("{}: found more than {} MiB of stores, expected at most {} MiB",
+                                  store.string(), most >> 20, most >> 20));
+      }
 }
 
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
-  expect_to_fit(options.stores);
-  expect_to_fit(options.baseline);
+  expect_to_fit(options);
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));

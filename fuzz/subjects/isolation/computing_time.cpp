@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -48,17 +49,28 @@ Duration computing_time(pid_t process) {
 
 Duration clock_tick() { return Duration(1.0 / static_cast<double>(sysconf(_SC_CLK_TCK))); }
 
-ComputingTime computing_time_of_tree(pid_t root) {
+std::vector<pid_t> processes_of_tree(pid_t root) {
   constexpr std::size_t most = 1024;  // processes may start faster than this loop finds them
-  ComputingTime sum;
   std::vector<pid_t> processes{root};
-  for (std::size_t i = 0; i < processes.size(); ++i) {
-    const pid_t process = processes[i];
+  for (std::size_t i = 0; i < processes.size() && processes.size() < most; ++i)
+    add_children(processes[i], processes);
+  return processes;
+}
+
+ComputingTime computing_time_of_tree(pid_t root) {
+  ComputingTime sum;
+  for (const pid_t process : processes_of_tree(root)) {
     sum.running += computing_time(process);
     sum.ended += time_of_ended_children(process);
-    if (processes.size() < most) add_children(process, processes);
   }
   return sum;
+}
+
+std::uint64_t largest_data_of_tree(pid_t root) {
+  std::uint64_t largest = 0;
+  for (const pid_t process : processes_of_tree(root))
+    largest = std::max(largest, memory_in("/proc/" + std::to_string(process)).value_or(Memory{}).data);
+  return largest;
 }
 
 }  // namespace nearmiss::isolation

@@ -1,9 +1,10 @@
-// How long a process and its descendants have computed.
+// How long a process and its descendants have computed, and how much memory they have.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 
 namespace nearmiss::isolation {
 
@@ -26,5 +27,8 @@ Duration clock_tick();
 /// Adds up a process and all its descendants. Descendants are found only if the system has the file
 /// /proc/PID/task/TID/children (proc(5)), as the kernels of distributions do.
 ComputingTime computing_time_of_tree(pid_t root);
+
+/// The largest data (Memory::data) in bytes of a process and its descendants, which are found in the same way.
+std::uint64_t largest_data_of_tree(pid_t root);
 
 }  // namespace nearmiss::isolation

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <sys/types.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string>
 
@@ -27,18 +28,23 @@ inline std::string stat_behind_name(pid_t process) {
 /// The memory of a process in bytes.
 struct Memory {
   std::uint64_t addresses = 0;  ///< its address space
-  std::uint64_t data = 0;       ///< what it can write to, and shares with nobody
+  std::uint64_t data = 0;       ///< what it can write to, and shares with nobody, without its stack
 };
 
 /// The memory of the process with this folder in /proc; nothing if there is no such process.
 inline std::optional<Memory> memory_in(const std::string& folder) {
-  std::FILE* const file = std::fopen((folder + "/statm").c_str(), "re");
+  std::FILE* const file = std::fopen((folder + "/status").c_str(), "re");
   if (file == nullptr) return std::nullopt;
-  unsigned long addresses = 0, data = 0;
-  const bool is_read = std::fscanf(file, "%lu %*u %*u %*u %*u %lu", &addresses, &data) == 2;
+  constexpr std::size_t most = 4096;
+  std::string text(most, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), file));
   std::fclose(file);
-  const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  return is_read ? std::optional(Memory{addresses * page, data * page}) : std::nullopt;
+  const auto bytes = [&](const char* name) -> std::uint64_t {
+    constexpr std::uint64_t unit = 1024;
+    const std::size_t line = text.find(name);
+    return line == std::string::npos ? 0 : unit * std::strtoull(&text[line + std::strlen(name)], nullptr, 10);
+  };
+  return Memory{bytes("\nVmSize:"), bytes("\nVmData:")};
 }
 
 }  // namespace nearmiss::isolation

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "ccd/query/printable.hpp"
-#include "fuzz/subjects/isolation/process_stat.hpp"
 
 namespace nearmiss::isolation {
 
@@ -158,13 +157,13 @@ void WorkerProcess::start(const std::string& plugin) {
                     {replies.theirs.number(), questions_.file(), answers_.file()}, *limits_.stop);
 }
 
-std::uint64_t WorkerProcess::data() const {
-  return memory_in("/proc/" + std::to_string(supervisor_.process())).value_or(Memory{}).data;
-}
+std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervisor_.worker()); }
 
 void WorkerProcess::load(const std::string& plugin) {
-  // The worker's limit does not count static data, which dlopen(3) maps in place of parts of the file.
-  if (limits_.bytes != 0) most_data_ = data() + 2 * limits_.bytes;
+  // The system's limit does not count data that is mapped in place of something else, as static data is. The
+  // worker itself may need a little more than now.
+  constexpr std::uint64_t of_worker = 1 << 20;
+  if (limits_.bytes != 0) most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
   const End end = ask({0, Request::load}, limit, limit);
   if (end == End::query_late || end == End::call_late)
@@ -173,7 +172,7 @@ void WorkerProcess::load(const std::string& plugin) {
   const std::string expected = "expected at most twice --query-memory";
   if (end == End::too_large)
     throw Error(
-        fmt::format("{}: found more memory of the plug-in while it was loaded, {}", plugin, expected));
+        fmt::format("{}: the plug-in took too much memory while it was loaded: {}", plugin, expected));
   const std::string memory = answers_->memory_refused == 0 ? "" : ". It was refused memory: " + expected;
   if (end != End::done) {
     const std::string exception = text(answers_->exception);

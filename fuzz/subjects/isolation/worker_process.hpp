@@ -124,7 +124,7 @@ class WorkerProcess {
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
-  /// The data (Memory::data) of the plug-in's process in bytes.
+  /// The largest data of a process of the plug-in, in bytes.
   [[nodiscard]] std::uint64_t data() const;
   /// Whether the supervisor reports within this time that the process has ended.
   bool ends_within(std::chrono::milliseconds time);

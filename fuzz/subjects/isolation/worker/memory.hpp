@@ -21,8 +21,6 @@ void note_refusal();
 void limit_memory_of_loading(std::uint64_t more);
 
 /// Limits the memory that this process, or its only child, may use in addition to what it has after loading.
-/// If loading took more than twice `more`, less may be left; this can happen because the system does not
-/// count static data during loading.
 void limit_memory(pid_t process, std::uint64_t more);
 
 }  // namespace nearmiss::isolation
