@@ -200,8 +200,8 @@ TEST(Judge, ABoundThatTakesTooLongIsLate) {
 
 TEST(Signature, OfTheOracleSaysWhichMethodsDisagree) {
   const Answers answers = ask_all(hit);
-  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement(true)), "");
-  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement(false)),
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement({.collision = true})), "");
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement({.collision = false})),
             "ee collision (no: filter; yes: exact, certificate, parity)");
 }
 
