@@ -168,8 +168,8 @@ TEST(Isolation, MemoryIsLimitedWhileAPluginIsLoaded) {
                    "It was refused memory: expected at most twice --query-memory");
 }
 
-TEST(Isolation, StaticDataIsLimitedWhileAPluginIsLoaded) {
-  for (const char* each : {"too_large_static", "too_large_static_used"})
+TEST(Isolation, StaticDataAndChildrenAreLimitedWhileAPluginIsLoaded) {
+  for (const char* each : {"too_large_static", "too_large_static_used", "too_large_child"})
     EXPECT_REFUSED(
         make_isolated_plugin(plugin(each), limits_for(Fault::memory)),
         "the plug-in took too much memory while it was loaded: expected at most twice --query-memory");

@@ -123,9 +123,8 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory when it is loaded (from mmap(2), from malloc(3), or as static data, of
- * which it writes STATIC bytes), and USED_MIB for each
- * query. */
+/* Takes LOADED_MIB of memory when it is loaded: from malloc(3), from mmap(2), as static data, of which it writes
+ * STATIC bytes, or in a child, in place of other addresses. Takes USED_MIB for each query. */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);
@@ -140,6 +139,16 @@ __attribute__((constructor)) static void begin(void) {
   const volatile size_t used = STATIC;
   memset(data, 1, used);
   loaded = data;
+#elif defined(CHILD)
+  if (fork() == 0) {
+    const size_t size = (size_t)LOADED_MIB << 20;
+    void* const there = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    mmap(there, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0);
+    sleep(60);
+    _exit(0);
+  }
+  sleep(1);
+  loaded = &loaded;
 #elif defined(MAPPED)
   loaded = mmap(NULL, (size_t)LOADED_MIB << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (loaded == MAP_FAILED) abort();
