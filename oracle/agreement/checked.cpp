@@ -1,6 +1,5 @@
 #include "oracle/agreement/checked.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,20 +51,14 @@ bool is_proved_to_meet_above(const Query& query, const Span& span) {
   return query.separation == largest || is_proved_to_meet(with_next_separation(query, largest), span);
 }
 
-/// Whether a certificate proves that the distance is below h > 0 before a time.
+/// Whether a certificate, which may end earlier, proves that the distance is below h > 0 before a time.
 bool is_proved_below(const Query& query, double time) {
   const Span span = time > 1 ? Span{} : Span{0, time, true};
   const auto said = proved(certify_meets(query, span, true));
-  auto expected = statement_about(query, "meets", {0, std::min(time, 1.0)}, true);
-  if (said && said->to < expected.to) expected.to = said->to;  // an open span's certificate ends before it
-  return said == expected && (time > 1 || said->to < time);
-}
-
-/// The complaint about what happens to the distance right after the enclosure of t*, for h > 0.
-std::string complaint_after(const Query& query, EarliestTime& time, const Enclosure& t) {
-  const double after = std::nextafter(t.hi, 2.0);
-  if (time.makes_late(after)) return is_proved_below(query, after) ? "" : "time (not proved: below)";
-  return is_proved_apart(with_next_separation(query, 0), {0, t.hi}) ? "" : "time (not proved: touches)";
+  if (!said || said->to >= time) return false;
+  auto expected = statement_about(query, "meets", {}, true);
+  expected.to = said->to;
+  return *said == expected;
 }
 
 }  // namespace
@@ -82,10 +75,13 @@ std::string time_disagreement(const Query& query, const Decision& decision) {
   const Enclosure t = time.enclosure();
   if (t.lo > 0 && !is_proved_apart(query, {0, t.lo, true})) return "time (not proved: before)";
   const Span within{t.lo, t.hi};
-  const bool touches = query.separation > 0 && !time.makes_late(std::nextafter(t.hi, 2.0));
+  const double after = std::nextafter(t.hi, 2.0);
+  const bool touches = query.separation > 0 && !time.makes_late(after);
   if (!is_proved_to_meet(query, within) && !(touches && is_proved_to_meet_above(query, within)))
     return "time (not proved: within)";
-  return query.separation > 0 ? complaint_after(query, time, t) : "";
+  if (query.separation == 0) return "";
+  if (!touches) return is_proved_below(query, after) ? "" : "time (not proved: below)";
+  return is_proved_apart(with_next_separation(query, 0), {0, t.hi}) ? "" : "time (not proved: touches)";
 }
 
 std::string disagreement(const Query& query, const Decision& decision, const Answers& answers) {

@@ -34,8 +34,8 @@ Answer to_answer(const Query& query, const Decision& decision);
 /// The same if the boxes or the filter decided; an empty answer if exact arithmetic did.
 Answer filter_answer(const Query& query, const Decision& decision);
 
-/// What the certificate of the oracle's decision proves about a query; an empty answer if there is none, or if
-/// the checker of tools/certificates/, which shares no code with the oracle, refuses it.
+/// The answer that the certificate of the oracle's decision proves; an empty one if there is no certificate,
+/// or if the checker of tools/certificates/, which shares no code with the oracle, refuses it.
 Answer proved_answer(const Query& query);
 
 /// "complete" or "parity".

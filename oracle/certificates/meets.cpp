@@ -269,7 +269,7 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
     if (auto text = meeting.at(t)) return text;
   auto approach = exact::first_approach(query);
   if (!approach) return std::nullopt;
-  // Where the distance is below h, points near the closest ones prove it, too, and need fewer digits.
+  // If the distance falls below h, points near the closest ones prove that, too, with fewer digits.
   if (approach->below)
     if (auto text = certify_below(*approach->below, meeting)) return text;
   return is_strict ? std::nullopt : certify_touch(approach->time, meeting);

@@ -118,8 +118,8 @@ TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
 constexpr std::array separations{0.25, 0.5, 1.0};
 
 void expect_agreement(const Query& query, const std::string& repeat) {
-  EXPECT_EQ(disagreement(query, decide(query), ask_all(query)), "") << repeat;
   const Decision found = decide(query);
+  EXPECT_EQ(disagreement(query, found, ask_all(query)), "") << repeat;
   const Decision exactly = decide_exactly(query);
   EXPECT_EQ(found.collision, exactly.collision) << repeat;
   EXPECT_EQ(found.is_tie, exactly.is_tie) << repeat;

@@ -59,10 +59,10 @@ TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   }
 }
 
-class Answers : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Range, Answers, ::testing::Values(1, 2, 3, 1000));
+class ParityOfRoots : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Range, ParityOfRoots, ::testing::Values(1, 2, 3, 1000));
 
-TEST_P(Answers, AgreeOnIntegers) {
+TEST_P(ParityOfRoots, AgreeOnIntegers) {
   for (std::size_t i = 0; i < 2000 && !HasFatalFailure(); ++i) {
     Random random(7, 0, i);
     expect_agreement(i, testing::integer_query(random, testing::kind_of_case(i), GetParam()));
@@ -71,7 +71,7 @@ TEST_P(Answers, AgreeOnIntegers) {
 
 // For these queries every patch of the boundary is flat, and many patches touch the origin only between t = 0
 // and t = 1.
-TEST_P(Answers, AgreeOnIntegersOfAPlaneAndOfALine) {
+TEST_P(ParityOfRoots, AgreeOnIntegersOfAPlaneAndOfALine) {
   for (std::size_t i = 0; i < 2000 && !HasFatalFailure(); ++i) {
     Random random(8, 0, i);
     Query query = testing::integer_query(random, testing::kind_of_case(i), GetParam());

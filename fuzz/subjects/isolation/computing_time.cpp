@@ -38,6 +38,15 @@ void add_children(pid_t process, std::vector<pid_t>& found) {
   }
 }
 
+/// A process and all its descendants.
+std::vector<pid_t> processes_of_tree(pid_t root) {
+  constexpr std::size_t most = 1024;  // processes may start faster than this loop finds them
+  std::vector<pid_t> processes{root};
+  for (std::size_t i = 0; i < processes.size() && processes.size() < most; ++i)
+    add_children(processes[i], processes);
+  return processes;
+}
+
 }  // namespace
 
 Duration computing_time(pid_t process) {
@@ -48,14 +57,6 @@ Duration computing_time(pid_t process) {
 }
 
 Duration clock_tick() { return Duration(1.0 / static_cast<double>(sysconf(_SC_CLK_TCK))); }
-
-std::vector<pid_t> processes_of_tree(pid_t root) {
-  constexpr std::size_t most = 1024;  // processes may start faster than this loop finds them
-  std::vector<pid_t> processes{root};
-  for (std::size_t i = 0; i < processes.size() && processes.size() < most; ++i)
-    add_children(processes[i], processes);
-  return processes;
-}
 
 ComputingTime computing_time_of_tree(pid_t root) {
   ComputingTime sum;

@@ -163,7 +163,7 @@ void WorkerProcess::load(const std::string& plugin) {
   // The system's limit does not count data that is mapped in place of something else, as static data is. The
   // worker itself may need a little more than now.
   constexpr std::uint64_t of_worker = 1 << 20;
-  if (limits_.bytes != 0) most_data_ = data() + of_worker + 2 * limits_.bytes;
+  most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
   const End end = ask({0, Request::load}, limit, limit);
   if (end == End::query_late || end == End::call_late)
@@ -280,7 +280,7 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
       next_look = now + most_looking * (steady_clock::now() - now);
     }
     elapsed_ = watch.elapsed();
-    if (call.request == Request::load && data() > most_data_) return End::too_large;
+    if (call.request == Request::load && limits_.bytes != 0 && data() > most_data_) return End::too_large;
     if (spoke)
       if (const auto end = end_of(call.number)) return *end;
     if (const std::uint32_t begun = answers_->calls; begun != calls) {

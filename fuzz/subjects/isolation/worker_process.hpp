@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -138,10 +137,10 @@ class WorkerProcess {
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
-  std::uint64_t most_data_ = std::numeric_limits<std::uint64_t>::max();  ///< while the plug-in is loaded
-  bool is_waiting_ = false;                                              ///< for a call
-  std::optional<std::chrono::steady_clock::time_point> leaves_by_;       ///< if it is dismissed
-  Elapsed elapsed_;                                                      ///< of the last call
+  std::uint64_t most_data_ = 0;  ///< while the plug-in is loaded, if memory is limited
+  bool is_waiting_ = false;      ///< for a call
+  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
+  Elapsed elapsed_;                                                 ///< of the last call
   ComputingTime others_;         ///< of all processes of the worker except the plug-in's
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
   Duration suspended_{};         ///< during all calls so far
