@@ -15,6 +15,8 @@ extern "C" {
 /* Kinds of queries. */
 #define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
 #define NEARMISS_EDGE_EDGE 2       /* edges x0x1 and x2x3 */
+#define NEARMISS_VERTEX_VERTEX 4   /* vertices x0 and x1 */
+#define NEARMISS_VERTEX_EDGE 8     /* vertex x0, edge x1x2 */
 
 /* Answers. A negative number is an error; all other numbers are invalid. */
 #define NEARMISS_NO_COLLISION 0
@@ -29,7 +31,7 @@ extern "C" {
 /* What a detector takes for granted. It is not judged on other queries. */
 typedef struct {
   int apart_at_start; /* 1: at t = 0, the distance of the primitives exceeds both apart_by and h */
-  int one_root; /* 1: the volume spanned by the four vertices has at most one root in [0, 1], a simple one */
+  int one_root;    /* 1: the volume spanned by four vertices has at most one root in [0, 1], a simple one */
   double apart_by; /* used with apart_at_start; 0: the primitives do not touch */
   double grid;     /* if not 0: a power of two of which every coordinate is a multiple */
   double shortest,
@@ -61,8 +63,8 @@ typedef struct {
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
    * any time in [0, 1]; h = 0 asks for contact.
-   *   x: n times 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move
-   *      linearly.
+   *   x: n rows of finite doubles, x0 x1 .. at t = 0, then at t = 1; x, y, z of each: 24 numbers, or 12 for two
+   *      vertices, and 18 for a vertex and an edge. The vertices move linearly.
    *   h: n separations, at least 0; 0 unless takes_separation is set. Rounded to float, like x, if `bits`
    *      is 24.
    *   answer: n answers, all to be written.

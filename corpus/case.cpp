@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
@@ -17,8 +18,16 @@ namespace nearmiss {
 
 namespace {
 
-/// Labels of the eight points, in the order of Query::x.
+/// Labels of the points, in the order of Query::x.
 constexpr std::array<std::string_view, 8> point_labels{"x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3"};
+
+/// The points of Query::x that a kind has.
+std::vector<std::size_t> points_of(Kind kind) {
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < point_labels.size(); ++i)
+    if (static_cast<int>(i % 4) < vertices(kind)) points.push_back(i);
+  return points;
+}
 
 struct Line {
   std::string_view label, value;
@@ -46,7 +55,7 @@ std::string to_text(const Case& each) {
   if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);
   if (each.query.separation != 0) text += fmt::format("separation {}\n", to_exact(each.query.separation));
   if (!each.provenance.empty()) text += fmt::format("provenance {}\n", each.provenance);
-  for (std::size_t i = 0; i < 8; ++i) {
+  for (const std::size_t i : points_of(each.query.kind)) {
     const double* x = each.query.x.data() + 3 * i;
     text += fmt::format("{} {} {} {}\n", point_labels[i], to_exact(x[0]), to_exact(x[1]), to_exact(x[2]));
   }
@@ -93,10 +102,18 @@ Case parse_case(std::istream& in, const std::string& file) {
     }
   }
   if (!seen.contains("kind"))
-    throw Error(fmt::format("{}:{}: found no kind, expected 'kind vt' or 'kind ee'", file, lines.number()));
-  for (const auto& label : point_labels)
-    if (!seen.contains(label))
-      throw Error(fmt::format("{}:{}: found no {}, expected eight points", file, lines.number(), label));
+    throw Error(
+        fmt::format("{}:{}: found no kind, expected {}", file, lines.number(), names_of_kinds("kind ")));
+  const auto points = points_of(result.query.kind);
+  for (const std::size_t point : points)
+    if (!seen.contains(point_labels[point]))
+      throw Error(fmt::format("{}:{}: found no {}, expected {} points", file, lines.number(),
+                              point_labels[point], points.size()));
+  for (std::size_t i = 0; i < point_labels.size(); ++i)
+    if (seen.contains(point_labels[i]) && std::ranges::find(points, i) == points.end())
+      throw Error(fmt::format("{}:{}: found {}, expected only the points of kind {}", file, lines.number(),
+                              point_labels[i], short_name(result.query.kind)));
+  repeat_vertices(result.query);
   return result;
 }
 

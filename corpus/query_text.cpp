@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <type_traits>
+#include <vector>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
@@ -135,7 +136,7 @@ std::string to_exact(double value) {
 
 std::string to_line(const Query& query) {
   std::string line;
-  for (const double c : query.x) {
+  for (const double c : coordinate_list(query)) {
     if (!line.empty()) line += ' ';
     line += to_hex(c);
   }
@@ -144,34 +145,47 @@ std::string to_line(const Query& query) {
 
 std::string to_readable(const Query& query) {
   std::string text;
-  for (std::size_t i = 0; i < query.x.size(); ++i)
+  const std::vector<double> coordinates = coordinate_list(query);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
     fmt::format_to(std::back_inserter(text), "{}{}",
-                   i == 0       ? ""
-                   : i == 12    ? "   "
-                   : i % 3 == 0 ? "  "
-                                : " ",
-                   query.x[i]);
+                   i == 0                        ? ""
+                   : i == coordinates.size() / 2 ? "   "
+                   : i % 3 == 0                  ? "  "
+                                                 : " ",
+                   coordinates[i]);
   if (query.separation != 0) text += fmt::format("   {}", query.separation);
   const bool exact =
-      std::all_of(query.x.begin(), query.x.end(), has_exact_decimal) && has_exact_decimal(query.separation);
+      std::ranges::all_of(coordinates, has_exact_decimal) && has_exact_decimal(query.separation);
   return exact ? text : fmt::format("{}\n{}", text, to_line(query));
 }
 
 Query parse_line(Kind kind, std::string_view line, std::string_view where) {
   std::array<double, 25> numbers{};
   const std::size_t count = parse_words(line, numbers, where);
-  if (count != 24 && count != 25)
-    throw Error(fmt::format("{}: found {} numbers, expected 24, or 25 with a separation", where, count));
-  Query query{.kind = kind};
-  std::copy_n(numbers.begin(), query.x.size(), query.x.begin());
-  query.separation = checked_separation(numbers.back(), where);
+  const std::size_t expected = coordinate_count(kind);
+  if (count != expected && count != expected + 1)
+    throw Error(fmt::format("{}: found {} numbers, expected {}, or {} with a separation", where, count,
+                            expected, expected + 1));
+  Query query = query_of(kind, numbers.data());
+  query.separation = checked_separation(count == expected ? 0 : numbers[expected], where);
   return query;
 }
 
 Kind parse_kind(std::string_view text, std::string_view where) {
   for (const Kind kind : kinds)
     if (text == short_name(kind)) return kind;
-  throw Error(fmt::format("{}: found kind '{}', expected vt or ee", where, excerpt(text)));
+  throw Error(fmt::format("{}: found kind '{}', expected {}", where, excerpt(text), names_of_kinds()));
+}
+
+std::string names_of_kinds(std::string_view before) {
+  std::string names;
+  for (const Kind kind : kinds)
+    names += fmt::format("{}{}{}",
+                         kind == kinds.front()  ? ""
+                         : kind == kinds.back() ? " or "
+                                                : ", ",
+                         before, short_name(kind));
+  return names;
 }
 
 }  // namespace nearmiss

@@ -44,18 +44,22 @@ std::string to_hex(double value);
 /// A text that is exactly this value: its shortest decimal, such as "-2" or "0.25", if exact, else to_hex.
 std::string to_exact(double value);
 
-/// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1; a separation other than 0 follows.
-/// parse_line reads it back exactly.
+/// Hex floats separated by blanks: the vertices of the query at t = 0, then at t = 1 (24 numbers for vt and ee,
+/// 18 for ve, 12 for vv); a separation other than 0 follows. parse_line reads it back exactly.
 std::string to_line(const Query& query);
 
 /// The numbers of to_line in decimals, for people: points are separated by two blanks, the two times by
 /// three. parse_line reads it back exactly. If a decimal is not exact, a second line is to_line(query).
 std::string to_readable(const Query& query);
 
-/// A query from 24 numbers, or 25 with the separation. Throws Error that starts with `where`.
+/// A query from its coordinate_count(kind) coordinates, and perhaps its separation. Throws Error that starts
+/// with `where`.
 Query parse_line(Kind kind, std::string_view line, std::string_view where);
 
-/// "vt" or "ee". Throws Error that starts with `where`.
+/// "vt", "ee", "vv" or "ve". Throws Error that starts with `where`.
 Kind parse_kind(std::string_view text, std::string_view where);
+
+/// The short names of all kinds, as in "vt, ee, vv or ve", each after `before`.
+std::string names_of_kinds(std::string_view before = "");
 
 }  // namespace nearmiss

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The kind of the queries in files named *.vt or *.ee.
+/// The kind of the queries in files named by their kind, such as *.vt.
 std::optional<Kind> kind_of_extension(const fs::path& extension) {
   for (const Kind kind : kinds)
     if (extension == fmt::format(".{}", short_name(kind))) return kind;
@@ -52,7 +52,8 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   } else if (const auto kind = kind_of_extension(extension)) {
     read_query_lines(in, *kind, name, sink);
   } else {
-    throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, *.vt or *.ee", name));
+    throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, {}", name,
+                            names_of_kinds("*.")));
   }
   expect_end(in, name);
 }
@@ -68,7 +69,8 @@ void read_cases(const fs::path& path, const CaseSink& sink) {
     if (it->is_regular_file() && is_case_file(it->path())) files.push_back(it->path());
   if (error) throw Error(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
   if (files.empty())
-    throw Error(fmt::format("{}: found no case, expected *.case, *.csv, *.vt or *.ee files", path.string()));
+    throw Error(fmt::format("{}: found no case, expected *.case, *.csv, {} files", path.string(),
+                            names_of_kinds("*.")));
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) read_file(file, sink);
 }
@@ -88,7 +90,8 @@ void read_query_lines(std::istream& in, Kind kind, const std::string& name, cons
   }
   expect_end(in, name);
   if (!any)
-    throw Error(fmt::format("{}:{}: found no query, expected 24 numbers a line", name, lines.number()));
+    throw Error(fmt::format("{}:{}: found no query, expected {} numbers a line", name, lines.number(),
+                            coordinate_count(kind)));
 }
 
 }  // namespace nearmiss

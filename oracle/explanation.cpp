@@ -26,14 +26,16 @@ Contact contact_of(exact::Root& t) {
 Explanation explain(const Query& query) {
   const PlainArithmetic guard;
   exact::Predicates predicates(query);
-  const bool planar = predicates.F().is_zero();
-  Explanation result{.roots = planar ? -1 : static_cast<int>(exact::roots_in_step(predicates.F()).size())};
+  Explanation result;
+  if (vertices(query.kind) == 4)
+    result.roots =
+        predicates.F().is_zero() ? -1 : static_cast<int>(exact::roots_in_step(predicates.F()).size());
   if (query.separation > 0) {
     result.is_approach = true;
     if (auto approach = exact::first_approach(query)) result.contact = contact_of(approach->time);
   } else if (auto first = exact::first_contact(predicates)) {
     result.contact = contact_of(first->time);
-    result.unseen_by_parity = !root_parity(query).collision();
+    result.unseen_by_parity = vertices(query.kind) == 4 && !root_parity(query).collision();
   }
   return result;
 }
@@ -46,8 +48,9 @@ std::string to_text(const Explanation& explanation) {
                                                           : "contact ");
   if (explanation.is_approach || explanation.contact != Contact::none)
     text += times[static_cast<std::size_t>(explanation.contact)];
+  if (!explanation.roots) return text;
   text += "; the vertices are ";
-  switch (explanation.roots) {
+  switch (*explanation.roots) {
     case -1:
       text += "always coplanar";
       break;
@@ -58,7 +61,7 @@ std::string to_text(const Explanation& explanation) {
       text += "coplanar once";
       break;
     default:
-      text.append("coplanar ").append(std::to_string(explanation.roots)).append(" times");
+      text.append("coplanar ").append(std::to_string(*explanation.roots)).append(" times");
   }
   if (explanation.unseen_by_parity)
     text += "; root parity counts an even number of roots and cannot see the contact";

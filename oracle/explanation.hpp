@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "ccd/query/query.hpp"
@@ -18,8 +19,9 @@ struct Explanation {
     end,     ///< at t = 1
   };
 
-  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are.
-  int roots = 0;
+  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are, and
+  /// nothing if there are fewer vertices.
+  std::optional<int> roots;
   Contact contact{};         ///< the first contact, or the first approach to the separation
   bool is_approach = false;  ///< whether the query has a separation
   /// There is a contact, but the number of roots that root parity counts is even.

@@ -1,5 +1,6 @@
 #include "oracle/features.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -21,6 +22,16 @@ Multiplicity multiplicity(const exact::Polynomial& F, exact::Root& t) {
   return t.sign_of(F.derivative()) == 0 ? Multiplicity::multiple : Multiplicity::simple;
 }
 
+/// Whether the triangle or an edge has no extent at the time of contact, or edges are parallel.
+bool is_degenerate(const Query& query, exact::FirstContact& contact) {
+  if (vertices(query.kind) == 4) return contact.meeting.degenerate;
+  const auto x = moving_points(query, exact::Unit(query));
+  return std::ranges::any_of(topology(query.kind).edges, [&](VertexPair edge) {
+    const exact::PolynomialVector e = x[edge.to] - x[edge.from];
+    return contact.time.sign_of(dot(e, e)) == 0;
+  });
+}
+
 Time time_class(const exact::Root& t) { return t.is(0) ? Time::start : t.is(1) ? Time::end : Time::inside; }
 
 }  // namespace
@@ -32,7 +43,7 @@ std::optional<ContactFeatures> contact_features(const Query& query) {
   if (!contact) return std::nullopt;
   return ContactFeatures{multiplicity(predicates.F(), contact->time), time_class(contact->time),
                          static_cast<Location>(contact->meeting.vanishing_weights),
-                         contact->meeting.degenerate};
+                         is_degenerate(query, *contact)};
 }
 
 std::optional<ApproachFeatures> approach_features(const Query& query) {
@@ -65,7 +76,7 @@ std::string to_text(Kind kind, const ApproachFeatures& features) {
       {{"vertex-vertex", "vertex-edge", "vertex-face"}, {"end-end", "end-edge", "edge-edge"}}};
   std::string text("approach ");
   text.append(name(features.time)).append(" ");
-  text.append(closest[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.closest)]);
+  text.append(closest[has_triangle(kind) ? 0 : 1][static_cast<std::size_t>(features.closest)]);
   if (features.touches) text += " touching";
   return text;
 }
@@ -74,10 +85,11 @@ std::string to_text(Kind kind, const ContactFeatures& features) {
   static constexpr std::array<std::string_view, 3> multiplicities{"planar", "simple-root", "multiple-root"};
   static constexpr std::array<std::array<std::string_view, 3>, 2> locations{
       {{"in-face", "on-edge", "on-vertex"}, {"crossing", "end-on-edge", "end-on-end"}}};
-  std::string text(multiplicities[static_cast<std::size_t>(features.multiplicity)]);
-  text.append(" ").append(name(features.time));
-  text.append(" ").append(
-      locations[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.location)]);
+  std::string text;
+  if (vertices(kind) == 4)
+    text.append(multiplicities[static_cast<std::size_t>(features.multiplicity)]).append(" ");
+  text.append(name(features.time));
+  text.append(" ").append(locations[has_triangle(kind) ? 0 : 1][static_cast<std::size_t>(features.location)]);
   if (features.degenerate) text += " degenerate";
   return text;
 }

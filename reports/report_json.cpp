@@ -36,9 +36,9 @@ double moment(const Query& query) {
   return earliest ? earliest->enclosure().lo : closest_time(query);
 }
 
-/// The 24 coordinates, and the separation unless it is 0, as in a query file.
+/// The coordinates, and the separation unless it is 0, as in a query file.
 ordered_json numbers_json(const Query& query) {
-  ordered_json json = query.x;
+  ordered_json json = coordinate_list(query);
   if (query.separation != 0) json.push_back(query.separation);
   return json;
 }

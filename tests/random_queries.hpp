@@ -21,7 +21,7 @@ inline std::string repeat(std::size_t index, const Query& query) {
 }
 
 /// Both kinds in turn.
-inline Kind kind_of_case(std::size_t index) { return kinds[index % kinds.size()]; }
+inline Kind kind_of_case(std::size_t index) { return kinds_of_meshes[index % kinds_of_meshes.size()]; }
 
 /// A query whose coordinates are integers in [-largest, largest].
 inline Query integer_query(Random& random, Kind kind, int largest) {

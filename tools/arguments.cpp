@@ -77,16 +77,24 @@ Query SeparationOption::apply(const Query& query) const {
   return is_given() ? with_separation(query, parse_separation(text, "--separation")) : query;
 }
 
-void expect_separation(const Subject& subject) {
-  if (!subject.takes_separation())
+void expect_kind(const Subject& subject, Kind kind) {
+  if (!subject.decides(kind))
+    throw Error(fmt::format("{}: found queries of kind {}, which it does not decide", subject.name(),
+                            short_name(kind)));
+}
+
+void expect_separation(const Subject& subject, std::span<const Kind> of) {
+  if (std::ranges::none_of(of, [&](Kind kind) { return subject.decides(kind); }))
+    expect_kind(subject, of.front());
+  if (std::ranges::none_of(of, [&](Kind kind) { return subject.takes_separation(kind); }))
     throw Error(
         fmt::format("{}: answers for contact only, expected subjects that take a separation "
                     "(nearmiss subjects)",
                     subject.name()));
 }
 
-void expect_separations(const Subjects& subjects) {
-  for (const auto& subject : subjects) expect_separation(*subject);
+void expect_separations(const Subjects& subjects, std::span<const Kind> of) {
+  for (const auto& subject : subjects) expect_separation(*subject, of);
 }
 
 void add_bound_option(CLI::App& command, std::string& bound) {
@@ -94,16 +102,25 @@ void add_bound_option(CLI::App& command, std::string& bound) {
       ->type_name("B");
 }
 
+std::vector<std::string> short_names_of_kinds() {
+  std::vector<std::string> names;
+  for (const Kind each : kinds) names.emplace_back(short_name(each));
+  return names;
+}
+
 void QueryInput::add_to(CLI::App& command) {
   command
-      .add_option("--kind", kind, "vt: vertex x0 against triangle x1 x2 x3; ee: edge x0x1 against edge x2x3")
+      .add_option(
+          "--kind", kind,
+          "vt: vertex x0 against triangle x1 x2 x3; ee: edge x0x1 against edge x2x3; vv: vertices x0 and "
+          "x1; ve: vertex x0 against edge x1x2")
       ->required()
-      ->check(CLI::IsMember({"vt", "ee"}));
+      ->check(CLI::IsMember(short_names_of_kinds()));
   command
-      .add_option("FILE", file,
-                  "Queries, one a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1; a 25th is the "
-                  "separation; - is "
-                  "standard input")
+      .add_option(
+          "FILE", file,
+          "Queries, one a line: three numbers for each vertex, x0 x1 .. at t = 0, then at t = 1 (24, or 12 "
+          "for vv and 18 for ve); one more is the separation; - is standard input")
       ->capture_default_str();
   separation.add_to(command);
 }
@@ -177,6 +194,8 @@ std::vector<Family> find_families(const std::vector<std::string>& names, std::sp
   for (const std::string& name : names) {
     if (name == "all")
       found.insert(found.end(), all.begin(), all.end());
+    else if (name == "vertices")
+      found.insert(found.end(), vertex_families().begin(), vertex_families().end());
     else
       found.push_back(find_family(name, known));
   }

@@ -44,9 +44,15 @@ struct SeparationOption {
   [[nodiscard]] Query apply(const Query& query) const;
 };
 
-/// Throws Error if the subject, or one of several subjects, does not take separations.
-void expect_separation(const Subject& subject);
-void expect_separations(const Subjects& subjects);
+/// "vt", "ee" and so on: the values of --kind.
+std::vector<std::string> short_names_of_kinds();
+
+/// Throws Error if the subject does not decide a kind of queries.
+void expect_kind(const Subject& subject, Kind kind);
+
+/// Throws Error if the subject, or one of several subjects, takes separations for none of these kinds.
+void expect_separation(const Subject& subject, std::span<const Kind> of = kinds_of_meshes);
+void expect_separations(const Subjects& subjects, std::span<const Kind> of = kinds_of_meshes);
 
 /// --bound B: one bound for every pair.
 void add_bound_option(CLI::App& command, std::string& bound);

@@ -77,17 +77,21 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   if (!options.mesh.empty()) known.push_back(family_of_mesh(options, stop));
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
+  const std::size_t of_meshes = known.size();
+  known.insert(known.end(), vertex_families().begin(), vertex_families().end());
   // Only with --separation drawn does "all" include the families that have separations of their own.
   const std::string separation = options.separation.of_families();
   const bool is_drawn = separation == drawn_separation;
-  const auto all = std::span(known).first(is_drawn ? known.size() : contact);
+  const auto all = std::span(known).first(is_drawn ? of_meshes : contact);
   auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
                                        : find_sweeps(options.sweeps, options.steps, known);
-  if (!separation.empty())
-    for (Family& family : chosen)
-      if (!family.has_separation) family = with_separation(family, separation);
-  const auto has_separation = [](const Family& family) { return family.has_separation; };
-  if (std::any_of(chosen.begin(), chosen.end(), has_separation)) expect_separations(subjects);
+  for (Family& family : chosen) {
+    const bool needs_one = !is_of_meshes(family.kinds[0]) && !options.separation.is_given();
+    const std::string& own = needs_one ? std::string(drawn_separation) : separation;
+    if (!own.empty() && !family.has_separation) family = with_separation(family, own);
+  }
+  for (const Family& family : chosen)
+    if (family.has_separation) expect_separations(subjects, family.kinds);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
     for (Family& family : searches(*subject, stop, separation)) chosen.push_back(std::move(family));

@@ -29,12 +29,12 @@ std::string literal(double value, Form language) {
   return text;
 }
 
-/// The four vertices at a time (0 or 1): a line for each.
-std::string vertices(const Query& query, std::size_t time, Form language) {
+/// The vertices at a time (0 or 1): a line for each.
+std::string points(const Query& query, std::size_t time, Form language) {
   const bool python = language == Form::python;
   std::string text;
-  for (std::size_t vertex = 0; vertex < 4; ++vertex) {
-    const double* const x = query.x.data() + 12 * time + 3 * vertex;
+  for (int vertex = 0; vertex < vertices(query.kind); ++vertex) {
+    const double* const x = query.x.data() + 12 * time + 3 * static_cast<std::size_t>(vertex);
     text += fmt::format(fmt::runtime(python ? "        [{}, {}, {}],\n" : "      {{{}, {}, {}}},\n"),
                         literal(x[0], language), literal(x[1], language), literal(x[2], language));
   }
@@ -86,16 +86,29 @@ std::string what_was_answered(const Finding& finding) {
   }
 }
 
+/// What the points are: "A vertex (the first point) and a triangle (the other three)".
+std::string_view primitives(Kind kind) {
+  switch (kind) {
+    case Kind::vertex_triangle:
+      return "A vertex (the first point) and a triangle (the other three)";
+    case Kind::edge_edge:
+      return "Two edges (the first two points, and the last two)";
+    case Kind::vertex_vertex:
+      return "Two vertices";
+    case Kind::vertex_edge:
+      return "A vertex (the first point) and an edge (the other two)";
+  }
+  return "";
+}
+
 /// The lines of the comment on top of the test.
 std::string comment(const Finding& finding, std::string_view mark) {
-  const bool is_vt = has_triangle(finding.shrunk.kind);
   std::istringstream lines(
       fmt::format("{} (found by nearmiss).\nVertices move linearly from `start` (t = 0) to `end` (t = "
                   "1).\n{}\n{}\n{} {}.\n",
-                  is_vt ? "A vertex (the first point) and a triangle (the other three)"
-                        : "Two edges (the first two points, and the last two)",
-                  what_is_true(finding.shrunk), fmt::format("Also: {}.", to_text(explain(finding.shrunk))),
-                  printable(finding.subject), what_was_answered(finding)));
+                  primitives(finding.shrunk.kind), what_is_true(finding.shrunk),
+                  fmt::format("Also: {}.", to_text(explain(finding.shrunk))), printable(finding.subject),
+                  what_was_answered(finding)));
   std::string text;
   for (std::string line; std::getline(lines, line);) text += fmt::format("{} {}\n", mark, line);
   return text;
@@ -198,8 +211,9 @@ std::string expectation(const Finding& finding, const std::string& arguments, Fo
 }
 
 /// A comment that asks the reader to write the functions, followed in C++ by their declarations.
-std::string request(const std::vector<Asked>& functions, bool has_separation, Form language) {
+std::string request(const std::vector<Asked>& functions, const Query& query, Form language) {
   const bool python = language == Form::python;
+  const bool has_separation = query.separation != 0;
   std::string text, declarations;
   for (const Asked& each : functions) {
     const std::string function =
@@ -207,8 +221,9 @@ std::string request(const std::vector<Asked>& functions, bool has_separation, Fo
                : fmt::format("`{}`", each.name);
     text +=
         fmt::format("{} Write a function {} that returns {}.\n", python ? "#" : "//", function, each.returns);
-    declarations += fmt::format("{} {}(const double (&start)[4][3], const double (&end)[4][3]{});\n",
-                                each.type, each.name, has_separation ? ", double separation" : "");
+    declarations +=
+        fmt::format("{0} {1}(const double (&start)[{2}][3], const double (&end)[{2}][3]{3});\n", each.type,
+                    each.name, vertices(query.kind), has_separation ? ", double separation" : "");
   }
   return python ? text : text + declarations + "\n";
 }
@@ -224,21 +239,21 @@ Form parse_form(std::string_view text, std::string_view option) {
 
 std::string pasted_test(const Finding& finding, Form language) {
   const Query& query = finding.shrunk;
-  const bool has_separation = query.separation != 0;
   const std::string arguments =
-      fmt::format("(start, end{})", has_separation ? ", " + literal(query.separation, language) : "");
+      fmt::format("(start, end{})", query.separation != 0 ? ", " + literal(query.separation, language) : "");
   const bool python = language == Form::python;
   const std::string heading = comment(finding, python ? "#" : "//");
   const std::string proof = certificate(finding);
   return fmt::format(
       fmt::runtime(python ? "{}{}{}def test_{}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
                             "{}    assert {}\n"
-                          : "{}{}{}bool test_{}() {{\n  const double start[4][3] = {{\n{}  }};\n"
-                            "  const double end[4][3] = {{\n{}  }};\n{}  return {};\n}}\n"),
+                          : "{0}{1}{2}bool test_{3}() {{\n  const double start[{8}][3] = {{\n{4}  }};\n"
+                            "  const double end[{8}][3] = {{\n{5}  }};\n{6}  return {7};\n}}\n"),
       heading, python ? "" : certificate_comment(proof),
-      request(functions(finding), has_separation, language) + (python ? certificate_definition(proof) : ""),
-      topology(query.kind).name, vertices(query, 0, language), vertices(query, 1, language),
-      python ? certificate_assertion(proof) : "", expectation(finding, arguments, language));
+      request(functions(finding), query, language) + (python ? certificate_definition(proof) : ""),
+      topology(query.kind).name, points(query, 0, language), points(query, 1, language),
+      python ? certificate_assertion(proof) : "", expectation(finding, arguments, language),
+      vertices(query.kind));
 }
 
 }  // namespace nearmiss::tools

@@ -55,17 +55,17 @@ inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
-/// Whether the 12 coordinates of a query at one time are contiguous in memory, and of type T.
+/// Whether the coordinates of a query at one time are contiguous in memory, and of type T.
 template <class T>
 bool has_packed_points(const nearmiss_queries& queries) {
   return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
          queries.vertices == nullptr;
 }
 
-/// Whether all coordinates of a query are doubles that lie one after the other.
+/// Whether all coordinates of a query are doubles that lie one after the other, as in Query::x.
 inline bool lie_in_rows(const nearmiss_queries& queries) {
-  return queries.type == NEARMISS_DOUBLE && has_packed_points<double>(queries) &&
-         static_cast<const double*>(queries.start) + 12 == queries.end;
+  return vertices(*kind_of_bit(queries.kind)) == 4 && queries.type == NEARMISS_DOUBLE &&
+         has_packed_points<double>(queries) && static_cast<const double*>(queries.start) + 12 == queries.end;
 }
 
 /// Reads single queries, whose coordinates are of type T.
@@ -73,7 +73,9 @@ template <class T>
 class Reader {
  public:
   explicit Reader(const nearmiss_queries& queries)
-      : queries_(queries), is_packed_(has_packed_points<T>(queries)) {}
+      : queries_(queries),
+        vertices_(static_cast<std::size_t>(vertices(*kind_of_bit(queries.kind)))),
+        is_packed_(has_packed_points<T>(queries) && vertices_ == 4) {}
 
   void read(std::size_t q, Query& query) const {
     const auto offset = static_cast<std::ptrdiff_t>(q);
@@ -81,6 +83,7 @@ class Reader {
                 &query.x[0]);
     read_points(q, static_cast<const std::byte*>(queries_.end) + offset * queries_.query_stride,
                 &query.x[12]);
+    repeat_vertices(query);
     if (queries_.separation != nullptr) query.separation = separation_of(queries_, q);
   }
 
@@ -92,9 +95,9 @@ class Reader {
       std::copy(numbers.begin(), numbers.end(), x);
       return;
     }
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::ptrdiff_t vertex =
-          queries_.vertices == nullptr ? static_cast<std::ptrdiff_t>(i) : queries_.vertices[4 * q + i];
+    for (std::size_t i = 0; i < vertices_; ++i) {
+      const std::ptrdiff_t vertex = queries_.vertices == nullptr ? static_cast<std::ptrdiff_t>(i)
+                                                                 : queries_.vertices[vertices_ * q + i];
       const std::ptrdiff_t point = vertex * queries_.vertex_stride;
       for (std::ptrdiff_t k = 0; k < 3; ++k)
         *x++ = number_at<T>(first, point + k * queries_.coordinate_stride);
@@ -102,6 +105,7 @@ class Reader {
   }
 
   const nearmiss_queries& queries_;
+  std::size_t vertices_;  ///< of a query
   bool is_packed_;
 };
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 
 namespace nearmiss {
 
@@ -15,10 +14,16 @@ namespace nearmiss {
 enum class Kind : std::uint8_t {
   vertex_triangle,  ///< x0 is the vertex, x1 x2 x3 the triangle
   edge_edge,        ///< x0x1 and x2x3 are the edges
+  vertex_vertex,    ///< x0 and x1
+  vertex_edge,      ///< x0 is the vertex, x1x2 the edge
 };
 
 /// All kinds.
-inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge};
+inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::vertex_vertex,
+                                  Kind::vertex_edge};
+
+/// The kinds of the pairs that decide whether triangle meshes collide. Families and scenes have them in turn.
+inline constexpr std::array kinds_of_meshes{Kind::vertex_triangle, Kind::edge_edge};
 
 /// A primitive, by the number of its vertices.
 enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
@@ -42,11 +47,11 @@ struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
   Primitive first;                    ///< with the vertices x[0 .. split)
-  Primitive second;                   ///< with the vertices x[split .. 4)
+  Primitive second;                   ///< with the vertices x[split .. vertices)
   std::span<const VertexPair> edges;  ///< of both primitives
   std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
   /// Each vertex with each edge of the other primitive; those with a vertex of the first primitive come
-  /// first.
+  /// first. Two vertices count as a vertex and the edge x1x2 of no length.
   std::span<const VertexAndEdge> vertices_and_edges;
   std::span<const VertexAndEdge> first_to_second;  ///< the part with a vertex of the first primitive
   std::span<const VertexAndEdge> second_to_first;  ///< the part with a vertex of the second
@@ -65,8 +70,13 @@ inline constexpr std::array<VertexPair, 4> gaps_of_ee{{{0, 2}, {0, 3}, {1, 2}, {
 inline constexpr std::array<VertexAndEdge, 4> vertices_and_edges_of_ee{
     {{0, 2, 3}, {1, 2, 3}, {2, 0, 1}, {3, 0, 1}}};
 
+inline constexpr std::array<VertexPair, 1> gaps_of_vv{{{0, 1}}};
+inline constexpr std::array<VertexPair, 1> edges_of_ve{{{1, 2}}};
+inline constexpr std::array<VertexPair, 2> gaps_of_ve{{{0, 1}, {0, 2}}};
+inline constexpr std::array<VertexAndEdge, 1> vertex_and_edge{{{0, 1, 2}}};
+
 /// In the order of Kind.
-inline constexpr std::array<Topology, 2> of_kinds{
+inline constexpr std::array<Topology, 4> of_kinds{
     {{.short_name = "vt",
       .name = "vertex_triangle",
       .first = Primitive::vertex,
@@ -86,25 +96,54 @@ inline constexpr std::array<Topology, 2> of_kinds{
       .vertices_and_edges = vertices_and_edges_of_ee,
       .first_to_second = std::span(vertices_and_edges_of_ee).first(2),
       .second_to_first = std::span(vertices_and_edges_of_ee).last(2),
-      .pqr = {{{0, 2}, {0, 1}, {2, 3}}}}}};
+      .pqr = {{{0, 2}, {0, 1}, {2, 3}}}},
+     {.short_name = "vv",
+      .name = "vertex_vertex",
+      .first = Primitive::vertex,
+      .second = Primitive::vertex,
+      .edges = {},
+      .gaps = gaps_of_vv,
+      .vertices_and_edges = vertex_and_edge,
+      .first_to_second = vertex_and_edge,
+      .second_to_first = {},
+      .pqr = {{{1, 0}, {1, 2}, {1, 3}}}},
+     {.short_name = "ve",
+      .name = "vertex_edge",
+      .first = Primitive::vertex,
+      .second = Primitive::edge,
+      .edges = edges_of_ve,
+      .gaps = gaps_of_ve,
+      .vertices_and_edges = vertex_and_edge,
+      .first_to_second = vertex_and_edge,
+      .second_to_first = {},
+      .pqr = {{{1, 0}, {1, 2}, {1, 3}}}}}};
 
 }  // namespace topologies
 
 /// The topology of a kind.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
-/// "vt" or "ee".
+/// "vt", "ee", "vv" or "ve".
 constexpr std::string_view short_name(Kind kind) { return topology(kind).short_name; }
 
-/// The vertices of the first primitive are x[0 .. split), those of the second x[split .. 4).
+/// The vertices of the first primitive are x[0 .. split), those of the second x[split .. vertices).
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
-/// Whether the second primitive is a triangle, with weights α, β >= 0 and α + β <= 1 of its edges x1x2 and
-/// x1x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
-constexpr bool has_triangle(Kind kind) { return topology(kind).second == Primitive::triangle; }
+/// Whether triangle meshes have pairs of this kind: whether it is one of kinds_of_meshes.
+constexpr bool is_of_meshes(Kind kind) { return kind == Kind::vertex_triangle || kind == Kind::edge_edge; }
 
-/// The number of a kind in the C interfaces, NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE: one bit of a set
-/// of kinds.
+/// The number of vertices of both primitives.
+constexpr int vertices(Kind kind) { return split(kind) + static_cast<int>(topology(kind).second); }
+
+/// The number of coordinates at t = 0 and t = 1 together.
+constexpr std::size_t coordinate_count(Kind kind) { return static_cast<std::size_t>(6 * vertices(kind)); }
+
+/// Whether the formulas of a vertex and a triangle hold, with weights α, β >= 0 and α + β <= 1 of the edges
+/// x1x2 and x1x3. Then the second primitive is a triangle, an edge or a vertex; a query repeats its last
+/// vertex up to x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
+constexpr bool has_triangle(Kind kind) { return kind != Kind::edge_edge; }
+
+/// The number of a kind in the C interfaces, such as NEARMISS_VERTEX_TRIANGLE: one bit of a set of kinds.
 constexpr int bit_of(Kind kind) { return 1 << static_cast<int>(kind); }
 
 /// The set of all kinds, as a sum of their bits.
@@ -117,20 +156,19 @@ constexpr std::optional<Kind> kind_of_bit(int bit) {
   return std::nullopt;
 }
 
-/// Calls a function template with a kind that is known at run time only.
+/// Calls a function template with the kind whose formulas hold for a kind that is known at run time only:
+/// vertex_triangle or edge_edge (has_triangle).
 template <class Function>
 constexpr decltype(auto) with_kind(Kind kind, const Function& f) {
-  return kind == Kind::vertex_triangle ? f.template operator()<Kind::vertex_triangle>()
-                                       : f.template operator()<Kind::edge_edge>();
+  return has_triangle(kind) ? f.template operator()<Kind::vertex_triangle>()
+                            : f.template operator()<Kind::edge_edge>();
 }
 
-/// Calls a function template with each kind.
+/// Calls a function template with each kind of the pairs of triangle meshes.
 template <class Function>
-constexpr void for_each_kind(const Function& f) {
-  const auto call = [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (f.template operator()<kinds[i]>(), ...);
-  };
-  call(std::make_index_sequence<kinds.size()>());
+constexpr void for_each_kind_of_meshes(const Function& f) {
+  f.template operator()<Kind::vertex_triangle>();
+  f.template operator()<Kind::edge_edge>();
 }
 
 }  // namespace nearmiss

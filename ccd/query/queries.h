@@ -1,8 +1,8 @@
 /** \file
  * Queries in the caller's own memory, for the functions of wang.h and oracle.h. C99.
  *
- * A query is four vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, or
- * the edges x0x1 and x2x3. All coordinates have one unit, which is arbitrary; times are fractions of the
+ * A query is vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, the edges
+ * x0x1 and x2x3, the vertices x0 and x1, or a vertex x0 and an edge x1x2. All coordinates have one unit, which is arbitrary; times are fractions of the
  * step. The question is whether the distance of the two closed primitives is at most the separation h at some
  * t in [0, 1]; h = 0 asks whether they touch. */
 #ifndef NEARMISS_QUERIES_H
@@ -26,6 +26,8 @@ extern "C" {
 /* Kinds of queries, as in nearmiss_subject.h. */
 #define NEARMISS_VERTEX_TRIANGLE 1 /**< vertex x0, triangle x1 x2 x3 */
 #define NEARMISS_EDGE_EDGE 2       /**< edges x0x1 and x2x3 */
+#define NEARMISS_VERTEX_VERTEX 4   /**< vertices x0 and x1 */
+#define NEARMISS_VERTEX_EDGE 8     /**< vertex x0, edge x1x2 */
 
 /* Types of coordinates. */
 #define NEARMISS_DOUBLE 0 /**< 64 bits */
@@ -40,18 +42,19 @@ extern "C" {
 #define NEARMISS_OK 0         /**< all queries are answered */
 #define NEARMISS_NOT_FINITE 1 /**< all queries are answered, some of them by NEARMISS_NO_ANSWER, or by NaN */
 #define NEARMISS_BAD_ARGUMENT \
-  2 /**< nothing is answered: a null pointer, a number out of range, or a separation for wang */
+  2 /**< nothing is answered: a null pointer, a number out of range, or a separation that wang does not take */
 #define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
-/** Queries of one kind. Coordinate k (0 to 2) of vertex i (0 to 3) of query q is at
+/** Queries of one kind, whose queries have n vertices (nearmiss_vertices()). Coordinate k (0 to 2) of vertex i
+ * (0 to n - 1) of query q is at
  *
  *     start + q * query_stride + v * vertex_stride + k * coordinate_stride
  *
- * at t = 0, and likewise from `end` at t = 1. Here v is vertices[4 * q + i], or i if `vertices` is null.
+ * at t = 0, and likewise from `end` at t = 1. Here v is vertices[n * q + i], or i if `vertices` is null.
  * Strides are in bytes, and may be 0 or negative. Addresses must be aligned for the type. nearmiss_packed()
  * and nearmiss_of_mesh() fill in the usual cases. */
 typedef struct {
-  int kind;                    /**< NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE */
+  int kind;                    /**< NEARMISS_VERTEX_TRIANGLE or another kind */
   int type;                    /**< NEARMISS_DOUBLE or NEARMISS_FLOAT */
   size_t count;                /**< number of queries */
   const void* start;           /**< coordinates at t = 0 */
@@ -59,10 +62,25 @@ typedef struct {
   ptrdiff_t query_stride;      /**< from a query to the next, in bytes */
   ptrdiff_t vertex_stride;     /**< from a vertex to the next, in bytes */
   ptrdiff_t coordinate_stride; /**< from a coordinate to the next, in bytes */
-  const int32_t* vertices;     /**< numbers of vertices, four for each query; or null */
+  const int32_t* vertices;     /**< numbers of vertices, n for each query; or null */
   const double* separation;    /**< h of the first query; null: h = 0 for all */
   ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all share one */
 } nearmiss_queries;
+
+/** The number of vertices of a query of a kind; 0 for any other number. */
+static inline int nearmiss_vertices(int kind) {
+  switch (kind) {
+    case NEARMISS_VERTEX_TRIANGLE:
+    case NEARMISS_EDGE_EDGE:
+      return 4;
+    case NEARMISS_VERTEX_EDGE:
+      return 3;
+    case NEARMISS_VERTEX_VERTEX:
+      return 2;
+    default:
+      return 0;
+  }
+}
 
 /** Queries whose vertices have three coordinates, one after the other. `query_size` is the number of
  * coordinates from one query to the next. */
@@ -76,17 +94,19 @@ static inline nearmiss_queries nearmiss_of_points(int kind, int type, size_t cou
   return queries;
 }
 
-/** Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. */
+/** Queries one after another: six coordinates for each vertex, x0 x1 .. at t = 0, then at t = 1. */
 static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const double* x) {
-  return nearmiss_of_points(kind, NEARMISS_DOUBLE, count, NEARMISS_NULL, x, x ? x + 12 : x, 24);
+  const ptrdiff_t half = 3 * nearmiss_vertices(kind);
+  return nearmiss_of_points(kind, NEARMISS_DOUBLE, count, NEARMISS_NULL, x, x ? x + half : x, 2 * half);
 }
 
 /** nearmiss_packed() in float. */
 static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, const float* x) {
-  return nearmiss_of_points(kind, NEARMISS_FLOAT, count, NEARMISS_NULL, x, x ? x + 12 : x, 24);
+  const ptrdiff_t half = 3 * nearmiss_vertices(kind);
+  return nearmiss_of_points(kind, NEARMISS_FLOAT, count, NEARMISS_NULL, x, x ? x + half : x, 2 * half);
 }
 
-/** Pairs of a moving mesh: `vertices` has four numbers of vertices for each pair, and `start` and `end` have
+/** Pairs of a moving mesh: `vertices` has the numbers of the vertices of each pair, and `start` and `end` have
  * three coordinates for each vertex of the mesh, at t = 0 and t = 1. For vertices with more than three
  * numbers, change vertex_stride. */
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,

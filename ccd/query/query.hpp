@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "ccd/query/arithmetic.hpp"
 #include "ccd/query/kind.hpp"
@@ -20,9 +21,10 @@ namespace nearmiss {
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
-/// Four vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, for the given
-/// double coordinates. The unit of length is arbitrary. Coordinates are finite; readers refuse any others.
-/// The question is whether the distance of the two closed primitives is at most h, the separation, at some t
+/// Vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, for the given
+/// double coordinates. A kind with fewer than four vertices repeats the last one up to x3 (repeat_vertices),
+/// so that every query of a vertex is one of a triangle, which may be an edge or a point.
+/// The unit of length is arbitrary. Coordinates are finite; readers refuse any others. The question is whether the distance of the two closed primitives is at most h, the separation, at some t
 /// in [0, 1]. Their distance is 0 where they touch, so h = 0 asks for contact.
 struct Query {
   Kind kind{};  ///< which primitives they are
@@ -51,6 +53,38 @@ struct Query {
     Eigen::Map<Vector3<double>>(x.data() + static_cast<std::ptrdiff_t>(3) * point) = p;
   }
 };
+
+/// Makes the vertices that the kind does not have equal to its last one.
+inline void repeat_vertices(Query& query) {
+  for (int i = vertices(query.kind); i < 4; ++i) {
+    query.set_start(i, query.start(i - 1));
+    query.set_end(i, query.end(i - 1));
+  }
+}
+
+/// A query from its coordinate_count(kind) coordinates: those of all its vertices at t = 0, then at t = 1.
+template <class Number>
+Query query_of(Kind kind, const Number* coordinates) {
+  Query query{.kind = kind};
+  const std::size_t half = coordinate_count(kind) / 2;
+  std::copy_n(coordinates, half, query.x.begin());
+  std::copy_n(coordinates + half, half, query.x.begin() + 12);
+  repeat_vertices(query);
+  return query;
+}
+
+/// Copies the coordinate_count(kind) coordinates of a query out of the 24 of Query::x.
+inline void copy_coordinates(Kind kind, const double* x, double* to) {
+  const std::size_t half = coordinate_count(kind) / 2;
+  std::copy_n(x + 12, half, std::copy_n(x, half, to));
+}
+
+/// The coordinates of a query as a list, without the repeated ones.
+inline std::vector<double> coordinate_list(const Query& query) {
+  std::vector<double> list(coordinate_count(query.kind));
+  copy_coordinates(query.kind, query.x.data(), list.data());
+  return list;
+}
 
 /// The query of the same primitives for another separation; 0 asks for contact.
 inline Query with_separation(Query query, double separation) {

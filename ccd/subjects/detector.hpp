@@ -79,8 +79,8 @@ class Detector {
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
   [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
 
-  /// Decides answers.size() queries of one kind. x has 24 coordinates for each query, rounded to float if the
-  /// detector is narrow.
+  /// Decides answers.size() queries of one kind. x has 24 coordinates for each query, as in Query::x, rounded
+  /// to float if the detector is narrow.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x) const;

@@ -103,10 +103,10 @@ class Subject {
   [[nodiscard]] virtual bool claims_bound() const { return true; }
 
   /// Whether the subject decides queries of a kind. It is not asked about other kinds.
-  [[nodiscard]] virtual bool decides(Kind /*kind*/) const { return true; }
+  [[nodiscard]] virtual bool decides(Kind kind) const { return is_of_meshes(kind); }
 
-  /// Whether the subject answers queries with a separation h > 0. If not, it is not asked about them.
-  [[nodiscard]] virtual bool takes_separation() const { return false; }
+  /// Whether the subject answers queries of a kind with a separation h > 0. If not, it is not asked about them.
+  [[nodiscard]] virtual bool takes_separation(Kind /*kind*/) const { return false; }
 
   /// What the time of a verdict means, for collisions.
   [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }

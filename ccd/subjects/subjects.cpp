@@ -18,6 +18,7 @@
 #include "ccd/wang/wang.hpp"
 #include "ccd/wang/wang_batch.hpp"
 #include "ccd/wang/wang_time.hpp"
+#include "ccd/wang/within.hpp"
 
 namespace nearmiss {
 
@@ -25,7 +26,8 @@ namespace {
 
 /// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
 /// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
-/// `claims_bound`, `takes_separation` and `time_sort`.
+/// `claims_bound`, `takes_separation` and `time_sort`. If it decides two vertices, and a vertex and an edge, it
+/// has `static Verdict decide_within(query, given)`, and takes separations for these kinds.
 template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:
@@ -44,7 +46,8 @@ class BuiltInSubject final : public Subject {
       if (!given_) {
         wang_in_lanes(QueryRows(queries), verdicts);
         for (std::size_t i = 0; i < queries.size(); ++i)
-          if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
+          if (!is_decided(verdicts[i]) || !is_of_meshes(queries[i].kind))
+            verdicts[i] = decide_plainly(queries[i]);
         return;
       }
     }
@@ -62,12 +65,23 @@ class BuiltInSubject final : public Subject {
   }
 
   [[nodiscard]] bool claims_bound() const override { return Policy::claims_bound; }
-  [[nodiscard]] bool takes_separation() const override { return Policy::takes_separation; }
+  [[nodiscard]] bool decides(Kind kind) const override { return is_of_meshes(kind) || decides_vertices; }
+  [[nodiscard]] bool takes_separation(Kind kind) const override {
+    return is_of_meshes(kind) ? Policy::takes_separation : decides_vertices;
+  }
   [[nodiscard]] TimeSort time_sort() const override { return Policy::time_sort; }
 
  private:
+  /// Whether the policy decides two vertices, and a vertex and an edge. The times of Algorithms 1 and 2 are no
+  /// lower bounds.
+  static constexpr bool decides_vertices = Policy::time_sort == TimeSort::none && requires {
+    &Policy::decide_within;
+  };
+
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
     if (!is_finite(query)) refuse_coordinates(name_);
+    if constexpr (decides_vertices)
+      if (!is_of_meshes(query.kind)) return Policy::decide_within(query, given_);
     return with_kind(query.kind, [&]<Kind kind>() { return Policy::template decide<kind>(query, given_); });
   }
 
@@ -111,10 +125,15 @@ struct Wang {
   static Verdict decide(const Query& query, const std::optional<double>& given) {
     return wang<kind, double, options, Rule>(query, given);
   }
+  static Verdict decide_within(const Query& query, const std::optional<double>& given) {
+    return wang_within<double, Rule>(query, options.plane_culling, given);
+  }
   static double distance_bound(const Query& query, const std::optional<double>& given) {
+    if (!is_of_meshes(query.kind)) return within_distance_bound<Rule>(query, given);
     return distance_bound_of(Rule()(1.0), given.value_or(pair_bound(query)));
   }
   static double needed_tolerance(const Query& query, const std::optional<double>& given) {
+    if (!is_of_meshes(query.kind)) return std::numeric_limits<double>::quiet_NaN();
     return least_loosening([&](double s) {
       const Loosened<Rule> tolerances{{}, s};
       return with_kind(
@@ -240,7 +259,7 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::option
 }
 
 void refuse_coordinates(std::string_view name) {
-  throw Error(std::string(name) + ": found a coordinate that is not finite, expected 24 finite numbers");
+  throw Error(std::string(name) + ": found a coordinate that is not finite, expected finite numbers");
 }
 
 void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {

@@ -191,23 +191,32 @@ auto in_range(T B) {
   return (B <= T(root * root)) & (B >= T(1 / (root * root)));
 }
 
-/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if the
-/// pair is already in range, or if B = 0.
-template <Kind kind, class T>
-Frame normalising_frame(const Query& query) {
+/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if B is
+/// already in range, or 0. `bound_in(frame)` gives B, or NaN if it cannot be computed in that frame.
+template <class T, class BoundIn>
+Frame frame_for(const BoundIn& bound_in) {
   Frame frame;
-  const auto pair = make_pair<kind, T>(query, frame);
-  // If a position overflows at both times, its velocity is NaN, and B may have any value.
-  const bool finite = pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all();
-  T B = pair.B;
-  if (finite && in_range(B)) return frame;
-  if (!finite || !(B <= std::numeric_limits<T>::max() / 16)) {
+  T B = bound_in(frame);
+  if (in_range(B)) return frame;
+  if (!(B <= std::numeric_limits<T>::max() / 16)) {
     frame.reduced = true;
-    B = make_pair<kind, T>(query, frame).B;
+    B = bound_in(frame);
   }
   using std::ilogb;
   if (B > 0) frame.exponent = -ilogb(B);
   return frame;
+}
+
+/// The frame in which a pair's B lies in [1, 2).
+template <Kind kind, class T>
+Frame normalising_frame(const Query& query) {
+  return frame_for<T>([&](const Frame& frame) -> T {
+    const auto pair = make_pair<kind, T>(query, frame);
+    // If a position overflows at both times, its velocity is NaN, and B may have any value.
+    const bool finite =
+        pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all();
+    return finite ? pair.B : std::numeric_limits<T>::quiet_NaN();
+  });
 }
 
 namespace detail {

@@ -83,4 +83,18 @@ bool separated_by_plane(const Query& query) {
   return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
 }
 
+/// Whether the primitives are more than h apart along one axis at both ends, on the same side, and hence always.
+/// Rounding is monotone, so fl(a - b) > h implies a - b > h.
+inline bool separated_across_axis_by(double h, const Query& query) {
+  const auto x = coordinates(query);
+  const auto axis = [&](std::size_t k) {
+    const auto height = [&x, k](std::size_t time, std::size_t vertex) { return x(time, vertex, k); };
+    const auto start = detail::extents<Kind::vertex_triangle>(height, 0);
+    const auto end = detail::extents<Kind::vertex_triangle>(height, 1);
+    return (start[0] - start[3] > h && end[0] - end[3] > h) ||
+           (start[2] - start[1] > h && end[2] - end[1] > h);
+  };
+  return axis(0) || axis(1) || axis(2);
+}
+
 }  // namespace nearmiss

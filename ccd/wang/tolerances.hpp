@@ -66,11 +66,31 @@ Tolerances<T> paper_tolerances(T B) {
   return tol;
 }
 
-/// A rule for tolerances: a function of B that `wang` takes. This one gives the paper's tolerances.
+/// A rule for tolerances: a function of B that `wang` takes, and functions of B and R for VV and VE alone. This
+/// one gives the paper's tolerances.
 struct PaperTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {
     return paper_tolerances(B);
+  }
+
+  /// For two vertices within R: D = R (§4.2).
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_vertices(T B, T R) const {
+    Tolerances<T> tol = paper_tolerances(B);
+    tol.D2 = R * R;
+    return tol;
+  }
+
+  /// For a vertex within R of an edge: S = 3R and D² = (16 Be + S)² + 522 B²e², as in §4.3 with R = 6 Be.
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_edge(T B, T R) const {
+    const T Be = B * fourth_root_of_epsilon<T>();
+    Tolerances<T> tol = paper_tolerances(B);
+    tol.R = R;
+    tol.S = 3 * R;
+    tol.D2 = (16 * Be + tol.S) * (16 * Be + tol.S) + 522 * (Be * Be);
+    return tol;
   }
 };
 

@@ -6,6 +6,7 @@
 #include "ccd/wang/pair_bound.hpp"
 #include "ccd/wang/wang.hpp"
 #include "ccd/wang/wang_batch.hpp"
+#include "ccd/wang/within.hpp"
 
 using nearmiss::Kind;
 using nearmiss::Query;
@@ -20,9 +21,23 @@ bool reports(const Query& query) {
       query.kind, [&]<Kind kind>() { return nearmiss::wang<kind, double, WangOptions{}>(query).hit; });
 }
 
-/// Whether the arguments are usable; wang takes no separation.
+/// Whether there is a vertex or an edge in place of a triangle.
+bool are_of_vertices(const nearmiss_queries& queries) { return nearmiss_vertices(queries.kind) < 4; }
+
+/// Whether the arguments are usable; wang takes separations only for two vertices, and a vertex and an edge.
 bool are_usable(const nearmiss_queries* queries, const void* to) {
-  return to != nullptr && queries != nullptr && nearmiss::interface::ask_for_contact(*queries);
+  return to != nullptr && queries != nullptr &&
+         (are_of_vertices(*queries) || nearmiss::interface::ask_for_contact(*queries));
+}
+
+int decide_within(const nearmiss_queries* queries, int8_t* answers) {
+  return nearmiss::interface::for_each_query(
+      queries,
+      [&](const Query& query, std::size_t q) {
+        answers[q] =
+            nearmiss::wang_within<double>(query, true).hit ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+      },
+      [&](std::size_t q) { answers[q] = NEARMISS_NO_ANSWER; });
 }
 
 }  // namespace
@@ -30,6 +45,7 @@ bool are_usable(const nearmiss_queries* queries, const void* to) {
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
   const nearmiss::PlainArithmetic guard;
   if (!are_usable(queries, answers)) return NEARMISS_BAD_ARGUMENT;
+  if (are_of_vertices(*queries)) return decide_within(queries, answers);
   return nearmiss::interface::for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<Verdict, nearmiss::interface::block_size> verdicts;
     nearmiss::wang_in_lanes(block, verdicts);
@@ -56,7 +72,9 @@ int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds) {
   return nearmiss::interface::for_each_query(
       queries,
       [&](const Query& query, std::size_t q) {
-        bounds[q] = nearmiss::distance_bound_of(tolerances, nearmiss::pair_bound(query));
+        bounds[q] = nearmiss::is_of_meshes(query.kind)
+                        ? nearmiss::distance_bound_of(tolerances, nearmiss::pair_bound(query))
+                        : nearmiss::within_distance_bound(query);
       },
       [&](std::size_t q) { bounds[q] = std::numeric_limits<double>::quiet_NaN(); });
 }

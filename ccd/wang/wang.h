@@ -3,7 +3,8 @@
  *
  * It reports every collision, also in degenerate and extreme queries. It may report a pair that does not
  * collide, but the primitives of such a pair come within the distance that nearmiss_wang_bound() gives. It
- * takes no separation: every separation must be 0, or the result is NEARMISS_BAD_ARGUMENT.
+ * takes separations for two vertices (Algorithm 1), and for a vertex and an edge (Algorithm 2). For the other
+ * kinds, every separation must be 0, or the result is NEARMISS_BAD_ARGUMENT.
  *
  * All functions may be called from many threads at once, set the processor's rounding mode if need be and
  * restore it, and neither allocate, print nor throw. */
@@ -20,9 +21,9 @@ extern "C" {
  * NEARMISS_NO_ANSWER. */
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers);
 
-/** For each query, the distance within which the primitives come at some time if the pair is reported, in the
- * unit of the coordinates: about 41 B ε^¼, where B is the size of the pair and ε that of double. NaN if there
- * is no answer. */
+/** For each query, the most by which the smallest distance of a reported pair exceeds the separation, in the unit
+ * of the coordinates: for contact about 41 B ε^¼, where B is the size of the pair and ε that of double; for a
+ * vertex and an edge about 2 h + 28 B ε^¼, and much less for two vertices. NaN if there is no answer. */
 int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds);
 
 #ifdef __cplusplus

@@ -321,7 +321,7 @@ class WangLanes {
 
 template <int n>
 void decide_batch(const QueryRows& queries, Verdict* verdicts) {
-  for_each_kind([&]<Kind kind>() { WangLanes<n, kind>(queries, verdicts).run(); });
+  for_each_kind_of_meshes([&]<Kind kind>() { WangLanes<n, kind>(queries, verdicts).run(); });
 }
 
 }  // namespace nearmiss

@@ -44,7 +44,8 @@ Query near_separation(Random& random, Kind kind, double x) {
   const double off = power_of_two(x);
   const bool is_above = random.one_in(2);
   for (;;) {
-    const Query query = base.make(random, kind);
+    Query query = base.make(random, kind);
+    repeat_vertices(query);
     const Enclosure distance = minimum_distance(query, 0);
     if (distance.hi == 0) continue;
     const double below = std::nextafter(distance.hi, 0);

@@ -69,7 +69,8 @@ Real largest_component(const Vec<Real>& v) {
   return largest;
 }
 
-/// Lengths of the edges, at t = 0 and t = 1, and of the vertices' motion. A length is the largest component.
+/// Lengths of the edges, at t = 0 and t = 1, and of the vertices' motion. A length is the largest component. Two
+/// vertices have no edges; there, the gap between them counts as one.
 template <class Real>
 struct Lengths {
   Real longest = 0;
@@ -83,8 +84,9 @@ Lengths<Real> lengths(const Query& query) {
   using std::min;
   const std::array<Points<Real>, 2> x{points<Real>(query, 0), points<Real>(query, 1)};
   Lengths<Real> found;
+  const Topology& of = topology(query.kind);
   for (const auto& at_time : x)
-    for (const auto& [a, b] : topology(query.kind).edges) {
+    for (const auto& [a, b] : of.edges.empty() ? of.gaps : of.edges) {
       const Real length = largest_component(at_time[a] - at_time[b]);
       if (!(Real(0) < length)) continue;
       found.shortest = Real(0) < found.longest ? Real(min(found.shortest, length)) : length;
@@ -275,6 +277,16 @@ bool comes_within(const Query& query, double h) {
   return decision.collision || decision.is_tie;
 }
 
+/// Whether the four vertices are nearly in one plane at t = 0 or at t = 1.
+bool is_coplanar_at_an_end(const Query& query, double length) {
+  const auto rule = [](const auto& moment, const auto& at_most) { return is_coplanar(moment, at_most); };
+  for (const int time : {0, 1}) {
+    const auto root = [&] { return Root(Number(time)); };
+    if (holds_at({1.0 * time, 1.0 * time}, root, query, length, rule)) return true;
+  }
+  return false;
+}
+
 bool is_degenerate(const Query& query) {
   const auto [longest, shortest, fastest] = lengths<double>(query);
   if (longest == 0 || fastest == 0) return true;
@@ -282,11 +294,7 @@ bool is_degenerate(const Query& query) {
                [&] { return edges_differ(1e3, lengths<Number>(query)); }))
     return true;
   const double length = nearly * longest;
-  for (const int time : {0, 1}) {
-    const auto root = [&] { return Root(Number(time)); };
-    const auto rule = [](const auto& moment, const auto& at_most) { return is_coplanar(moment, at_most); };
-    if (holds_at({1.0 * time, 1.0 * time}, root, query, length, rule)) return true;
-  }
+  if (is_of_meshes(query.kind) && is_coplanar_at_an_end(query, length)) return true;
   const double h = query.separation;
   const double change = h == 0 ? length : nearly * h;
   const Decision nearer = decide(with_separation(query, h == 0 ? 0 : h - change));
@@ -295,6 +303,7 @@ bool is_degenerate(const Query& query) {
   EarliestTime first(query, h == 0 ? nearer.known : KnownTimes{});
   if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return true;
   if (h > 0) return false;  // vertices and edges may be the closest features in general position, too
+  if (!is_of_meshes(query.kind)) return true;  // their contact is a coincidence
   const auto root = [&] {
     if (nearer.known.exactly) return nearer.known.exactly->time;
     exact::Predicates predicates(query);

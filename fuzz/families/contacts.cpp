@@ -180,7 +180,7 @@ Query turned(Random& random, Query query) {
 Query shuffled(Random& random, const Query& query) {
   std::array<int, 4> order{0, 1, 2, 3};
   if (has_triangle(query.kind)) {
-    for (int i = 3; i > 1; --i)
+    for (int i = vertices(query.kind) - 1; i > 1; --i)
       std::swap(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(random.integer(1, i))]);
   } else {
     if (random.one_in(2)) std::swap(order[0], order[1]);

@@ -25,7 +25,11 @@ Vector vector_in_plane(Random& random) {
 }
 
 Closest draw_closest(Random& random, Kind kind) {
-  return static_cast<Closest>(random.integer(0, has_triangle(kind) ? 2 : 3));
+  const Closest first = kind == Kind::vertex_vertex ? Closest::vertices
+                        : kind == Kind::vertex_edge ? Closest::vertex_and_edge
+                                                    : Closest::interiors;
+  const Closest last = has_triangle(kind) ? Closest::vertices : Closest::parallel_edges;
+  return static_cast<Closest>(random.integer(static_cast<int>(first), static_cast<int>(last)));
 }
 
 bool is_closest(Kind kind, Closest closest, bool is_side_q) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -140,9 +141,56 @@ std::span<const Family> separation_families() {
   return all;
 }
 
-std::span<const Family> all_families() {
+namespace {
+
+/// The family whose queries are two vertices, or a vertex and an edge.
+Family of_vertices(Family family) {
+  family.name = fmt::format("v-{}", family.name);
+  family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);
+  family.kinds = {Kind::vertex_vertex, Kind::vertex_edge};
+  family.factors = nullptr;
+  const auto without_others = [](const auto& make) {
+    return [make](Random& random, Kind kind, auto... x) {
+      Query query = make(random, kind, x...);
+      repeat_vertices(query);
+      return query;
+    };
+  };
+  family.make = without_others(family.make);
+  if (family.parameter) family.parameter->make = without_others(family.parameter->make);
+  return family;
+}
+
+std::vector<Family> make_vertex_families() {
+  constexpr std::array asking_for_contact{
+      "uniform", "uniform-slow", "floats",      "kilometres",    "small-integer", "decimals",
+      "rigid",   "one-point",    "degenerate",  "small",         "stiff",         "offset",
+      "scale",   "mixed-scale",  "static-pair", "near-overflow", "overflow",      "near-underflow"};
+  constexpr std::array with_own_separation{"near-separation", "tied-separation",        "reached-separation",
+                                           "slow-approach",   "starts-near-separation", "sized-separation"};
+  std::vector<Family> all;
+  for (const char* name : with_own_separation)
+    all.push_back(of_vertices(find_family(name, separation_families())));
+  for (const char* name : asking_for_contact) all.push_back(of_vertices(find_family(name, families())));
+  return all;
+}
+
+}  // namespace
+
+std::span<const Family> vertex_families() {
+  static const std::vector<Family> all = make_vertex_families();
+  return all;
+}
+
+std::span<const Family> mesh_families() {
   static const std::vector<Family> all = joined(
       {{families().begin(), families().end()}, {separation_families().begin(), separation_families().end()}});
+  return all;
+}
+
+std::span<const Family> all_families() {
+  static const std::vector<Family> all = joined({{mesh_families().begin(), mesh_families().end()},
+                                                 {vertex_families().begin(), vertex_families().end()}});
   return all;
 }
 

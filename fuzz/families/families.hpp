@@ -1,6 +1,7 @@
 // Families of queries for the hunt. Each query is a pure function of (family, seed, index).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -33,6 +34,7 @@ struct Family {
   bool timed = true;                     ///< whether the subjects' times count
   bool compare_all = false;              ///< whether all methods of the oracle decide every query
   bool has_separation = false;           ///< whether the queries have a separation h > 0
+  std::array<Kind, 2> kinds = kinds_of_meshes;  ///< of queries with even and with odd indices
   /// Returns a query's value of each factor, "FACTOR=VALUE"; null if the family has no factors.
   std::vector<std::string> (*factors)(std::uint64_t seed, std::uint64_t index) = nullptr;
 };
@@ -73,15 +75,24 @@ std::span<const Family> families();
 /// The families whose queries have separations of their own.
 std::span<const Family> separation_families();
 
-/// families() and separation_families().
+/// Families whose queries are two vertices, or a vertex and an edge: what is left of the queries of other families
+/// without their last vertices. "v-uniform" is that of "uniform". Contact of two vertices, or of a vertex and an
+/// edge, is a coincidence, so campaigns give these families separations.
+std::span<const Family> vertex_families();
+
+/// families() and separation_families(), whose queries are pairs of triangle meshes.
+std::span<const Family> mesh_families();
+
+/// mesh_families() and vertex_families().
 std::span<const Family> all_families();
 
 /// Finds a family by its name: NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name,
 /// throws an Error that lists the known families.
 Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
-/// The kind of a family's query by its index: vertex-triangle if it is even, edge-edge if it is odd.
-constexpr Kind kind_of(std::uint64_t index) { return kinds[index % kinds.size()]; }
+/// The kind of a family's query by its index: vertex-triangle or vertex-vertex if it is even, edge-edge or
+/// vertex-edge if it is odd.
+inline Kind kind_of(const Family& family, std::uint64_t index) { return family.kinds[index % 2]; }
 
 /// The random numbers from which query number `index` of a family is made.
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);
@@ -96,7 +107,7 @@ class QueryMaker {
   /// Query number `index`.
   [[nodiscard]] Query operator()(std::uint64_t index) const {
     Random random(seed_, stream_, index);
-    return family_.make(random, kind_of(index));
+    return family_.make(random, kind_of(family_, index));
   }
 
  private:

@@ -47,6 +47,7 @@ std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
   std::vector<Case> cases = cases_of(families());
   for (const fs::path& folder : folders)
     read_cases(folder, [&](Case&& each) {
+      if (vertices(each.query.kind) < 4) return;
       std::replace(each.name.begin(), each.name.end(), '/', '-');
       cases.push_back(std::move(each));
     });

@@ -125,7 +125,7 @@ PrimitiveBoxes CandidateFinder::partners() const {
 
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over) {
   try {
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       const CandidateFinder finder(mesh, kind, 1, is_over);
       for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
         finder.find(part, sink, is_over);

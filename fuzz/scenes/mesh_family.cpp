@@ -94,8 +94,8 @@ Family mesh_family(const MovingMesh& mesh, const Stop& stop, std::size_t most) {
       [&] { return stop.is_due(); });
   stop.check();
 
-  auto pairs = std::make_shared<std::array<std::vector<Query>, kinds.size()>>();
-  for (const Kind kind : kinds) {
+  auto pairs = std::make_shared<std::array<std::vector<Query>, kinds_of_meshes.size()>>();
+  for (const Kind kind : kinds_of_meshes) {
     (*pairs)[number(kind)] = std::move(samples[number(kind)]).queries(mesh);
     if ((*pairs)[number(kind)].empty())
       throw Error(fmt::format("found no {} pair in the mesh whose swept boxes meet, expected some",

@@ -92,7 +92,7 @@ std::pair<PairFate, bool> fate(const Query& query) {
 
 Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over)
     : mesh_(&mesh), leave_out_(leave_out) {
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const auto start = Clock::now();
     if (leave_out != LeaveOut::nothing) finders_.emplace(kind, CandidateFinder(mesh, kind, jobs, is_over));
     making_ns_[kind] = since(start);
@@ -129,7 +129,7 @@ Funnels Plan::follow(std::size_t part, const AskSink& ask, const DecidedSink& de
 
 Funnels Plan::rest(const Funnels& parts) const {
   Funnels rest;
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const auto found = parts.find(kind);
     rest[kind][PairFate::boxes_apart] =
         all_pairs(*mesh_, kind) - (found == parts.end() ? 0 : found->second.all());

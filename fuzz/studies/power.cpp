@@ -22,7 +22,7 @@ std::uint64_t index_of(const Finding& finding) {
 
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact) {
   std::vector<Family> chosen(of_contact.begin(), of_contact.end());
-  if (!subject.takes_separation()) return chosen;
+  if (!subject.takes_separation(Kind::vertex_triangle)) return chosen;
   for (const Family& family : of_contact) chosen.push_back(with_separation(family, drawn_separation));
   return chosen;
 }

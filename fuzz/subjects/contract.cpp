@@ -79,7 +79,7 @@ bool keeps_contract(const Query& query, const Contract& contract) {
   const bool limits_lengths = contract.shortest != 0 || contract.longest != 0;
   if (limits_lengths && !has_lengths(query, contract.shortest, contract.longest)) return false;
   if (contract.apart_at_start && !is_apart_at_start(query, contract.apart_by)) return false;
-  return !contract.one_root || has_at_most_one_root(query);
+  return !contract.one_root || !is_of_meshes(query.kind) || has_at_most_one_root(query);
 }
 
 }  // namespace nearmiss

@@ -130,7 +130,9 @@ class DefectiveSubject final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     return sound_->distance_bound(query);
   }
-  [[nodiscard]] bool takes_separation() const override { return sound_->takes_separation(); }
+  [[nodiscard]] bool takes_separation(Kind kind) const override {
+    return decides(kind) && sound_->takes_separation(kind);
+  }
   [[nodiscard]] TimeSort time_sort() const override { return sound_->time_sort(); }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {

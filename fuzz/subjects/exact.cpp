@@ -52,7 +52,8 @@ class ExactSubject final : public Subject {
   }
 
   [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-  [[nodiscard]] bool takes_separation() const override { return true; }
+  [[nodiscard]] bool decides(Kind /*kind*/) const override { return true; }
+  [[nodiscard]] bool takes_separation(Kind /*kind*/) const override { return true; }
   [[nodiscard]] TimeSort time_sort() const override {
     return entry_.is_timed ? TimeSort::lower_bound : TimeSort::none;
   }

@@ -34,7 +34,7 @@ class ForwardingSubject : public BatchSubject {
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override { return to_.ask_bound(query); }
   [[nodiscard]] bool claims_bound() const override { return to_.claims_bound(); }
   [[nodiscard]] bool decides(Kind kind) const override { return to_.decides(kind); }
-  [[nodiscard]] bool takes_separation() const override { return to_.takes_separation(); }
+  [[nodiscard]] bool takes_separation(Kind kind) const override { return to_.takes_separation(kind); }
   [[nodiscard]] TimeSort time_sort() const override { return to_.time_sort(); }
   [[nodiscard]] Contract contract() const override { return to_.contract(); }
   [[nodiscard]] bool rounds() const override { return to_.rounds(); }

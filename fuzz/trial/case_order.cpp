@@ -116,7 +116,7 @@ std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std
 }
 
 std::uint64_t first_of(const CaseBlock& block, Kind kind) {
-  return block.first + (kind_of(block.first) == kind ? 0 : 1);
+  return block.first + (kind_of(*block.family, block.first) == kind ? 0 : 1);
 }
 
 Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop) {
@@ -127,23 +127,23 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   batch.compare_all = block.family->compare_all;
   const std::uint64_t first = first_of(block, kind);
   batch.first_number = first;
-  batch.step = kinds.size();
-  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds.size() + 1);
+  batch.step = kinds_of_meshes.size();
+  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds_of_meshes.size() + 1);
   const QueryMaker make(*block.family, plan.seed);
-  for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
+  for (std::uint64_t index = first; index < block.last; index += kinds_of_meshes.size()) {
     stop.check();
     batch.queries.push_back(make(index));
   }
   batch.place = [&plan, name = block.family->name, first](std::size_t i) {
-    return cases_up_to(plan, name, first + kinds.size() * i);
+    return cases_up_to(plan, name, first + kinds_of_meshes.size() * i);
   };
   if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
   batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {
-    return fmt::format("{}:{}:{}", name, seed, first + kinds.size() * i);
+    return fmt::format("{}:{}:{}", name, seed, first + kinds_of_meshes.size() * i);
   };
   if (block.family->factors != nullptr)
     batch.factors = [factors = block.family->factors, seed = plan.seed, first](std::size_t i) {
-      return factors(seed, first + kinds.size() * i);
+      return factors(seed, first + kinds_of_meshes.size() * i);
     };
   return batch;
 }

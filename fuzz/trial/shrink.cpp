@@ -50,6 +50,7 @@ class Shrinker {
   [[nodiscard]] Query query_of(const Numbers& x) const {
     Query query{.kind = kind_, .separation = x.back()};
     std::copy_n(x.begin(), query.x.size(), query.x.begin());
+    repeat_vertices(query);
     return query;
   }
 
@@ -96,7 +97,9 @@ class Shrinker {
     for (double& c : x) c += 0.0;  // makes -0 into 0
     x.back() = std::abs(x.back());
     if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); })) return false;
-    candidate.complexity = complexity(query_of(x));
+    const Query changed = query_of(x);
+    x = numbers_of(changed);
+    candidate.complexity = complexity(changed);
     return candidate.complexity < complexity_ || (candidate.complexity == complexity_ && x < best_);
   }
 

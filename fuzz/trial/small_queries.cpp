@@ -196,6 +196,8 @@ const std::vector<SmallQuery>& list_of() {
 }  // namespace
 
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
+  static const std::vector<SmallQuery> none;
+  if (!is_of_meshes(kind)) return none;
   return with_kind(kind, [&]<Kind of>() -> const std::vector<SmallQuery>& {
     return apart ? list_of<of, true>() : list_of<of, false>();
   });

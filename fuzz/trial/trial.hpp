@@ -52,7 +52,7 @@ struct Batch {
   /// Whether a subject can answer these queries.
   [[nodiscard]] bool can_ask(const Subject& subject) const {
     const bool has_separation = !queries.empty() && queries.front().separation > 0;
-    return subject.decides(kind) && (!has_separation || subject.takes_separation());
+    return subject.decides(kind) && (!has_separation || subject.takes_separation(kind));
   }
 };
 

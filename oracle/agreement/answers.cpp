@@ -69,11 +69,9 @@ std::string Answers::disagreement(const Answer& by_filter) const {
 }
 
 bool Answers::missed_by_parity() const {
-  const auto has_separation = [](const Answer& answer) { return answer.at_most.has_value(); };
-  if (std::any_of(answers_.begin(), answers_.end(), has_separation)) return false;  // parity says nothing
   const auto misses = [&](const Answer& answer) {
     const Method& method = methods_[static_cast<std::size_t>(&answer - answers_.data())];
-    return method.claim == Claim::parity && !answer.collision.value_or(false);
+    return method.claim == Claim::parity && answer.is_answer() && !answer.collision.value_or(false);
   };
   return collision() && std::any_of(answers_.begin(), answers_.end(), misses);
 }

@@ -11,7 +11,7 @@ namespace nearmiss {
 certificates::Statement statement_about(const Query& query, std::string_view claim, const Span& span,
                                         bool is_strict) {
   return {.kind = std::string(short_name(query.kind)),
-          .x = {query.x.begin(), query.x.end()},
+          .x = coordinate_list(query),
           .h = query.separation,
           .claim = std::string(claim),
           .from = span.from,

@@ -17,7 +17,7 @@ namespace {
 Answer by_exact(const Query& query) { return to_answer(query, decide_exactly(query)); }
 
 Answer by_parity(const Query& query) {
-  if (query.separation > 0) return {};
+  if (query.separation > 0 || vertices(query.kind) < 4) return {};
   const RootParity parity = root_parity(query);
   Answer answer{.on_boundary = parity.on_boundary};
   if (parity.collision()) answer.collision = true;

@@ -20,7 +20,10 @@ struct Answer {
   std::optional<bool> at_most{};      ///< for h > 0: whether the distance is at most h at some time
   std::optional<bool> on_boundary{};  ///< whether they meet at an end of the step or at a border
   std::optional<bool> odd{};  ///< whether the number of roots with multiplicity is odd; unset on the boundary
-  std::size_t detail = 0;     ///< further results as a number below 32, feedback for a fuzzer
+  /// Whether the method knows anything about the query.
+  [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
+
+  std::size_t detail = 0;  ///< further results as a number below 32, feedback for a fuzzer
 };
 
 /// The promise of a method.

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -108,9 +109,9 @@ class Meeting {
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> rounded_weights(
       const WeightsOfPoints<Real>& weights, unsigned bits) const {
     WeightsOfPoints<mpq_class> result;
-    const auto vertices = static_cast<std::size_t>(split(query_.kind));
-    for (const auto& [first, last] :
-         {std::pair{std::size_t{0}, vertices - 1}, std::pair{vertices, std::size_t{3}}}) {
+    const auto second = static_cast<std::size_t>(split(query_.kind));
+    const auto end = static_cast<std::size_t>(vertices(query_.kind));
+    for (const auto& [first, last] : {std::pair{std::size_t{0}, second - 1}, std::pair{second, end - 1}}) {
       mpq_class rest = 1;
       for (std::size_t i = first; i < last; ++i) {
         const mpq_class scaled = (mpq_class(weights[i]) << bits) + mpq_class(1, 2);
@@ -127,7 +128,9 @@ class Meeting {
                                                    const WeightsOfPoints<mpq_class>& weights) const {
     const auto number = [](const mpq_class& x) { return quoted(x.get_str()); };
     return if_short(heading_until(t.get_str(), query_, span_) + (is_strict_ ? R"(,"strict":true)" : "") +
-                    R"(,"at":)" + number(t) + R"(,"weights":)" + list(weights, number) + "}");
+                    R"(,"at":)" + number(t) + R"(,"weights":)" +
+                    list(std::span(weights).first(static_cast<std::size_t>(vertices(query_.kind))), number) +
+                    "}");
   }
 
   Query query_;

@@ -28,7 +28,7 @@ std::string to_text(const exact::Number& x) {
 
 std::string heading(const Query& query, const char* claim, double from, const std::string& to) {
   return R"({"kind":")" + std::string(short_name(query.kind)) + R"(","x":)" +
-         list(query.x, [](double x) { return quoted(text_of(x)); }) + R"(,"h":")" +
+         list(coordinate_list(query), [](double x) { return quoted(text_of(x)); }) + R"(,"h":")" +
          text_of(query.separation) + R"(","claim":")" + claim + R"(","from":")" + text_of(from) +
          R"(","to":")" + to + '"';
 }

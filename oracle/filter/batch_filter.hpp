@@ -316,7 +316,7 @@ class BatchFilter {
 template <int n>
 void filter_batch(const QueryRows& queries, double caution, FilterStage* stages, const QueryRows& ahead) {
   std::fill_n(stages, queries.size(), FilterStage::undecided);
-  for_each_kind([&]<Kind kind>() { BatchFilter<n, kind>(queries, caution, ahead).run(stages); });
+  for_each_kind_of_meshes([&]<Kind kind>() { BatchFilter<n, kind>(queries, caution, ahead).run(stages); });
 }
 
 }  // namespace nearmiss::certified

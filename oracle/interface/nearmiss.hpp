@@ -66,26 +66,28 @@ inline const char* message(Status status) noexcept { return nearmiss_message(sta
 /// Queries of one kind in the caller's memory, which must outlive them. Nothing is copied.
 class Queries {
  public:
-  /// Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. Fewer than 24
-  /// numbers at the end are ignored.
+  /// Queries one after another: six coordinates for each vertex, x0 x1 .. at t = 0, then at t = 1. Numbers at
+  /// the end that are no whole query are ignored.
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
-    return Queries(nearmiss_packed(to_c(kind), x.size() / 24, x.data()));
+    return Queries(nearmiss_packed(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }
   /// Queries one after another, in float.
   static Queries packed(Kind kind, std::span<const float> x) noexcept {
-    return Queries(nearmiss_packed_float(to_c(kind), x.size() / 24, x.data()));
+    return Queries(nearmiss_packed_float(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }
 
-  /// Pairs of a moving mesh: four vertex numbers for each pair, and three coordinates for each vertex at
+  /// Pairs of a moving mesh: the vertex numbers of each pair, and three coordinates for each vertex at
   /// t = 0 and t = 1.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const double* start,
                          const double* end) noexcept {
-    return Queries(nearmiss_of_mesh(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
+    return Queries(
+        nearmiss_of_mesh(to_c(kind), count_of(kind, vertices.size(), 1), vertices.data(), start, end));
   }
   /// Pairs of a moving mesh, in float.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const float* start,
                          const float* end) noexcept {
-    return Queries(nearmiss_of_mesh_float(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
+    return Queries(
+        nearmiss_of_mesh_float(to_c(kind), count_of(kind, vertices.size(), 1), vertices.data(), start, end));
   }
 
   /// Any other layout, as nearmiss_queries describes it.
@@ -114,10 +116,11 @@ class Queries {
   nearmiss_queries& layout() noexcept { return layout_; }
 
  private:
-  static int to_c(Kind kind) {
-    return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE
-           : kind == Kind::edge_edge     ? NEARMISS_EDGE_EDGE
-                                         : 0;
+  static int to_c(Kind kind) { return static_cast<std::size_t>(kind) < kinds.size() ? bit_of(kind) : 0; }
+  /// How many queries have `size` numbers, so many for each vertex. An unknown kind is refused later.
+  static std::size_t count_of(Kind kind, std::size_t size, int of_a_vertex) {
+    const int of_a_query = of_a_vertex * nearmiss_vertices(to_c(kind));
+    return of_a_query > 0 ? size / static_cast<std::size_t>(of_a_query) : size;
   }
   [[nodiscard]] Queries with_separations(const double* h, std::ptrdiff_t stride) const noexcept {
     Queries queries = *this;
@@ -222,8 +225,8 @@ inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noex
   });
 }
 
-/// One query: x0 x1 x2 x3 at t = 0, then at t = 1.
-using Coordinates = std::span<const double, 24>;
+/// One query: x0 x1 .. at t = 0, then at t = 1, as many numbers as the kind demands. Too few are not answered.
+using Coordinates = std::span<const double>;
 
 /// nearmiss_collides() for one query.
 inline Answer collides(Kind kind, Coordinates x, double h = 0) noexcept {
@@ -254,16 +257,16 @@ inline std::string certificate(Kind kind, Coordinates x, double h = 0, Prove wha
 }
 
 /// nearmiss_wang() for one query.
-inline Answer wang(Kind kind, Coordinates x) noexcept {
+inline Answer wang(Kind kind, Coordinates x, double h = 0) noexcept {
   std::int8_t answer = NEARMISS_NO_ANSWER;
-  (void)wang(Queries::packed(kind, x), {&answer, 1});
+  (void)wang(Queries::packed(kind, x).with_separation(h), {&answer, 1});
   return Answer{answer};
 }
 
 /// nearmiss_wang_bound() for one query.
-inline double wang_bound(Kind kind, Coordinates x) noexcept {
+inline double wang_bound(Kind kind, Coordinates x, double h = 0) noexcept {
   double bound = std::numeric_limits<double>::quiet_NaN();
-  (void)wang_bounds(Queries::packed(kind, x), {&bound, 1});
+  (void)wang_bounds(Queries::packed(kind, x).with_separation(h), {&bound, 1});
   return bound;
 }
 

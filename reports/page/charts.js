@@ -55,7 +55,8 @@ const algorithmColor = (names) => ({
 /** The colour halfway between two colours, all as "#rrggbb". */
 const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
   Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
-const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
+const kindTitles = { vt: "vertex-triangle", ee: "edge-edge", vv: "vertex-vertex", ve: "vertex-edge" };
+const kindNames = Object.keys(kindTitles);
 
 /** A line of a tooltip: whose bound is the unit of distances. */
 const boundField = { field: "bound_of_distances", title: "bound" };
@@ -130,7 +131,7 @@ function drawRates() {
     resolve: { axis: { y: "shared" } },
   });
   return draw("rates", "For each family and subject, the rate of false positives with its confidence interval.",
-    { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
+    { data: { values: rows }, hconcat: kindNames.filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
 /** The subjects' misses in each family with collisions, except sweeps. */
@@ -159,7 +160,7 @@ function drawMisses() {
   const isAny = new Set(shown.filter((cell) => cell.missed > 0).map((cell) => cell.family));
   const x = { field: "subject", type: "nominal", title: null, sort: failed, axis: { orient: "top", labelAngle: -40, labelLimit: 0 } };
   const y = { field: "family", type: "nominal", title: null, axis: { labelLimit: 0 } };
-  const tooltip = [{ field: "subject" }, { field: "family" }, { field: "class" }, { field: "vt", title: kindTitles.vt }, { field: "ee", title: kindTitles.ee }];
+  const tooltip = [{ field: "subject" }, { field: "family" }, { field: "class" }, ...kindNames.map((kind) => ({ field: kind, title: kindTitles[kind] }))];
   const classes = classNames.filter((name) => shown.some((cell) => cell.class === name && isAny.has(cell.family)));
   const panel = (name, i) => ({
     title: { text: name, anchor: "start" }, width: { step: Math.max(24, Math.min(70, panelWidth(600) * 2 / failed.length)) }, height: { step: 15 },
@@ -220,7 +221,7 @@ function drawDistances() {
   });
   return draw("distances", "The number of false positives at each distance, and the share of false positives up to each distance.", {
     data: { values: values.filter(isChosen) },
-    hconcat: ["vt", "ee"].filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
+    hconcat: kindNames.filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
       panel(kind, "count", "false positives", "step-after", { scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } }),
       panel(kind, "share", "not farther", "linear", { scale: { domain: [0, 1] }, axis: { tickCount: 5, format: "%" } }),
     ] })),

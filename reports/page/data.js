@@ -40,5 +40,5 @@ const unitMark = (row) => (isOfClaim(row) ? "" : "**");
  */
 const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");
 
-/** The separation of a query: its number after the 24 coordinates, or 0. */
-const separationOf = (query) => query[24] ?? 0;
+/** The separation of a query: its number after the coordinates, six for each vertex; or 0. */
+const separationOf = (query) => (query.length % 6 === 1 ? query.at(-1) : 0);

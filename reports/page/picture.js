@@ -2,22 +2,30 @@
 // 1, with the paths of their vertices.
 "use strict";
 
+/** The primitives of each kind as lists of vertices, and what they are. */
+const shapes = {
+  vt: { primitives: [[0], [1, 2, 3]], caption: "A vertex and a triangle" },
+  ee: { primitives: [[0, 1], [2, 3]], caption: "Two edges" },
+  vv: { primitives: [[0], [1]], caption: "Two vertices" },
+  ve: { primitives: [[0], [1, 2]], caption: "A vertex and an edge" },
+};
+
 /**
  * A picture, with a legend if there is something to say: the separation, or the two times.
- * @param {string} kind "vt" or "ee"
- * @param {number[]} query 24 coordinates; a separation other than 0 follows
+ * @param {string} kind as in kindTitles
+ * @param {number[]} query six coordinates for each vertex; a separation other than 0 follows
  * @param {number} time in [0, 1]: t*, or when the primitives are closest
  * @param {number} [toi] the time that a subject gave for t*
  */
 function drawPicture(kind, query, time, toi) {
-  const x = query.slice(0, 24);
+  const x = query.slice(0, query.length - (query.length % 6));
+  const half = x.length / 2; // the coordinates at t = 1 begin here
   const hasTwoTimes = toi !== undefined;
   const size = 220;
   const namespace = "http://www.w3.org/2000/svg";
-  // The primitives as lists of vertices: a vertex and a triangle, or two edges.
-  const primitives = kind === "vt" ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
+  const { primitives, caption } = shapes[kind];
 
-  const at = (t) => [0, 1, 2, 3].map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[12 + 3 * i + k]));
+  const at = (t) => primitives.flat().map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[half + 3 * i + k]));
   const moments = [[0, "start"], [1, "end"], ...(hasTwoTimes ? [[toi, "given"]] : []), [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
 
   /** The points, scaled and moved into [-1, 1]. */
@@ -44,7 +52,7 @@ function drawPicture(kind, query, time, toi) {
   svg.setAttribute("class", hasTwoTimes ? "picture two-times" : "picture");
   svg.setAttribute("role", "img");
   svg.setAttribute("tabindex", "0");
-  svg.setAttribute("aria-label", `${kind === "vt" ? "A vertex and a triangle" : "Two edges"} at t = 0, at t = ` +
+  svg.setAttribute("aria-label", `${caption} at t = 0, at t = ` +
     `${time.toPrecision(4)}${hasTwoTimes ? `, at t = ${toi.toPrecision(4)}` : ""} and at t = 1, with the paths of their vertices; arrow keys turn the picture`);
 
   function add(tag, attributes) {
@@ -55,7 +63,7 @@ function drawPicture(kind, query, time, toi) {
 
   function draw() {
     svg.replaceChildren();
-    for (let i = 0; i < 4; ++i) {
+    for (const i of primitives.flat()) {
       const [x1, y1] = seen(moments[0].points[i]);
       const [x2, y2] = seen(moments[1].points[i]);
       add("line", { x1, y1, x2, y2, class: "path" });

@@ -169,7 +169,7 @@ function drawVersions() {
   const pairs = new Map(report.versions.map(({ before, after }) => [`${after} ${before}`, { before, after }]));
   for (const { before, after } of pairs.values()) {
     const isCompared = (kind) => report.versions.some((row) => row.before === before && row.after === after && row.kind === kind);
-    for (const kind of ["vt", "ee"].filter((each) => !isCompared(each) && Boolean(report.subjects[before][each]) !== Boolean(report.subjects[after][each])))
+    for (const kind of kindNames.filter((each) => !isCompared(each) && Boolean(report.subjects[before][each]) !== Boolean(report.subjects[after][each])))
       element("broken").append(made("li", `${after} against ${before}: ${kind} is not compared, because one of them was not asked about it`));
     const index = report.findings.findIndex((each) => each.subject === after && each.broken_since === before);
     if (index < 0) continue;

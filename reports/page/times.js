@@ -129,7 +129,7 @@ function drawTimeErrors() {
       ],
     },
   });
-  const kinds = ["vt", "ee"].filter((kind) => rows.some((row) => row.kind === kind));
+  const kinds = kindNames.filter((kind) => rows.some((row) => row.kind === kind));
   const values = all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last)
     .map((bin) => ({ ...bin, row: rowName(rows, bin.subject) }));
   return draw("time-errors", "The number of times at each difference from the exact earliest time, on both sides of 0.",

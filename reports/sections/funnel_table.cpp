@@ -21,10 +21,10 @@ constexpr std::array<std::string_view, pair_fate_count> explanations{
 
 /// The pairs of a scene over all its steps, and what became of them.
 struct ScenePairs {
-  std::array<Funnel, kinds.size()> funnels;  ///< by kind
+  std::array<Funnel, kinds_of_meshes.size()> funnels;  ///< by kind
   std::size_t steps = 0;
-  std::map<std::string, std::array<Counts, kinds.size()>> subjects;
-  std::array<OracleCounts, kinds.size()> oracle;
+  std::map<std::string, std::array<Counts, kinds_of_meshes.size()>> subjects;
+  std::array<OracleCounts, kinds_of_meshes.size()> oracle;
 };
 
 std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {

@@ -11,8 +11,9 @@ namespace nearmiss {
 namespace {
 
 // The only place that says which class a family has.
-constexpr std::array<std::string_view, 6> ordinary{"uniform", "uniform-end", "uniform-slow",
-                                                   "mesh",    "floats",      "kilometres"};
+constexpr std::array<std::string_view, 9> ordinary{
+    "uniform",         "uniform-end", "uniform-slow",        "mesh", "floats", "kilometres",
+    "v-small-integer", "v-decimals",  "v-reached-separation"};
 
 constexpr std::array<std::string_view, 33> degenerate{"planted",
                                                       "planted-ulp",
@@ -48,13 +49,20 @@ constexpr std::array<std::string_view, 33> degenerate{"planted",
                                                       "changed-features",
                                                       "starts-near-separation"};
 
-constexpr std::array<std::string_view, 13> extreme{"small",           "stiff",
-                                                   "aspect",          "offset",
-                                                   "scale",           "overflow",
-                                                   "mixed-scale",     "static-pair",
-                                                   "near-overflow",   "near-overflow-planted",
-                                                   "near-underflow",  "near-underflow-planted",
-                                                   "sized-separation"};
+constexpr std::array<std::string_view, 14> extreme{"small",
+                                                   "stiff",
+                                                   "aspect",
+                                                   "offset",
+                                                   "scale",
+                                                   "overflow",
+                                                   "mixed-scale",
+                                                   "static-pair",
+                                                   "near-overflow",
+                                                   "near-overflow-planted",
+                                                   "near-underflow",
+                                                   "near-underflow-planted",
+                                                   "sized-separation",
+                                                   "v-one-point"};
 
 template <std::size_t size>
 bool contains(const std::array<std::string_view, size>& names, std::string_view name) {
@@ -67,7 +75,9 @@ QueryClass class_of(std::string_view family) {
   const std::string_view base = FamilyName(family).base;
   if (family.starts_with("scene:") || contains(ordinary, base)) return QueryClass::ordinary;
   if (contains(degenerate, base)) return QueryClass::degenerate;
-  return contains(extreme, base) ? QueryClass::extreme : QueryClass::unclassified;
+  if (contains(extreme, base)) return QueryClass::extreme;
+  // The vertices and edges of a family have its class, unless a table names them.
+  return base.starts_with("v-") ? class_of(base.substr(2)) : QueryClass::unclassified;
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {

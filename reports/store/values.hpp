@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
@@ -16,7 +17,11 @@
 namespace nearmiss {
 
 /// The names of the enumerators of a type, in order.
-inline constexpr std::array kind_names{short_name(kinds[0]), short_name(kinds[1])};
+inline constexpr auto kind_names = [] {
+  std::array<std::string_view, kinds.size()> names;
+  for (const Kind kind : kinds) names[static_cast<std::size_t>(kind)] = short_name(kind);
+  return names;
+}();
 constexpr const auto& names_of(Kind) { return kind_names; }
 constexpr const auto& names_of(Finding::What) { return what_names; }
 constexpr const auto& names_of(QueryClass) { return class_names; }

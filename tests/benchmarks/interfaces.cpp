@@ -87,7 +87,7 @@ void measure_all(Kind kind, std::size_t count) {
 
 int main(int count, char** arguments) {
   benchmark::Initialize(&count, arguments);
-  for (const nearmiss::Kind kind : nearmiss::kinds)
+  for (const nearmiss::Kind kind : nearmiss::kinds_of_meshes)
     for (const std::size_t size : {3000, 100000}) nearmiss::measure_all(kind, size);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -18,7 +18,7 @@ inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
   const Family uniform = find_family("uniform");
   std::vector<Query> queries;
   for (std::uint64_t i = 0; queries.size() < count; ++i)
-    if (kind_of(i) == kind) queries.push_back(make_query(uniform, 1, i));
+    if (kind_of(uniform, i) == kind) queries.push_back(make_query(uniform, 1, i));
   return queries;
 }
 

@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   try {
     std::map<Kind, std::vector<Query>> uniform;
-    for (const Kind kind : kinds) uniform[kind] = uniform_queries(kind, 20000);
+    for (const Kind kind : kinds_of_meshes) uniform[kind] = uniform_queries(kind, 20000);
     add_all("uniform", uniform);
     for (int i = 1; i < count; ++i) {
       const std::filesystem::path path(arguments[static_cast<std::size_t>(i)]);

@@ -50,7 +50,7 @@ TEST(Advance, IsZeroForPrimitivesThatStartWithinTheSeparation) {
   EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
   EXPECT_EQ(decide(with_separation(falling_vertex(0.25, 0.25, 0.5, 1), 0.75)).time, 0);
   EXPECT_EQ(decide(with_separation(falling_edge(1, 2), 1e300)).time, 0);
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
     EXPECT_EQ(decide(Query{.kind = kind}).stage, Stage::proximity);
   }

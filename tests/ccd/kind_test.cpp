@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numeric>
 #include <set>
 #include <span>
 #include <tuple>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "ccd/nearmiss_subject.h"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 namespace {
@@ -22,8 +24,16 @@ using Vertices = std::vector<int>;
 
 /// The vertices of both primitives, from the definition of a kind in the interface for plug-ins.
 std::pair<Vertices, Vertices> primitives(Kind kind) {
-  return kind == Kind::vertex_triangle ? std::pair<Vertices, Vertices>{{0}, {1, 2, 3}}
-                                       : std::pair<Vertices, Vertices>{{0, 1}, {2, 3}};
+  switch (bit_of(kind)) {
+    case NEARMISS_VERTEX_TRIANGLE:
+      return {{0}, {1, 2, 3}};
+    case NEARMISS_EDGE_EDGE:
+      return {{0, 1}, {2, 3}};
+    case NEARMISS_VERTEX_VERTEX:
+      return {{0}, {1}};
+    default:
+      return {{0}, {1, 2}};
+  }
 }
 
 std::set<std::pair<int, int>> pairs_in(const Vertices& primitive) {
@@ -82,7 +92,8 @@ TEST(Topology, HasEveryVertexWithEveryEdgeOfTheOtherPrimitiveOnce) {
     EXPECT_EQ(listed.size(), expected.size()) << short_name(kind);
   };
   for (const Kind kind : kinds) {
-    const auto [first, second] = primitives(kind);
+    auto [first, second] = primitives(kind);
+    if (kind == Kind::vertex_vertex) second.push_back(2);  // the edge x1x2 of no length
     expect(kind, first, second, topology(kind).first_to_second);
     expect(kind, second, first, topology(kind).second_to_first);
     const auto& [all, first_part, second_part] = std::tie(
@@ -113,24 +124,43 @@ TEST(Topology, SplitsTheVerticesBetweenThePrimitives) {
     const auto [first, second] = primitives(kind);
     EXPECT_EQ(split(kind), static_cast<int>(first.size()));
     EXPECT_EQ(static_cast<std::size_t>(topology(kind).second), second.size());
-    EXPECT_EQ(has_triangle(kind), second.size() == 3);
+    EXPECT_EQ(has_triangle(kind), first.size() == 1);
+    EXPECT_EQ(static_cast<std::size_t>(vertices(kind)), first.size() + second.size());
   }
 }
 
 TEST(Kind, HasItsNumberInC) {
   EXPECT_EQ(bit_of(Kind::vertex_triangle), NEARMISS_VERTEX_TRIANGLE);
   EXPECT_EQ(bit_of(Kind::edge_edge), NEARMISS_EDGE_EDGE);
-  EXPECT_EQ(bits_of_all_kinds, NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
+  EXPECT_EQ(bit_of(Kind::vertex_vertex), NEARMISS_VERTEX_VERTEX);
+  EXPECT_EQ(bit_of(Kind::vertex_edge), NEARMISS_VERTEX_EDGE);
+  EXPECT_EQ(bits_of_all_kinds,
+            NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE | NEARMISS_VERTEX_VERTEX | NEARMISS_VERTEX_EDGE);
   for (const Kind kind : kinds) EXPECT_EQ(kind_of_bit(bit_of(kind)), kind);
-  for (const int bit : {-1, 0, NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE, 4})
+  for (const int bit : {-1, 0, NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE, 16})
     EXPECT_EQ(kind_of_bit(bit), std::nullopt) << bit;
 }
 
-TEST(WithKind, CallsForTheKindThatIsGiven) {
-  for (const Kind kind : kinds) EXPECT_EQ(with_kind(kind, []<Kind known>() { return known; }), kind);
+TEST(WithKind, CallsForTheKindWhoseFormulasHold) {
+  for (const Kind kind : kinds)
+    EXPECT_EQ(with_kind(kind, []<Kind known>() { return known; }),
+              has_triangle(kind) ? Kind::vertex_triangle : Kind::edge_edge);
   std::vector<Kind> called;
-  for_each_kind([&]<Kind known>() { called.push_back(known); });
-  EXPECT_THAT(called, ::testing::ElementsAreArray(kinds));
+  for_each_kind_of_meshes([&]<Kind known>() { called.push_back(known); });
+  EXPECT_THAT(called, ::testing::ElementsAreArray(kinds_of_meshes));
+}
+
+TEST(Query, RepeatsItsLastVertex) {
+  std::array<double, 18> numbers{};
+  std::iota(numbers.begin(), numbers.end(), 1);
+  const Query ve = query_of(Kind::vertex_edge, numbers.data());
+  EXPECT_EQ(ve.x, (std::array<double, 24>{1,  2,  3,  4,  5,  6,  7,  8,  9,  7,  8,  9,  //
+                                          10, 11, 12, 13, 14, 15, 16, 17, 18, 16, 17, 18}));
+  EXPECT_THAT(coordinate_list(ve), ::testing::ElementsAreArray(numbers));
+  const Query vv = query_of(Kind::vertex_vertex, numbers.data());
+  EXPECT_EQ(vv.x, (std::array<double, 24>{1, 2, 3, 4,  5,  6,  4,  5,  6,  4,  5,  6,  //
+                                          7, 8, 9, 10, 11, 12, 10, 11, 12, 10, 11, 12}));
+  EXPECT_THAT(coordinate_list(vv), ::testing::ElementsAreArray(numbers.begin(), numbers.begin() + 12));
 }
 
 }  // namespace

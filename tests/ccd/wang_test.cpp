@@ -99,7 +99,7 @@ TEST_P(EveryWang, DoesNotReportAVertexFarAboveATriangleAtRest) {
 }
 
 TEST_P(EveryWang, ReportsThePairThatIsAllZero) {
-  for (const Kind kind : kinds) EXPECT_TRUE(decide(Query{.kind = kind}).hit);
+  for (const Kind kind : kinds_of_meshes) EXPECT_TRUE(decide(Query{.kind = kind}).hit);
 }
 
 // If B = 0, every threshold is 0, so each test must accept equality.
@@ -141,7 +141,7 @@ TEST(Configuration, TheHeightTestLooksAtAllThreeEdgesOfATriangle) {
 }
 
 TEST_P(EveryWang, ReportsAPairThatIsOnePoint) {
-  for (const Kind kind : kinds) EXPECT_TRUE(decide(moved(Query{.kind = kind}, 7)).hit);
+  for (const Kind kind : kinds_of_meshes) EXPECT_TRUE(decide(moved(Query{.kind = kind}, 7)).hit);
 }
 
 TEST_P(EveryWang, GivesTheSameVerdictAtEveryScale) {

@@ -34,7 +34,7 @@ TEST(WangTime, IsJustBeforeContact) {
 TEST(WangTime, IsZeroForContactAtTheStart) {
   EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
   EXPECT_EQ(decide(falling_edge(0, 1)).time, 0);
-  for (const Kind kind : kinds) EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
+  for (const Kind kind : kinds_of_meshes) EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
 }
 
 TEST(WangTime, IsThatOfAPlaneForMotionInOnePlane) {

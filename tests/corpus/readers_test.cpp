@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -67,6 +68,22 @@ TEST(QueryLine, CountsItsNumbers) {
                "file.ee:7: found 3 numbers, expected 24, or 25 with a separation");
 }
 
+TEST(QueryLine, HasSixNumbersForEachVertex) {
+  std::array<double, 18> numbers{};
+  std::iota(numbers.begin(), numbers.end(), 1);
+  for (const Kind kind : {Kind::vertex_vertex, Kind::vertex_edge}) {
+    const Query query = query_of(kind, numbers.data());
+    for (const Query& each : {query, with_separation(query, 0.5)})
+      for (const std::string& line : {to_line(each), to_readable(each)})
+        EXPECT_EQ(parse_line(kind, line, "here"), each) << line;
+  }
+  EXPECT_EQ(to_readable(query_of(Kind::vertex_vertex, numbers.data())), "1 2 3  4 5 6   7 8 9  10 11 12");
+  EXPECT_ERROR(parse_line(Kind::vertex_vertex, "1 2 3", "here"),
+               "here: found 3 numbers, expected 12, or 13 with a separation");
+  EXPECT_ERROR(parse_line(Kind::vertex_edge, to_line(Query{}), "here"),
+               "here: found 24 numbers, expected 18, or 19 with a separation");
+}
+
 TEST(QueryLine, HasItsSeparationLast) {
   const Query query = testing::falling_vertex(0.5, 0.25, 1, -1);
   EXPECT_EQ(parse_line(query.kind, to_line(query) + " 0", "here"), query);
@@ -94,6 +111,22 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.why, each.why);
   EXPECT_EQ(back.provenance, each.provenance);
   EXPECT_EQ(back.name, "x.case");
+}
+
+TEST(CaseFile, HasThePointsOfItsKind) {
+  std::array<double, 18> numbers{};
+  std::iota(numbers.begin(), numbers.end(), 1);
+  for (const Kind kind : {Kind::vertex_vertex, Kind::vertex_edge}) {
+    Case each;
+    each.query = query_of(kind, numbers.data());
+    std::istringstream in(to_text(each));
+    EXPECT_EQ(parse_case(in, "x.case").query, each.query);
+  }
+  const std::string vv = "kind vv\nx0 0 0 0\nx1 0 0 0\ny0 0 0 0\n";
+  std::istringstream missing(vv);
+  EXPECT_REFUSED(parse_case(missing, "x.case"), "x.case:4: found no y1, expected 4 points");
+  std::istringstream other(vv + "y1 0 0 0\nx2 0 0 0\n");
+  EXPECT_REFUSED(parse_case(other, "x.case"), "x.case:6: found x2, expected only the points of kind vv");
 }
 
 /// Writes `each` as text, puts other text before and behind each line, and reads the case back.
@@ -137,7 +170,7 @@ TEST_F(Files, NamesTheLineOfABadCase) {
   expect_error(write("b.case", points + "y3 0 0 0\n"), "b.case:8: found no kind");
   expect_error(write("c.case", "kind vt\n" + points + "y3 0 nan 0\n"), "c.case:9: found 'nan'");
   expect_error(write("d.case", "kind vt\n" + points + "y3 0 0\n"), "d.case:9: found 2 numbers, expected 3");
-  expect_error(write("e.case", "kind xx\n"), "e.case:1: found kind 'xx', expected vt or ee");
+  expect_error(write("e.case", "kind xx\n"), "e.case:1: found kind 'xx', expected vt, ee, vv or ve");
   expect_error(write("f.case", "kind vt\nx0 0 0 0\nx0 0 0 0\n"), "f.case:3: found a second x0");
   for (const char* line : {"kind vt\n", "truth 1\n", "separation 0\n"})
     expect_error(write("twice.case", std::string(line) + line), "twice.case:2: found a second");

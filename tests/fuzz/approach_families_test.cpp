@@ -67,7 +67,7 @@ int count_with(const std::string& family, Kind kind, Closest closest) {
 TEST(SeparationFamilies, ReachTheSeparationBetweenFeaturesOfEveryDimension) {
   for (const char* family : {"reached-separation", "slow-approach", "changed-features", "tied-separation",
                              "starts-near-separation", "sized-separation"})
-    for (const Kind kind : kinds)
+    for (const Kind kind : kinds_of_meshes)
       for (const Closest closest : {Closest::vertices, Closest::vertex_and_edge, Closest::interiors})
         EXPECT_GE(count_with(family, kind, closest), 20)
             << family << ' ' << short_name(kind) << ' ' << static_cast<int>(closest);

@@ -61,7 +61,7 @@ Ran run(const CampaignPlan& plan, bool with_basic = false, const Stop& stop = St
 
 std::uint64_t queries(const Statistics& statistics, const std::string& subject, const std::string& family) {
   std::uint64_t sum = 0;
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const auto it = statistics.counts.find({subject, kind, family});
     if (it != statistics.counts.end()) sum += it->second.queries;
   }

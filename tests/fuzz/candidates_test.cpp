@@ -30,7 +30,7 @@ std::vector<Candidate> found_candidates(const MovingMesh& mesh) {
 /// All pairs whose boxes meet, row by row. The finder must give the same list.
 std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
   std::vector<Candidate> found;
-  for (const Kind kind : kinds)
+  for (const Kind kind : kinds_of_meshes)
     for (std::size_t row = 0; row < pair_rows(mesh, kind); ++row)
       for_pairs_of_row(
           mesh, kind, row,
@@ -85,7 +85,7 @@ TEST(Candidates, FindsTheSameAsBruteForceWithIntegerCoordinates) {
 TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const MovingMesh mesh = random_mesh(seed, 600, 900);
-    for (const Kind kind : kinds) ASSERT_GT(CandidateFinder(mesh, kind, 1, never_over).parts(), 3);
+    for (const Kind kind : kinds_of_meshes) ASSERT_GT(CandidateFinder(mesh, kind, 1, never_over).parts(), 3);
     EXPECT_TRUE(found_candidates(mesh) == candidates_by_brute_force(mesh)) << "seed " << seed;
   }
 }
@@ -93,7 +93,7 @@ TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
 TEST(Candidates, PairsWithACommonVertexAreCounted) {
   const MovingMesh mesh = random_mesh(1, 600, 900);
   const CandidateSink ignore = [](const Candidate& /*candidate*/) {};
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     std::uint64_t expected = 0;
     for (std::size_t row = 0; row < pair_rows(mesh, kind); ++row)
       expected += for_pairs_of_row(mesh, kind, row, ignore, never_over);
@@ -256,7 +256,7 @@ void displace(Points& points, Random& random, double way) {
 
 // In the first steps, bodies move a little, and the tree keeps its groups. Then they fly apart.
 TEST(Candidates, AMovedFinderFindsTheSameAsANewOne) {
-  for (const Kind kind : kinds)
+  for (const Kind kind : kinds_of_meshes)
     for (const int jobs : {1, 3}) {
       MovingMesh mesh = tetrahedra(1, 800);
       CandidateFinder finder(mesh, kind, jobs, never_over);

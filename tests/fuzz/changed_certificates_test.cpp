@@ -32,9 +32,8 @@ using nlohmann::json;
 /// statement.
 std::optional<bool> is_true(const Statement& statement) {
   if (statement.from != 0 || statement.to != mpq_class(statement.to.get_d())) return std::nullopt;
-  Query query{.kind = statement.kind == "vt" ? Kind::vertex_triangle : Kind::edge_edge,
-              .separation = statement.h};
-  std::copy(statement.x.begin(), statement.x.end(), query.x.begin());
+  const Kind kind = parse_kind(statement.kind, "kind");
+  const Query query = with_separation(nearmiss::query_of(kind, statement.x.data()), statement.h);
   const bool is_apart = statement.claim == "apart";
   auto time = earliest_time(query);
   if (!time) return is_apart;
@@ -61,10 +60,12 @@ void change_bit(json& number, Random& random) {
 
 /// Exchanges two vertices at both ends of the step.
 void swap_vertices(json& x, Random& random) {
-  const std::size_t a = index_below(4, random);
-  const std::size_t b = index_below(4, random);
+  const std::size_t vertices = x.size() / 6;
+  const std::size_t a = index_below(vertices, random);
+  const std::size_t b = index_below(vertices, random);
   for (std::size_t k = 0; k < 3; ++k)
-    for (const std::size_t end : {0, 12}) std::swap(x[end + 3 * a + k], x[end + 3 * b + k]);
+    for (const std::size_t end : {std::size_t{0}, 3 * vertices})
+      std::swap(x[end + 3 * a + k], x[end + 3 * b + k]);
 }
 
 /// Drops the proof's last or first piece, or exchanges two of its numbers.
@@ -96,7 +97,7 @@ std::string changed(const std::string& text, Random& random) {
   const int change = random.integer(0, 7);
   if (change < 2) return with_another_character(text, random);
   json certificate = json::parse(text);
-  if (change == 2) change_bit(certificate["x"][index_below(24, random)], random);
+  if (change == 2) change_bit(certificate["x"][index_below(certificate["x"].size(), random)], random);
   if (change == 3) swap_vertices(certificate["x"], random);
   if (change == 4) change_proof(certificate, random);
   if (change == 5) change_bit(certificate[random.integer(0, 1) == 0 ? "h" : "to"], random);

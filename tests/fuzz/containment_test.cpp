@@ -286,7 +286,7 @@ TEST(Isolation, WhatAWorkerWritesOfItsPluginIsPossible) {
   odd.batch = ~std::uint64_t{0};
   const DetectorInfo info = isolation::info_of(odd);
   EXPECT_EQ(info.name, "+1?[31m?");
-  EXPECT_EQ(info.kinds, NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE);
+  EXPECT_EQ(info.kinds, bits_of_all_kinds);
   EXPECT_EQ(info.time_sort, TimeSort::none);
   EXPECT_EQ(info.batch, isolation::batch_size);
 }

@@ -35,7 +35,7 @@ TEST(Crossed, TheFactorsAreRecoveredFromSeedAndIndex) {
     Random random = random_of(family, seed, i);
     const Levels levels = draw_levels(random);
     EXPECT_EQ(levels, levels_of(seed, i));
-    EXPECT_EQ(make_query(random, kind_of(i), levels), nearmiss::make_query(family, seed, i));
+    EXPECT_EQ(make_query(random, kind_of(family, i), levels), nearmiss::make_query(family, seed, i));
   }
 }
 

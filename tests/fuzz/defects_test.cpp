@@ -72,7 +72,9 @@ TEST(Defects, PromiseWhatTheSoundSubjectPromises) {
     const auto defective = try_make_defect(defect);
     const auto subject = make_subject(name);
     EXPECT_EQ(defective->time_sort(), subject->time_sort()) << defect;
-    EXPECT_EQ(defective->takes_separation(), subject->takes_separation()) << defect;
+    EXPECT_EQ(defective->takes_separation(Kind::vertex_triangle),
+              subject->takes_separation(Kind::vertex_triangle))
+        << defect;
     EXPECT_EQ(defective->distance_bound(query), subject->distance_bound(query)) << defect;
   }
 }

@@ -1,7 +1,9 @@
 // What a plug-in can state through ccd/nearmiss_subject.h, in its own process and in this one.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "fuzz/subjects/subjects.hpp"
@@ -122,6 +124,26 @@ TEST(Interface, AnotherKindIsNeitherAskedNorJudged) {
       subjects, {.kind = Kind::vertex_triangle, .queries = {testing::falling_vertex(0.25, 0.25, 1, -1)}});
   ASSERT_EQ(result.statistics.counts.size(), 1);
   EXPECT_EQ(result.statistics.counts.begin()->first.subject, "wang");
+}
+
+TEST(Interface, QueriesOfFewerVerticesHaveShorterRows) {
+  std::array<double, 18> numbers{};
+  std::iota(numbers.begin(), numbers.end(), 1);
+  for (const bool is_isolated : {false, true}) {
+    const std::string path = NEARMISS_PLUGINS "/rows.so";
+    const auto subject = is_isolated ? make_any_subject(path) : make_subject(path);
+    EXPECT_FALSE(subject->decides(Kind::vertex_triangle));
+    for (const Kind kind : {Kind::vertex_vertex, Kind::vertex_edge}) {
+      ASSERT_TRUE(subject->decides(kind));
+      const Query query = query_of(kind, numbers.data());
+      Query other = query;
+      other.x[13] += 1;
+      std::array<Verdict, 3> verdicts;
+      subject->decide(std::array{query, other, query}, verdicts);
+      EXPECT_TRUE(verdicts[0].hit && !verdicts[1].hit && verdicts[2].hit) << short_name(kind);
+      EXPECT_EQ(subject->distance_bound(query), static_cast<double>(coordinate_count(kind)));
+    }
+  }
 }
 
 TEST(Interface, NumbersOf24BitsAreRoundedBeforeTheDetectorSeesThem) {

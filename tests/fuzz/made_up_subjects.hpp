@@ -32,7 +32,7 @@ class MadeUpSubject final : public Subject {
   [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return claims_.bound; }
   [[nodiscard]] bool claims_bound() const override { return claims_.claims_bound; }
   [[nodiscard]] TimeSort time_sort() const override { return claims_.time_sort; }
-  [[nodiscard]] bool takes_separation() const override { return claims_.takes_separation; }
+  [[nodiscard]] bool takes_separation(Kind /*kind*/) const override { return claims_.takes_separation; }
   [[nodiscard]] Contract contract() const override { return claims_.contract; }
   [[nodiscard]] bool rounds() const override { return claims_.rounds; }
   [[nodiscard]] Query rounded(const Query& query) const override {

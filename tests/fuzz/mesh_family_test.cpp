@@ -48,7 +48,7 @@ TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
       const Query query = make_query(family, 1, i);
       ASSERT_TRUE(is_finite(query)) << family.name << ' ' << i;
-      ASSERT_EQ(query.kind, kinds[i % 2]);
+      ASSERT_EQ(query.kind, kinds_of_meshes[i % 2]);
       collisions[i % 2] += collides(query) ? 1 : 0;
     }
     for (const int c : collisions) {

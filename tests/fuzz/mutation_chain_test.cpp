@@ -41,7 +41,7 @@ std::vector<Query> seeds() {
   std::vector<Query> queries;
   for (const Family& family : families())
     for (std::uint64_t i = 0; i < 16; ++i) queries.push_back(make_query(family, 5, i));
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     for (const double size : {1e-100, 1e-150, 1e-300}) {  // small primitives, far apart along x
       Query query{.kind = kind};
       for (std::size_t i = 0; i < 24; ++i) query.x[i] = size * std::sqrt(i);
@@ -235,7 +235,7 @@ using Bytes = std::array<std::uint8_t, libfuzzer::query_bytes>;
 
 TEST(QueryBytes, AreReadBack) {
   for (const double separation : {0.0, 0.1, std::numeric_limits<double>::denorm_min()}) {
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       Query query = some_query(separation);
       query.kind = kind;
       Bytes bytes{};

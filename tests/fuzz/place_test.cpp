@@ -70,7 +70,7 @@ TEST(Place, AJoinedPositionIsTheNearestDouble) {
 TEST(Place, ThereIsAlwaysAPositionThatNeedNotMoveFar) {
   for (std::uint64_t i = 0; i < 10'000; ++i) {
     Random random(2, 0, i);
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       const Place place = random_place(random, kind);
       ASSERT_GE(place.alpha, 0);
       ASSERT_LE(place.alpha + (kind == Kind::vertex_triangle ? place.beta : 0), 1);

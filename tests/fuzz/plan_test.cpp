@@ -24,7 +24,7 @@ TEST(Plan, LosesNoCollisionHoweverMuchIsLeftOut) {
     EXPECT_GT(nothing.colliding.size(), 50);
     EXPECT_EQ(boxes.colliding, nothing.colliding);
     EXPECT_EQ(all.colliding, nothing.colliding);
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       const auto asked = [&](const PlanOutcome& each) { return each.funnels.at(kind)[PairFate::asked]; };
       EXPECT_LT(asked(boxes), asked(nothing));
       EXPECT_LT(asked(all), asked(boxes));
@@ -46,7 +46,7 @@ TEST(Plan, WithASeparationLosesNoApproach) {
     const PlanOutcome all = follow(mesh, LeaveOut::all);
     EXPECT_GT(nothing.colliding.size(), colliding);
     EXPECT_EQ(all.colliding, nothing.colliding);
-    for (const Kind kind : kinds)
+    for (const Kind kind : kinds_of_meshes)
       EXPECT_LT(all.funnels.at(kind)[PairFate::asked], nothing.funnels.at(kind)[PairFate::asked]);
     EXPECT_TRUE(verify_plan(mesh, {}, 2, [](double) { return true; }).fine());
   }
@@ -72,7 +72,7 @@ TEST(Plan, PartsGiveTheSameAloneAndInAnyOrder) {
   for (const auto& [kind, funnel] : plan.rest(sum)) sum[kind].merge(funnel);
   EXPECT_GT(together.size(), 1000);
   EXPECT_TRUE(alone == together);
-  for (const Kind kind : kinds) EXPECT_EQ(sum.at(kind).pairs, all.at(kind).pairs);
+  for (const Kind kind : kinds_of_meshes) EXPECT_EQ(sum.at(kind).pairs, all.at(kind).pairs);
 }
 
 TEST(Plan, PairsAreAskedInFullBatches) {

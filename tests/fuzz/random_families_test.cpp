@@ -56,7 +56,7 @@ TEST(PlantedUlp, IsAFewUlpsFromContact) {
 }
 
 TEST(Grazing, TouchesInADoubleRootOrNearlySo) {
-  for (const Kind kind : kinds)
+  for (const Kind kind : kinds_of_meshes)
     expect_more("grazing", 90, [kind](const Query& query) {  // half of the queries are moved by ulps
       const auto features = contact_features(query);
       return query.kind == kind && features &&

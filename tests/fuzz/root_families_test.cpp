@@ -25,7 +25,7 @@ int count_of_200(std::string_view family, Kind kind, const Property& has_propert
 /// Expects that more than `above` of 200 queries of each kind have a property.
 template <class Property>
 void expect_more_of_each_kind(std::string_view family, int above, const Property& has_property) {
-  for (const Kind kind : kinds)
+  for (const Kind kind : kinds_of_meshes)
     EXPECT_GT(count_of_200(family, kind, has_property), above) << family << ' ' << short_name(kind);
 }
 
@@ -71,7 +71,7 @@ TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
 }
 
 TEST(EvenRoots, TheTimeBetweenTheContactsIsTheParameter) {
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     int twice = 0;
     const int as_far = count_of_200("even-roots@-2", kind, [&](const Query& query) {
       if (testing::count_roots(query).distinct != 2) return false;

@@ -56,7 +56,7 @@ TEST(SceneTrial, CountsWhatThePlanLeaves) {
   const Held held = hold(mesh, 2);
   const PlanOutcome expected = follow(mesh, LeaveOut::all);
   std::uint64_t collisions = 0;
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const Funnel& funnel = held.result.statistics.funnels.at({"scene:grids", kind});
     EXPECT_EQ(funnel.pairs, expected.funnels.at(kind).pairs);
     const Counts& counts = held.result.statistics.counts.at({"wang", kind, "scene:grids"});

@@ -46,7 +46,7 @@ std::vector<Finding> missed_by_basic() {
   const Judge judge(*basic);
   std::vector<Finding> missed;
   for (const Family& family : families())
-    for (const Kind kind : kinds)
+    for (const Kind kind : kinds_of_meshes)
       for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 2000; i += 2) {
         const Query query = make_query(family, 1, i);
         const auto failure = judge.failure(query);
@@ -242,7 +242,7 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   for (Finding finding : missed_by_basic()) {
     shrinker.shrink(finding);
     EXPECT_TRUE(finding.is_shrunk);
-    searches += 2 + kinds.size();  // for any class, for its own, and for each kind in the list
+    searches += 2 + kinds_of_meshes.size();  // for any class, for its own, and for each kind in the list
   }
   const auto is_slow = [](const auto& call) { return call.second; };
   const auto first = std::find_if(calls.begin(), calls.end(), is_slow);

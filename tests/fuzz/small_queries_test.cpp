@@ -70,7 +70,7 @@ Query random_small(Kind kind, std::uint64_t index) {
 }
 
 TEST(SmallQueries, HaveOneOfAllSymmetricCopies) {
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     std::multiset<Coordinates> listed;
     for (const SmallQuery& each : small_queries(kind))
       if (each.complexity.numbers <= 3) listed.insert(each.query.x);
@@ -98,7 +98,7 @@ void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t 
 }
 
 TEST(SmallQueries, AreSortedAndDecided) {
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const auto& list = small_queries(kind);
     std::cout << short_name(kind) << ": " << list.size() << " queries\n";
     EXPECT_EQ(list.front().query, Query{.kind = kind});
@@ -115,7 +115,7 @@ TEST(SmallQueries, AreSortedAndDecided) {
 }
 
 TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const auto& list = small_queries(kind, true);
     std::cout << short_name(kind) << ": " << list.size() << " queries with a separation\n";
     expect_sorted_and_decided(list, 61);
@@ -140,7 +140,7 @@ Finding missed(Kind kind) {
 
 TEST(SmallQueries, GiveTheSimplestFailureOfEachKindAndClass) {
   const Judge judge(blind);
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     const SmallFailures failures(blind, kind, false, [] {});
     for (const QueryClass of : {QueryClass::ordinary, QueryClass::degenerate}) {
       const auto& list = small_queries(kind);
@@ -177,7 +177,7 @@ TEST(SmallQueries, AreLeftAfterARequest) {
 
 TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
   const Judge judge(blind);
-  for (const Kind kind : kinds)
+  for (const Kind kind : kinds_of_meshes)
     for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 100; i += 2) {
       const Query query = make_query(find_family("planted"), 1, i);
       const auto failure = judge.failure(query);

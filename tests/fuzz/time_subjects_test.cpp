@@ -16,10 +16,10 @@ namespace {
 std::vector<Counts> counts_of(const std::string& subject, const Family& family, std::uint64_t count) {
   const Subjects subjects = testing::one(make_any_subject(subject));
   std::vector<Counts> found;
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     std::vector<Query> queries;
     for (std::uint64_t i = 0; queries.size() < count; ++i)
-      if (kind_of(i) == kind) queries.push_back(make_query(family, 3, i));
+      if (kind_of(family, i) == kind) queries.push_back(make_query(family, 3, i));
     Batch batch = testing::batch_of(family.name, queries);
     batch.timed = false;
     batch.provenance = [&](std::size_t i) {
@@ -40,7 +40,7 @@ std::uint64_t cases(const Family& family, std::uint64_t usual) {
 
 class TimesOf : public ::testing::TestWithParam<Family> {};
 INSTANTIATE_TEST_SUITE_P(AllFamilies, TimesOf,
-                         ::testing::ValuesIn(all_families().begin(), all_families().end()),
+                         ::testing::ValuesIn(mesh_families().begin(), mesh_families().end()),
                          testing::name_of_test);
 
 class TimesOfContact : public TimesOf {};
@@ -99,9 +99,16 @@ TEST(TimesOfSubjects, AreOfTheSortThatEachPromises) {
 
 TEST(TimesOfSubjects, OnlyAdvanceAndTheExactOnesTakeASeparation) {
   for (const char* name : {"basic", "wang", "wang-time", "wang:dd", "adaptive"})
-    EXPECT_FALSE(make_any_subject(name)->takes_separation()) << name;
+    for (const Kind kind : kinds_of_meshes)
+      EXPECT_FALSE(make_any_subject(name)->takes_separation(kind)) << name;
   for (const char* name : {"advance", "exact"})
-    EXPECT_TRUE(make_any_subject(name)->takes_separation()) << name;
+    for (const Kind kind : kinds_of_meshes)
+      EXPECT_TRUE(make_any_subject(name)->takes_separation(kind)) << name;
+  for (const char* name : {"wang", "wang-tight", "exact"})
+    for (const Kind kind : {Kind::vertex_vertex, Kind::vertex_edge}) {
+      EXPECT_TRUE(make_any_subject(name)->decides(kind)) << name;
+      EXPECT_TRUE(make_any_subject(name)->takes_separation(kind)) << name;
+    }
 }
 
 // The time of basic is that of the root which it accepts.

@@ -72,7 +72,7 @@ int main(int count_of_arguments, char** arguments) {
     if (!queries.empty()) write_block(queries, blocks++ % 128 < 2);
     queries.clear();
   };
-  const auto& families = all_families();
+  const auto& families = mesh_families();
   for (std::size_t i = 0; i < count; ++i) {
     const Query query = make_query(families[i % families.size()], seed, i / families.size());
     std::vector<Query>& queries = of_kind[query.kind == Kind::edge_edge ? 1 : 0];

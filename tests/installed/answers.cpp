@@ -80,7 +80,7 @@ void allocates_nothing() {
   for (double& each : x) each = std::ldexp(static_cast<double>(random()), -32);
   std::vector<std::int8_t> answers(n);
   std::vector<std::uint8_t> decided_by(n);
-  for (const nearmiss::Kind kind : nearmiss::kinds) {
+  for (const nearmiss::Kind kind : nearmiss::kinds_of_meshes) {
     const Queries queries = Queries::packed(kind, x);
     const std::size_t before = allocations;
     (void)nearmiss::collides(queries, answers, decided_by);

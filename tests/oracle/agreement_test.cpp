@@ -121,14 +121,16 @@ TEST(Agreement, ATieIsProvedUpToTheDoublesNextToIt) {
 }
 
 TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
-  const auto missed = [](bool collision, std::optional<bool> parity) {
+  const auto missed = [](bool collision, const Answer& parity) {
     const std::vector<Method> methods{saying("complete", Claim::complete, {.collision = collision}),
-                                      saying("parity", Claim::parity, {.collision = parity})};
+                                      saying("parity", Claim::parity, parity)};
     return ask_all(hit, methods).missed_by_parity();
   };
-  EXPECT_TRUE(missed(true, std::nullopt));
-  EXPECT_FALSE(missed(true, true));
-  EXPECT_FALSE(missed(false, std::nullopt));
+  const Answer even{.on_boundary = false, .odd = false};
+  EXPECT_TRUE(missed(true, even));
+  EXPECT_FALSE(missed(true, {.collision = true, .on_boundary = false, .odd = true}));
+  EXPECT_FALSE(missed(false, even));
+  EXPECT_FALSE(missed(true, {}));  // it says nothing about this query
 }
 
 // A new method is a new entry of the table. If it gives a single wrong answer, it is caught and named.

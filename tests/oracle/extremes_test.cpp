@@ -162,7 +162,7 @@ TEST(Extremes, SumsOfProductsThatOverflow) {
 
 TEST(Extremes, AllCoordinatesEqual) {
   for (const double c : {0.0, -0.0, 1.0, smallest, largest, -largest})
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       Query query{.kind = kind};
       query.x.fill(c);
       expect_collision(query, true);

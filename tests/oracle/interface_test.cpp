@@ -333,6 +333,42 @@ TEST(Interface, VerticesAndTheStrideOfQueriesAreAddedUp) {
   EXPECT_THAT(toi, Each(0.5));
 }
 
+/// A vertex that passes the vertex (1, 0, 0) at a distance of 1/2, and the edge from there to (1, 1, 0) too.
+constexpr std::array<double, 18> passing{0, 0, 0.5, 1, 0, 0, 1, 1, 0,  //
+                                         2, 0, 0.5, 1, 0, 0, 1, 1, 0};
+
+TEST(Interface, DecidesVerticesAndEdges) {
+  std::array<double, 12> of_vertices{};
+  std::copy_n(passing.begin(), 6, of_vertices.begin());
+  std::copy_n(passing.begin() + 9, 6, of_vertices.begin() + 6);
+  const std::vector<std::int32_t> numbers{0, 1, 2};
+  const auto expect_answers = [](const Queries& queries) {
+    std::array<std::int8_t, 1> answer{};
+    for (const double h : {0.5, 0.25}) {
+      EXPECT_EQ(collides(queries.with_separation(h), answer), Status::ok);
+      EXPECT_EQ(answer[0], h == 0.5 ? 1 : 0) << h;
+      EXPECT_EQ(wang(queries.with_separation(h), answer), Status::ok);
+      if (h == 0.5) {
+        EXPECT_EQ(answer[0], 1);
+      }
+    }
+    std::array<double, 1> lo{}, hi{};
+    EXPECT_EQ(smallest_distances(queries, lo, hi), Status::ok);
+    EXPECT_LE(lo[0], 0.5);
+    EXPECT_GE(hi[0], 0.5);
+    EXPECT_EQ(wang_bounds(queries, lo), Status::ok);
+    EXPECT_GT(lo[0], 0);
+  };
+  expect_answers(Queries::packed(Kind::vertex_vertex, of_vertices));
+  expect_answers(Queries::packed(Kind::vertex_edge, passing));
+  expect_answers(Queries::of_mesh(Kind::vertex_edge, numbers, passing.data(), passing.data() + 9));
+  const std::vector<float> small(passing.begin(), passing.end());
+  expect_answers(Queries::packed(Kind::vertex_edge, small));
+  EXPECT_EQ(Queries::packed(Kind::vertex_vertex, passing).size(), 1);
+  EXPECT_EQ(collides(Kind::vertex_vertex, of_vertices, 0.5), Answer::collision);
+  EXPECT_EQ(collides(Kind::vertex_triangle, passing, 0.5), Answer::none);
+}
+
 TEST(Interface, EveryStatusHasAMessageOfItsOwn) {
   std::vector<std::string> messages;
   for (int status = -1; status < 4; ++status) messages.emplace_back(nearmiss_message(status));

@@ -53,7 +53,7 @@ void expect_agreement(std::size_t index, const Query& query) {
 TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   // All four vertices stay on a line, and touch only at t = 1/2.
   Query query{.x = {0, 0, 0, -1, 0, 0, -2, 0, 0, -3, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}};
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     query.kind = kind;
     EXPECT_TRUE(root_parity(query).on_boundary) << short_name(kind);
   }

@@ -113,6 +113,24 @@ class Answers(unittest.TestCase):
         doubles = nearmiss.MeshPairs(pairs, start.astype(float), end.astype(float))
         same(nearmiss.wang_bound('ee', mixed), nearmiss.wang_bound('ee', doubles))
 
+    def test_about_vertices_and_edges_are_those_about_triangles_of_no_area(self):
+        for kind, vertices in (('vv', [0, 1, 1, 1]), ('ve', [0, 1, 2, 2])):
+            x, h = nearmiss.queries('v-uniform~drawn', kind, 500)
+            v = max(vertices) + 1
+            self.assertEqual(x.shape, (500, 2, v, 3))
+            triangles = x[:, :, vertices]
+            expected = nearmiss.collides('vt', triangles, h)
+            self.assertTrue(expected.any() and not expected.all())
+            mesh = nearmiss.MeshPairs(
+                np.arange(500 * v).reshape(-1, v), *x.transpose(1, 0, 2, 3).reshape(2, -1, 3)
+            )
+            for same_x in (x, x.reshape(-1, 2 * v, 3), mesh):
+                same(nearmiss.collides(kind, same_x, h), expected)
+                self.assertTrue(nearmiss.wang(kind, same_x, h)[expected].all())
+            times = nearmiss.earliest_time(kind, x, h), nearmiss.earliest_time('vt', triangles, h)
+            same(times[0].lo, times[1].lo)
+            self.assertEqual(nearmiss.collides(kind, x[7], h[7]), expected[7])
+
     def test_of_no_queries_are_none(self):
         for x in (np.empty((0, 2, 4, 3)), np.empty((0, 8, 3), np.float32)):
             for function in (nearmiss.collides, nearmiss.wang, nearmiss.wang_bound):

@@ -282,7 +282,7 @@ asked.wait()
                 nearmiss.trial(*arguments[:4], **dict(zip(['shrunk'], arguments[4:])))
         with self.assertRaisesRegex(ValueError, 'expected one of none, estimate, lower-bound'):
             nearmiss.Subject(never, time='exact')
-        with self.assertRaisesRegex(ValueError, "expected 'vt' or 'ee'"):
+        with self.assertRaisesRegex(ValueError, "expected 'vt', 'ee' or both"):
             nearmiss.Subject(never, kinds=['vv'])
 
 

@@ -37,7 +37,7 @@ class Types(unittest.TestCase):
     def test_are_noticed_if_they_are_wrong(self):
         with tempfile.TemporaryDirectory() as folder:
             wrong = pathlib.Path(folder) / 'wrong.py'
-            wrong.write_text(USER.read_text() + "nearmiss.wang('vv', x)\n")
+            wrong.write_text(USER.read_text() + "nearmiss.wang('tt', x)\n")
             with self.assertRaisesRegex(AssertionError, 'Argument 1 to "wang"'):
                 self.check('mypy', '--strict', wrong)
 

@@ -43,7 +43,7 @@ Campaign night(const std::string& seed, const Slowness& slowness,
   std::map<CountsKey, Counts> all;
   for (const std::string& subject : subjects)
     for (int i = 0; i < families; ++i)
-      for (const Kind kind : kinds) {
+      for (const Kind kind : kinds_of_meshes) {
         const CountsKey key{subject, kind, "f" + std::to_string(i)};
         const std::string name = seed + subject + key.family + std::string(short_name(kind));
         const double ns = 100 * (1 + i) * slowness(key) * (1 + 0.02 * noise(name));

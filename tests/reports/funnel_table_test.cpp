@@ -17,7 +17,7 @@ using ::testing::Not;
 Statistics two_steps() {
   Statistics statistics;
   for (const char* step : {"scene:cloth#0", "scene:cloth#1"})
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       Funnel& funnel = statistics.funnels[{step, kind}];
       funnel.pairs[static_cast<std::size_t>(PairFate::asked)] = 100;
       funnel.pairs.front() = 900;

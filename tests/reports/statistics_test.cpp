@@ -118,7 +118,7 @@ Statistics random_statistics(unsigned seed) {
     statistics.counts[key].add(outcome, own, [&] { return std::to_string(random() % 5); });
     statistics.counts[key].times.add(key.kind, key.family, {1 + random() % 3, random() % 100});
   }
-  for (const Kind kind : kinds) {
+  for (const Kind kind : kinds_of_meshes) {
     OracleCounts& oracle = statistics.oracle[{kind, random() % 2 ? "f" : "g"}];
     oracle.queries = random() % 100;
     oracle.by_stage[random() % filter_stage_count] = random() % 100;

@@ -106,7 +106,7 @@ TEST(Verdicts, NameEveryKindThatFailedInTheLeastExoticClass) {
   Statistics statistics;
   statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}] =
       missing(counts(2000, 504, 5, 0), QueryClass::ordinary, 5);
-  for (const Kind kind : kinds)
+  for (const Kind kind : kinds_of_meshes)
     statistics.counts[{"mine", kind, "planar"}] = missing(counts(2000, 504, 9, 0), QueryClass::ordinary, 3);
   EXPECT_EQ(subject_verdicts(statistics).front().first,
             "missed 5 of 504 ordinary vt collisions, and 3 ordinary ee collisions in degenerate families");

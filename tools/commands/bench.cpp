@@ -63,7 +63,7 @@ Input family_input(std::string_view name, std::uint64_t count, const SeparationO
   const Family family = find_family(name);
   Input input{named(std::string(name), separation), {}};
   for (std::uint64_t index = 0;
-       std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) { return input.queries[kind].size() < count; });
+       std::ranges::any_of(kinds_of_meshes, [&](Kind kind) { return input.queries[kind].size() < count; });
        ++index) {
     const Query query = separation.apply(make_query(family, 1, index));
     if (auto& same = input.queries[query.kind]; same.size() < count && boxes_meet(query))
@@ -90,6 +90,8 @@ Input file_input(const std::filesystem::path& path, const SeparationOption& sepa
 /// timed. NaN if no query was answered.
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
   using std::chrono::steady_clock;
+  const Query& first = queries.front();
+  if (!subject.decides(first.kind)) return std::numeric_limits<double>::quiet_NaN();
   constexpr auto least = std::chrono::microseconds(500);
   const auto start = steady_clock::now();
   BatchTime sum;

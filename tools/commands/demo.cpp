@@ -46,7 +46,7 @@ struct PlainMiss {
   explicit PlainMiss(const Subject& subject) {
     const Judge judge(subject);
     for (std::uint64_t index = 0;; ++index)
-      for (const Family& family : all_families()) {
+      for (const Family& family : mesh_families()) {
         ++queries;
         const Query query = make_query(family, 1, index);
         const auto failure = judge.failure(query);

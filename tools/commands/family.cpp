@@ -34,9 +34,12 @@ struct Options {
 /// --factors, its factors.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
+  if (std::ranges::find(family.kinds, kind) == family.kinds.end())
+    throw Error(fmt::format("--kind: found {}, expected {} or {} for the family {}", options.kind,
+                            short_name(family.kinds[0]), short_name(family.kinds[1]), family.name));
   std::uint64_t printed = 0;
   for (std::uint64_t index = options.first; printed < options.count; ++index) {
-    if (kind_of(index) != kind) continue;
+    if (kind_of(family, index) != kind) continue;
     ++printed;
     fmt::print("{}\n", options.factors ? crossed::to_text(crossed::levels_of(options.seed, index))
                                        : to_line(make_query(family, options.seed, index)));
@@ -107,10 +110,11 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
   command
       ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
       ->required();
-  auto* kind = command
-                   ->add_option("--kind", options->kind,
-                                "Print the queries of this kind: even indices are vt, odd ones ee")
-                   ->check(CLI::IsMember({"vt", "ee"}));
+  auto* kind =
+      command
+          ->add_option("--kind", options->kind,
+                       "Print the queries of this kind: even indices are vt (or vv), odd ones ee (or ve)")
+          ->check(CLI::IsMember(short_names_of_kinds()));
   auto* coverage = command
                        ->add_flag("--coverage", options->coverage,
                                   "Print which pairs and triples of factors occur in the queries of both "

@@ -72,14 +72,13 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("fuzz", "Hunt for false negatives and far false positives with random queries");
   options->trial.add_to(*command);
-  auto* family =
-      command
-          ->add_option(
-              "--family", options->families,
-              "Families of queries, separated by commas, or all; NAME@VALUE gives its parameter a value")
-          ->delimiter(',')
-          ->capture_default_str()
-          ->type_name("all|A,B@VALUE,...");
+  auto* family = command
+                     ->add_option("--family", options->families,
+                                  "Families of queries, separated by commas, or all, or vertices (v-NAME); "
+                                  "NAME@VALUE gives its parameter a value")
+                     ->delimiter(',')
+                     ->capture_default_str()
+                     ->type_name("all|A,B@VALUE,...");
   auto* sweep =
       command
           ->add_option(

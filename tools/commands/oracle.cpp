@@ -49,10 +49,11 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// As in the library, a smallest distance of exactly h > 0 is a yes. "-" if a complete method does not know.
+/// As in the library, a smallest distance of exactly h > 0 is a yes. "-" if a complete method does not know, and if
+/// root parity says nothing about such queries.
 const char* show(const Answer& answer, Claim claim) {
   const auto said = answer.at_most ? answer.at_most : answer.collision;
-  if (!said && claim == Claim::complete) return "-";
+  if (!said && (claim == Claim::complete || !answer.is_answer())) return "-";
   return said.value_or(false) ? "1" : "0";
 }
 

@@ -54,10 +54,10 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   const Subject& defect = *subjects.front();
   if (way == uniform) plan.families = families_for(defect, std::array{find_family("uniform")});
   if (way == all_families) plan.families = families_for(defect, families());
-  if (way == all_families && defect.takes_separation())
+  if (way == all_families && defect.takes_separation(Kind::vertex_triangle))
     plan.families.insert(plan.families.end(), separation_families().begin(), separation_families().end());
   if (way == search) plan.families = searches(defect, stop);
-  if (way == search && defect.takes_separation()) {
+  if (way == search && defect.takes_separation(Kind::vertex_triangle)) {
     auto separated = searches(defect, stop, drawn_separation);
     std::move(separated.begin(), separated.end(), std::back_inserter(plan.families));
   }

@@ -1,6 +1,10 @@
 // nearmiss replay: lets subjects decide recorded cases.
 #include <fmt/format.h>
 
+#include <map>
+#include <set>
+#include <vector>
+
 #include "ccd/query/printable.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/trial/trial_stream.hpp"
@@ -37,9 +41,11 @@ std::string family_of(const std::string& name) {
 int run(const Options& options) {
   const Stop stop(interrupted());
   const Subjects subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
-  if (options.separation.apply({}).separation > 0) expect_separations(subjects);
+  std::set<Kind> seen;
   for (const fs::path& path : options.paths)  // checks all files before anything is written
-    read_cases(path, [](const Case&) {});
+    read_cases(path, [&](const Case& each) { seen.insert(each.query.kind); });
+  if (options.separation.apply({}).separation > 0)
+    expect_separations(subjects, std::vector(seen.begin(), seen.end()));
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + printable_argument(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
@@ -50,7 +56,7 @@ int run(const Options& options) {
   }
   if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
   Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
-  std::uint64_t with_separation = 0;
+  std::map<Kind, std::uint64_t> with_separation;
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
@@ -64,7 +70,7 @@ int run(const Options& options) {
       stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
                  [name = each.name] { return printable(name); });
       ++count;
-      with_separation += query.separation > 0 ? 1 : 0;
+      with_separation[query.kind] += query.separation > 0 ? 1 : 0;
       if (progress.due())
         progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
                                   with_separators(record.statistics().false_negatives())));
@@ -78,11 +84,14 @@ int run(const Options& options) {
       if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
     });
   }
-  for (const auto& subject : subjects)
-    if (with_separation > 0 && !subject->takes_separation())
+  for (const auto& subject : subjects) {
+    std::uint64_t not_asked = 0;
+    for (const auto& [kind, cases] : with_separation)
+      if (subject->decides(kind) && !subject->takes_separation(kind)) not_asked += cases;
+    if (not_asked > 0)
       fmt::print(options.record.json.text(), "{}: not asked about {}, because it answers for contact only\n",
-                 subject->name(),
-                 counted(with_separation, "case with a separation", "cases with a separation"));
+                 subject->name(), counted(not_asked, "case with a separation", "cases with a separation"));
+  }
   if (!stop.is_requested()) record.add_unasked(subjects);
   return record.finish(stop.is_requested(), !stop.is_requested());
 }
@@ -93,7 +102,9 @@ void add_replay(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command =
       app.add_subcommand("replay", "Let subjects and the oracle decide the cases in files and folders");
-  command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
+  command
+      ->add_option("PATH", options->paths,
+                   "*.case, *.csv, *.vt, *.ee, *.vv and *.ve files, or folders of them")
       ->required();
   options->trial.add_to(*command);
   add_bound_option(*command, options->bound);

@@ -64,7 +64,7 @@ class Export {
  public:
   explicit Export(const fs::path& file) {
     if (file.empty()) return;
-    for (const Kind kind : kinds) {
+    for (const Kind kind : kinds_of_meshes) {
       const std::string name = fmt::format("{}.{}", file.string(), short_name(kind));
       if (fs::exists(name)) throw Error(fmt::format("{}: exists already, expected a new file", name));
       files_.try_emplace(kind, name);

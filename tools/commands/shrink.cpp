@@ -1,6 +1,7 @@
 // nearmiss shrink: finds the simplest query that fails in the same way.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 
 #include "ccd/query/error.hpp"
@@ -62,7 +63,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
 std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();
-  if (query.separation > 0) expect_separation(subject);
+  expect_kind(subject, query.kind);
+  if (query.separation > 0) expect_separation(subject, std::array{query.kind});
   const bool keeps = keeps_contract(subject.rounded(query), subject.contract());
   return std::move(keeps ? sides.front() : sides.back());
 }
@@ -107,7 +109,8 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<Options>();
   auto* command =
       app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
-  command->add_option("CASE", options->in, "A *.case file, or a *.vt or *.ee file of one query")->required();
+  command->add_option("CASE", options->in, "A *.case file, or a *.vt, *.ee, *.vv or *.ve file of one query")
+      ->required();
   command
       ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
       ->capture_default_str();

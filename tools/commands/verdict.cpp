@@ -1,6 +1,7 @@
 // nearmiss verdict: prints one subject's answers to queries.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "ccd/query/error.hpp"
@@ -42,7 +43,8 @@ void run(const Options& options) {
   const auto subject = make_any_subject(options.subject, parse_bound(options.bound), options.limits.limits());
   const Judge judge(*subject);
   options.input.read([&](const Query& query) {
-    if (query.separation > 0) expect_separation(*subject);
+    expect_kind(*subject, query.kind);
+    if (query.separation > 0) expect_separation(*subject, std::array{query.kind});
     const Verdict verdict = subject->decide(query);
     if (verdict.fault != Fault::none)
       throw Error(fmt::format("{}: no answer: {}", subject->name(),
@@ -76,8 +78,8 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
       "Add the distance bound of false positives, and 'claimed', or 'wang' if it is wang's bound "
       "because the subject claims none");
   command->add_flag("--rounded", options->rounded,
-                    "Add the query as the subject rounds it, by which its answer is judged: 24 numbers, and "
-                    "the separation unless it is 0");
+                    "Add the query as the subject rounds it, by which its answer is judged, with the "
+                    "separation unless it is 0");
   command->footer(
       "\nExample: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss verdict --kind vt --subject wang");

@@ -9,11 +9,14 @@ namespace nearmiss::python {
 
 namespace py = pybind11;
 
-py::array_t<double> coordinates_of(std::span<const Query> queries) {
-  py::array_t<double> x(
-      {static_cast<py::ssize_t>(queries.size()), py::ssize_t{2}, py::ssize_t{4}, py::ssize_t{3}});
+py::array_t<double> coordinates_of(Kind kind, std::span<const Query> queries) {
+  py::array_t<double> x({static_cast<py::ssize_t>(queries.size()), py::ssize_t{2},
+                         static_cast<py::ssize_t>(vertices(kind)), py::ssize_t{3}});
   double* to = x.mutable_data();
-  for (const Query& query : queries) to = std::copy(query.x.begin(), query.x.end(), to);
+  for (const Query& query : queries) {
+    copy_coordinates(kind, query.x.data(), to);
+    to += coordinate_count(kind);
+  }
   return x;
 }
 
@@ -28,8 +31,8 @@ void FunctionSubject::decide(std::span<const Query> queries, std::span<Verdict> 
   if (queries.empty()) return;
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  const py::tuple answer =
-      function_(short_name(queries.front().kind), coordinates_of(queries), separations_of(queries));
+  const py::tuple answer = function_(short_name(queries.front().kind),
+                                     coordinates_of(queries.front().kind, queries), separations_of(queries));
   make_arithmetic_plain();
   const auto hits = answer[0].cast<py::array_t<bool>>();
   const auto times = answer[1].cast<py::array_t<double>>();

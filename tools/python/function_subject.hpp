@@ -29,7 +29,7 @@ class FunctionSubject final : public BatchSubject {
   [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return HUGE_VAL; }
   [[nodiscard]] bool claims_bound() const override { return false; }
   [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation() const override { return info_.takes_separation; }
+  [[nodiscard]] bool takes_separation(Kind /*kind*/) const override { return info_.takes_separation; }
   [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
 
  private:
@@ -37,8 +37,8 @@ class FunctionSubject final : public BatchSubject {
   pybind11::function function_;
 };
 
-/// Queries as an array (n, 2, 4, 3), and their separations (n,).
-pybind11::array_t<double> coordinates_of(std::span<const Query> queries);
+/// Queries of kinds with as many vertices v as `kind` as an array (n, 2, v, 3), and their separations (n,).
+pybind11::array_t<double> coordinates_of(Kind kind, std::span<const Query> queries);
 pybind11::array_t<double> separations_of(std::span<const Query> queries);
 
 }  // namespace nearmiss::python

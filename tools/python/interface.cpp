@@ -24,7 +24,7 @@ namespace {
 namespace py = pybind11;
 
 /// Queries in arrays, which this object keeps alive. `start` and `end` have the same strides, and the shape
-/// (n, 4, 3), or (v, 3) if the pairs of a mesh are given.
+/// (n, vertices of a query, 3), or (v, 3) if the pairs of a mesh are given.
 class Queries {
  public:
   Queries(int kind, py::array start, py::array end, std::optional<py::array> pairs, py::array separation)
@@ -55,7 +55,7 @@ class Queries {
     part.count = count;
     part.start = static_cast<const std::byte*>(layout_.start) + steps * layout_.query_stride;
     part.end = static_cast<const std::byte*>(layout_.end) + steps * layout_.query_stride;
-    if (pairs_) part.vertices = layout_.vertices + 4 * steps;
+    if (pairs_) part.vertices = layout_.vertices + nearmiss_vertices(layout_.kind) * steps;
     part.separation = separation_of(first);
     return part;
   }

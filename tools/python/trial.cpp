@@ -22,6 +22,7 @@
 
 #include "ccd/query/arithmetic.hpp"
 #include "ccd/query/error.hpp"
+#include "corpus/query_text.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/built_in.hpp"
@@ -57,7 +58,7 @@ Subjects subjects_of(const py::list& of) {
 
 std::vector<Family> families_of(const std::vector<std::string>& names) {
   std::vector<Family> chosen;
-  for (const std::string& name : names) chosen.push_back(find_family(name));
+  for (const std::string& name : names) chosen.push_back(find_family(name, mesh_families()));
   return chosen;
 }
 
@@ -94,7 +95,7 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   Pace pace;
   while (const auto block = cases.next(pace)) {
     const auto start = Stop::Clock::now();
-    for (const Kind kind : kinds) {
+    for (const Kind kind : block->family->kinds) {
       Batch batch = batch_of(plan, *block, kind, stop);
       if (batch.queries.empty()) continue;
       batch.timed = false;
@@ -147,9 +148,9 @@ py::dict columns(const std::vector<Finding>& findings) {
   const std::vector<Query> found = queries_of(findings, &Finding::query);
   const std::vector<Query> shrunk = queries_of(findings, &Finding::shrunk);
   py::dict of;
-  of["x"] = coordinates_of(found);
+  of["x"] = coordinates_of(Kind::vertex_triangle, found);
   of["separation"] = separations_of(found);
-  of["shrunk"] = coordinates_of(shrunk);
+  of["shrunk"] = coordinates_of(Kind::vertex_triangle, shrunk);
   of["shrunk_separation"] = separations_of(shrunk);
   py::array_t<bool> is_shrunk(static_cast<py::ssize_t>(findings.size()));
   std::transform(findings.begin(), findings.end(), is_shrunk.mutable_data(),
@@ -185,26 +186,31 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
 
-/// For each family: its name, its description, and whether its queries have a separation.
+/// For each family that a trial can ask: its name, its description, and whether its queries have a separation.
 std::vector<std::tuple<std::string, std::string, bool>> known_families() {
   std::vector<std::tuple<std::string, std::string, bool>> known;
-  for (const Family& family : all_families())
+  for (const Family& family : mesh_families())
     known.emplace_back(family.name, family.about, family.has_separation);
   return known;
 }
 
-py::tuple make(const std::string& family, std::string_view kind, std::size_t count, std::uint64_t seed) {
+py::tuple make(const std::string& family, const std::string& kind_name, std::size_t count,
+               std::uint64_t seed) {
   const PlainArithmetic guard;
   std::vector<Query> queries;
   if (count > queries.max_size()) throw std::bad_alloc();
   queries.reserve(count);
   const Family from = find_family(family);
+  const Kind kind = parse_kind(kind_name, "kind");
+  if (std::ranges::find(from.kinds, kind) == from.kinds.end())
+    throw Error("found the kind '" + kind_name + "', expected '" + std::string(short_name(from.kinds[0])) +
+                "' or '" + std::string(short_name(from.kinds[1])) + "' for the family " + from.name);
   const QueryMaker query(from, seed);
   for (std::uint64_t index = 0; queries.size() < count; ++index) {
-    if (short_name(kind_of(index)) == kind) queries.push_back(query(index));
+    if (kind_of(from, index) == kind) queries.push_back(query(index));
     if (index % 1000 == 0) let_python_handle_signals();
   }
-  return py::make_tuple(coordinates_of(queries), separations_of(queries));
+  return py::make_tuple(coordinates_of(kind, queries), separations_of(queries));
 }
 
 }  // namespace

@@ -194,6 +194,42 @@ struct TightTolerances {
   Tolerances<T> operator()(T B) const {
     return tight_tolerances(B);
   }
+
+  /// For two vertices within R, as in the paper.
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_vertices(T B, T R) const {
+    return PaperTolerances().of_vertices(B, R);
+  }
+
+  /// For a vertex within R of an edge: S = √8 R, ρ = ε, the least ψ, and a λ² for which D is about smallest.
+  /// λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ for S = 0, and at λ³ = 4Sψ for large S.
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_edge(T B, T R) const {
+    using std::cbrt;
+    using std::max;
+    using std::sqrt;
+    const T eps = epsilon<T>();
+    const T margin = 1 + 16 * eps + T(0x1p-30);
+    Tolerances<T> tol = tight_tolerances(B);
+    tol.R = R;
+    tol.S = R * T(2.8284271247461903) * margin;
+    const T S = B > 0 ? T(tol.S / B) : T(0);
+    const RoundingErrors<T> errors = full_errors(eps, S, eps);
+    const T psi = errors.least_psi * margin;
+    const T lambda2 = max(T(2 * psi + cbrt(16 * S * S * psi * psi)), T(2 * errors.length2));
+    const T longer2 = lambda2 + errors.length2;
+    const T shorter2 = lambda2 - errors.length2;
+    const T at_longer = psi / sqrt(longer2) + S;
+    const T at_shorter = (psi + errors.F) / sqrt(shorter2) + S;
+    const T D2 = max(T(longer2 / 4 + at_longer * at_longer),
+                     T(errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter));
+    const T B2 = B * B;
+    tol.rho = B2 * eps;
+    tol.psi = B2 * psi;
+    tol.lambda2 = B2 * lambda2;
+    tol.D2 = B2 * (D2 * margin);
+    return tol;
+  }
 };
 
 }  // namespace nearmiss

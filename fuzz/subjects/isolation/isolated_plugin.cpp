@@ -75,7 +75,7 @@ class IsolatedPlugin final : public BatchSubject {
 
   [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
   [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation() const override { return info_.takes_separation; }
+  [[nodiscard]] bool takes_separation(Kind /*kind*/) const override { return info_.takes_separation; }
   [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
   [[nodiscard]] Contract contract() const override { return info_.contract; }
   [[nodiscard]] bool rounds() const override { return info_.is_narrow; }
@@ -129,7 +129,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   [[nodiscard]] bool can_decide(const Query& query) const {
-    return decides(query.kind) && (query.separation == 0 || takes_separation());
+    return decides(query.kind) && (query.separation == 0 || takes_separation(query.kind));
   }
 
   /// The size of the next batch: up to batch_size queries of one kind. The plug-in can decide all or none of

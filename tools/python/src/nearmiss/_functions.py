@@ -7,7 +7,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nearmiss import _interface
-from nearmiss._queries import Asked, KindLike, MeshPairs, at_most_1, not_negative
+from nearmiss._queries import (
+    Asked,
+    KindLike,
+    MeshPairs,
+    asked_of_wang,
+    at_most_1,
+    not_negative,
+)
 
 
 class DecidedBy(enum.IntEnum):
@@ -174,26 +181,31 @@ def certificate(
     return asked.answers(np.array(_interface.certificates(asked.queries, what), object))
 
 
-def wang(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.bool_]:
+def wang(
+    kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
+) -> NDArray[np.bool_]:
     """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
 
     It reports every collision. It may also report other queries, but only if their primitives come as near as
     wang_bound().
 
-    kind, x: as for collides()
+    kind, x, separation: as for collides(); only 'vv' and 've' take a separation
     """
-    asked = Asked(kind, x)
+    asked = asked_of_wang(kind, x, separation)
     answers: NDArray[np.bool_] = asked.are_collisions(_interface.wang(asked.queries))
     return answers
 
 
-def wang_bound(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.float64]:
-    """The largest distance at which wang() can report a false positive, in the unit of the coordinates.
+def wang_bound(
+    kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
+) -> NDArray[np.float64]:
+    """The most by which the distance of a false positive of wang() exceeds the separation, in the unit of the
+    coordinates.
 
-    It is about 41 B ε^¼, where B is the size of the pair and ε the machine epsilon of double.
+    For contact, it is about 41 B ε^¼, where B is the size of the pair and ε the machine epsilon of double.
 
-    kind, x: as for collides()
+    kind, x, separation: as for wang()
     """
-    asked = Asked(kind, x)
+    asked = asked_of_wang(kind, x, separation)
     bounds: NDArray[np.float64] = asked.answers(_interface.wang_bound(asked.queries))
     return bounds

@@ -6,7 +6,7 @@ Coordinates are copied only if the C interface cannot read them in place.
 import enum
 import numbers
 from dataclasses import dataclass
-from typing import Any, Callable, Literal, Optional, Union
+from typing import Any, Callable, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,22 +17,35 @@ Coordinates = Union[NDArray[np.float64], NDArray[np.float32]]
 
 
 class Kind(str, enum.Enum):
-    """The kind of a query: a vertex x0 and a triangle x1 x2 x3, or the edges x0x1 and x2x3."""
+    """The kind of a query, by its primitives."""
 
-    VERTEX_TRIANGLE = 'vt'
-    EDGE_EDGE = 'ee'
+    VERTEX_TRIANGLE = 'vt'  # a vertex x0 and a triangle x1 x2 x3
+    EDGE_EDGE = 'ee'  # the edges x0x1 and x2x3
+    VERTEX_VERTEX = 'vv'  # the vertices x0 and x1
+    VERTEX_EDGE = 've'  # a vertex x0 and an edge x1x2
 
 
-KindLike = Union[Kind, Literal['vt', 'ee']]
+KindLike = Union[Kind, Literal['vt', 'ee', 'vv', 've']]
 
-_NUMBERS_OF_KINDS = {Kind.VERTEX_TRIANGLE: 1, Kind.EDGE_EDGE: 2}
+
+class _Layout(NamedTuple):
+    number: int  # of the kind in the C interface
+    vertices: int  # of a query
+
+
+_LAYOUTS = {
+    Kind.VERTEX_TRIANGLE: _Layout(1, 4),
+    Kind.EDGE_EDGE: _Layout(2, 4),
+    Kind.VERTEX_VERTEX: _Layout(4, 2),
+    Kind.VERTEX_EDGE: _Layout(8, 3),
+}
 
 
 @dataclass(frozen=True)
 class MeshPairs:
     """Pairs of a moving mesh, as queries.
 
-    pairs: (n, 4) integers, the numbers of the vertices x0 x1 x2 x3 of each pair
+    pairs: (n, 4) integers, the numbers of the vertices x0 x1 x2 x3 of each pair; (n, 2) for 'vv', (n, 3) for 've'
     start: (v, 3) coordinates of all vertices at t = 0
     end:   (v, 3) coordinates of all vertices at t = 1
     """
@@ -47,7 +60,7 @@ def kind_of(kind: KindLike) -> Kind:
     try:
         return Kind(kind)
     except ValueError:
-        raise ValueError(f"kind is {kind!r}, expected 'vt' or 'ee'") from None
+        raise ValueError(f"kind is {kind!r}, expected 'vt', 'ee', 'vv' or 've'") from None
 
 
 class Asked:
@@ -57,38 +70,41 @@ class Asked:
         self, kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
     ) -> None:
         self.is_single = False
-        number = _NUMBERS_OF_KINDS[kind_of(kind)]
         with _interface.PlainArithmetic():  # NumPy converts numbers
-            self.queries = self._read(number, x, separation)
+            self.queries = self._read(_LAYOUTS[kind_of(kind)], x, separation)
 
     def _read(
-        self, number: int, x: Union[ArrayLike, MeshPairs], separation: ArrayLike
+        self, layout: _Layout, x: Union[ArrayLike, MeshPairs], separation: ArrayLike
     ) -> _interface.Queries:
         pairs: Optional[NDArray[np.int32]] = None
         if isinstance(x, MeshPairs):
             start, end = _vertices(x.start, 'start'), _vertices(x.end, 'end')
             if start.shape != end.shape:
                 raise ValueError(f'start has shape {start.shape}, but end has shape {end.shape}')
-            pairs = _checked_pairs(x.pairs, len(start))
+            pairs = _checked_pairs(x.pairs, layout.vertices, len(start))
             count = len(pairs)
         else:
-            start, end = self._halves(_numbers(x, 'x'))
+            start, end = self._halves(_numbers(x, 'x'), layout.vertices)
             count = len(start)
         return _interface.Queries(
-            number, *_alike(start, end), pairs, _separations(separation, count, self.is_single)
+            layout.number,
+            *_alike(start, end),
+            pairs,
+            _separations(separation, count, self.is_single),
         )
 
-    def _halves(self, x: Coordinates) -> tuple[Coordinates, Coordinates]:
-        """The vertices at t = 0 and t = 1, both (n, 4, 3)."""
-        by_time = x.shape[-3:] == (2, 4, 3)
-        is_known = by_time or x.shape[-2:] == (8, 3)
+    def _halves(self, x: Coordinates, v: int) -> tuple[Coordinates, Coordinates]:
+        """The vertices at t = 0 and t = 1, both (n, v, 3)."""
+        by_time = x.shape[-3:] == (2, v, 3)
+        is_known = by_time or x.shape[-2:] == (2 * v, 3)
         if not is_known or x.ndim not in (2 + by_time, 3 + by_time):
             raise ValueError(
-                f'x has shape {x.shape}, expected (n, 2, 4, 3) or (n, 8, 3), or (2, 4, 3) or (8, 3) for one query'
+                f'x has shape {x.shape}, expected (n, 2, {v}, 3) or (n, {2 * v}, 3), or (2, {v}, 3) or ({2 * v}, 3) '
+                'for one query'
             )
         self.is_single = x.ndim == 2 + by_time
         each: Any = x[np.newaxis] if self.is_single else x
-        return (each[:, 0], each[:, 1]) if by_time else (each[:, :4], each[:, 4:])
+        return (each[:, 0], each[:, 1]) if by_time else (each[:, :v], each[:, v:])
 
     def answers(self, array: NDArray[Any]) -> Any:
         """The answers to the queries; a NumPy scalar if there is a single one."""
@@ -97,6 +113,13 @@ class Asked:
     def are_collisions(self, answers: NDArray[np.int8]) -> Any:
         """The answers to the queries as bools; they must be 0 or 1."""
         return self.answers(answers.view(np.bool_))
+
+
+def asked_of_wang(kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike) -> Asked:
+    """Queries that wang() can answer, or a ValueError."""
+    if _LAYOUTS[kind_of(kind)].vertices == 4 and np.any(separation):
+        raise ValueError(f"separation is not 0, expected 0 for the kind '{kind_of(kind).value}'")
+    return Asked(kind, x, separation)
 
 
 def not_negative(name: str, value: Any) -> float:
@@ -172,12 +195,12 @@ def _vertices(values: ArrayLike, name: str) -> Coordinates:
     return array
 
 
-def _checked_pairs(values: ArrayLike, vertices: int) -> NDArray[np.int32]:
+def _checked_pairs(values: ArrayLike, vertices_of_pair: int, vertices: int) -> NDArray[np.int32]:
     """A copy, so that no other thread can change the numbers after they have been checked."""
     _expect_no_mask(values, 'pairs')
     pairs = np.array(values)
-    if pairs.ndim != 2 or pairs.shape[1] != 4:
-        raise ValueError(f'pairs has shape {pairs.shape}, expected (n, 4)')
+    if pairs.ndim != 2 or pairs.shape[1] != vertices_of_pair:
+        raise ValueError(f'pairs has shape {pairs.shape}, expected (n, {vertices_of_pair})')
     if pairs.dtype.kind not in 'iu':
         raise TypeError(f'pairs has the type {pairs.dtype}, expected integers')
     known = min(vertices, 2**31)

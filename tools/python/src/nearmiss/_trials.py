@@ -45,8 +45,8 @@ class Subject:
             raise ValueError(f'time is {self.time!r}, expected one of {", ".join(_TIME_SORTS)}')
         kinds = _several('kinds', self.kinds, "'vt', 'ee' or both")
         object.__setattr__(self, 'kinds', tuple(kind_of(kind).value for kind in kinds))
-        if not self.kinds:
-            raise ValueError("kinds is empty, expected 'vt', 'ee' or both")
+        if not self.kinds or not set(self.kinds) <= {'vt', 'ee'}:
+            raise ValueError(f"kinds is {self.kinds!r}, expected 'vt', 'ee' or both")
         if not isinstance(self.takes_separation, (bool, np.bool_)):
             raise TypeError(f'takes_separation is {self.takes_separation!r}, expected a bool')
         if not self.name:
@@ -294,7 +294,10 @@ def families() -> dict[str, str]:
 def queries(
     family: str, kind: KindLike, count: int, seed: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The first queries of a kind in a family: x (count, 2, 4, 3) and their separations (count,)."""
+    """The first queries of a kind in a family: x (count, 2, 4, 3) and their separations (count,).
+
+    The families 'v-NAME' have the kinds 'vv' and 've', with 2 and 3 vertices in place of 4.
+    """
     x, separation = _extension().queries(
         _family(family), kind_of(kind).value, _count('count', count), _count('seed', seed)
     )

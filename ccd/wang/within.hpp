@@ -1,0 +1,124 @@
+// Vertex-vertex and vertex-edge CCD (Algorithms 1 and 2) as tests of their own, for any distance R >= 0.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "ccd/wang/motion.hpp"
+#include "ccd/wang/plane_culling.hpp"
+#include "ccd/wang/tolerances.hpp"
+#include "ccd/wang/verdict.hpp"
+#include "ccd/wang/vertex_edge.hpp"
+#include "ccd/wang/vertex_vertex.hpp"
+#include "ccd/wang/wang.hpp"
+
+namespace nearmiss {
+
+namespace detail {
+
+template <class T>
+VertexEdge<T> vectors_of_vertices(const Query& query, const Frame& frame) {
+  return {relative_motion<T>(query, 0, 1, frame), relative_motion<T>(query, 2, 1, frame),
+          relative_motion<T>(query, 0, 2, frame)};
+}
+
+// A bound of all components of the vectors at all times: the largest of their positions at t = 0 plus the
+// largest of their velocities. The computed components have a relative error of at most 2u of this bound, and
+// the sum adds u, so B has room for `bound_needs`. NaN if a position overflows at both times.
+template <class T>
+T bound_of_vectors(const VertexEdge<T>& ve) {
+  const auto largest = [&](const auto& part) {
+    using std::max;
+    return max(max(max_component(part(ve.x0i)), max_component(part(ve.xji))), max_component(part(ve.x0j)));
+  };
+  const bool finite = ve.x0i.xv.isFinite().all() && ve.xji.xv.isFinite().all() && ve.x0j.xv.isFinite().all();
+  if (!finite) return std::numeric_limits<T>::quiet_NaN();
+  const T X = largest([](const Moving<T>& moving) { return Vector3<T>(moving.x()); });
+  const T W = largest([](const Moving<T>& moving) { return Vector3<T>(moving.v()); });
+  return (X + W) * (1 + bound_margin * epsilon<T>());
+}
+
+}  // namespace detail
+
+/// Two vertices, or a vertex and an edge, in the frame in which they are computed, with their bound B and the
+/// distance R that is asked about.
+template <class T>
+struct WithinQuery {
+  VertexEdge<T> ve;  ///< for two vertices, x_ji is 0
+  Frame frame;
+  T B = 0;
+  T R = 0;  ///< the query's separation, rounded up if at all
+
+  /// If `given` is set, it replaces the primitives' own B; a smaller value throws Error (§5).
+  explicit WithinQuery(const Query& query, const std::optional<double>& given = std::nullopt) {
+    using std::ldexp;
+    using std::max;
+    using std::nextafter;
+    const auto own = [&](const Frame& each) {
+      return detail::bound_of_vectors(detail::vectors_of_vertices<T>(query, each));
+    };
+    const auto in = [&](const Frame& each) { return static_cast<T>(ldexp(given.value_or(0), each.total())); };
+    frame = frame_for<T>([&](const Frame& each) { return given ? max(own(each), in(each)) : own(each); });
+    ve = detail::vectors_of_vertices<T>(query, frame);
+    B = detail::bound_of_vectors(ve);
+    if (given) {
+      if (!(in(frame) >= B))
+        throw Error(detail::too_small(*given, ldexp(static_cast<double>(B), -frame.total())));
+      B = in(frame);
+    }
+    R = static_cast<T>(ldexp(query.separation, frame.total()));
+    if (ldexp(static_cast<double>(R), -frame.total()) < query.separation)
+      R = nextafter(R, std::numeric_limits<T>::infinity());
+  }
+
+  /// Whether R is so large that the primitives are within R at t = 0: all components are at most B, and √3 < 2.
+  [[nodiscard]] bool is_always_within() const { return R >= 2 * B; }
+
+  /// The tolerances of a rule for these primitives, unless they are always within R.
+  template <class Rule>
+  [[nodiscard]] Tolerances<T> tolerances(Kind kind, const Rule& rule) const {
+    return kind == Kind::vertex_vertex ? rule.of_vertices(B, R) : rule.of_edge(B, R);
+  }
+};
+
+/// Algorithm 1 with D = R for two vertices, and Algorithm 2 for a vertex and an edge, where R is the query's
+/// separation. Reports all pairs that come within R at some t in [0, 1], and none that stays farther apart than
+/// R plus within_distance_bound(). B is the primitives' own bound, or `given`. For R < 2B, the inequalities of
+/// §4.2 and §4.3 hold (`of_vertices` and `of_edge` of the rules); all other pairs are within R. With culling, a
+/// pair is rejected first if it is more than R apart along one axis at both ends, and hence always.
+template <class T, class Rule = PaperTolerances>
+Verdict wang_within(const Query& query, bool plane_culling, const std::optional<double>& given = std::nullopt,
+                    const Rule& rule = {}) {
+  if (plane_culling && separated_across_axis_by(query.separation, query))
+    return Verdict::rejected(Rejection::planes);
+  const WithinQuery<T> pair(query, given);
+  if (pair.is_always_within()) return Verdict::accepted(Stage::vv, 0);
+  const Tolerances<T> tol = pair.tolerances(query.kind, rule);
+  if (query.kind == Kind::vertex_vertex) {
+    const auto t = vertex_vertex(pair.ve.x0i, tol);
+    if (!t) return Verdict::rejected(Rejection::tests);
+    return Verdict::accepted(Stage::vv, static_cast<double>(*t) + 0.0);  // no -0
+  }
+  const Verdict verdict = vertex_edge(pair.ve, tol);
+  return verdict.hit ? verdict : Verdict::rejected(Rejection::tests);
+}
+
+/// The most by which the distance of a pair that wang_within() reports exceeds its separation, in the unit of
+/// the query's coordinates, rounded up. The distance is at most sqrt(D² + 2δ) (§4.2, §4.3), and that less R is
+/// (D² + 2δ - R²) / (sqrt(D² + 2δ) + R). 16ε D² is more than the rounding errors of all squares.
+template <class Rule = PaperTolerances>
+double within_distance_bound(const Query& query, const std::optional<double>& given = std::nullopt,
+                             const Rule& rule = {}) {
+  const WithinQuery<double> pair(query, given);
+  if (pair.is_always_within()) return std::numeric_limits<double>::denorm_min();  // there are none
+  const Tolerances<double> tol = pair.tolerances(query.kind, rule);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!(tol.D2 < infinity)) return infinity;
+  const double squares = (tol.D2 - pair.R * pair.R) + 2 * tol.delta + 16 * epsilon<double>() * tol.D2;
+  const double bound = squares > 0 ? squares / (tol.distance_bound() + pair.R) * (1 + 0x1p-49) : 0;
+  return std::nextafter(std::ldexp(bound, -pair.frame.total()), infinity);
+}
+
+}  // namespace nearmiss

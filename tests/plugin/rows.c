@@ -1,0 +1,30 @@
+/* Decides two vertices, and a vertex and an edge: reports a query whose numbers are 1, 2, 3 ... to the last one
+ * of its row. Its bound is the row's last number. */
+#include "ccd/nearmiss_subject.h"
+
+static size_t numbers_of(int kind) { return kind == NEARMISS_VERTEX_VERTEX ? 12 : 18; }
+
+static void decide(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                   double* toi) {
+  (void)state, (void)h, (void)toi;
+  for (size_t i = 0; i < n; ++i) {
+    answer[i] = NEARMISS_COLLISION;
+    for (size_t k = 0; k < numbers_of(kind); ++k)
+      if (x[numbers_of(kind) * i + k] != (double)(k + 1)) answer[i] = NEARMISS_NO_COLLISION;
+  }
+}
+
+static double bound(void* state, int kind, const double* x) {
+  (void)state;
+  return x[numbers_of(kind) - 1];
+}
+
+const nearmiss_subject* nearmiss_get_subject(size_t index) {
+  static const nearmiss_subject detector = {.interface_version = NEARMISS_INTERFACE,
+                                            .name = "rows",
+                                            .kinds = NEARMISS_VERTEX_VERTEX + NEARMISS_VERTEX_EDGE,
+                                            .batch = 16,
+                                            .decide = decide,
+                                            .distance_bound = bound};
+  return index == 0 ? &detector : NULL;
+}
