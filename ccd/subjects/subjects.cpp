@@ -46,8 +46,7 @@ class BuiltInSubject final : public Subject {
       if (!given_) {
         wang_in_lanes(QueryRows(queries), verdicts);
         for (std::size_t i = 0; i < queries.size(); ++i)
-          if (!is_decided(verdicts[i]) || !is_of_meshes(queries[i].kind))
-            verdicts[i] = decide_plainly(queries[i]);
+          if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
         return;
       }
     }

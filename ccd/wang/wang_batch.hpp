@@ -17,8 +17,8 @@ constexpr bool is_decided(const Verdict& verdict) {
 }
 
 /// Gives the verdicts of `wang` (wang.hpp), with each pair's own bound, on those queries that need no
-/// vertex-edge tests, no other frame and no other order of end points. All others, and queries with a
-/// coordinate that is not finite, are left undecided.
+/// vertex-edge tests, no other frame and no other order of end points. All others, those without a triangle or
+/// two edges, and queries with a coordinate that is not finite, are left undecided.
 void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
                    Instructions instructions = chosen_instructions());
 

@@ -30,8 +30,8 @@ class WangLanes {
  public:
   WangLanes(const QueryRows& queries, Verdict* verdicts) : queries_(queries), verdicts_(verdicts) {}
 
-  /// Decides the queries of kind `kind` in a batch of at most `wang_batch_size`.
-  void run() {
+  /// Decides the queries of kind `kind` in a batch of at most `wang_batch_size`, and returns their number.
+  std::size_t run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);
     reject_clear(reject_separated(of_kind));
@@ -39,6 +39,7 @@ class WangLanes {
     refine_roots();
     test_candidates();
     conclude();
+    return of_kind.size();
   }
 
  private:
@@ -321,7 +322,11 @@ class WangLanes {
 
 template <int n>
 void decide_batch(const QueryRows& queries, Verdict* verdicts) {
-  for_each_kind_of_meshes([&]<Kind kind>() { WangLanes<n, kind>(queries, verdicts).run(); });
+  std::size_t looked_at = 0;
+  for_each_kind_of_meshes([&]<Kind kind>() { looked_at += WangLanes<n, kind>(queries, verdicts).run(); });
+  if (looked_at == queries.size()) return;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (!is_of_meshes(queries.kind(i))) verdicts[i] = undecided_verdict;
 }
 
 }  // namespace nearmiss

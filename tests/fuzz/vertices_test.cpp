@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "ccd/wang/bounds/tight_tolerances.hpp"
 #include "fuzz/families/families.hpp"
@@ -137,6 +138,24 @@ TEST(TolerancesOfVertices, OnlySubjectsWithoutTimesAndTheOracleDecideThem) {
   }
   for (const char* name : {"wang", "wang-eps", "exact", "exact-decision"})
     EXPECT_TRUE(make_any_subject(name)->takes_separation(Kind::vertex_vertex)) << name;
+}
+
+TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < 600; ++i) {
+    const char* const family = i % 4 < 2 ? "uniform" : "v-uniform~drawn";
+    queries.push_back(make_query(find_family(family), 1, i));
+  }
+  for (const char* name : {"wang", "wang-scalar", "wang-tight"}) {
+    const auto subject = make_subject(name);
+    std::vector<Verdict> verdicts(queries.size(), Verdict::accepted(Stage::exact, 2));  // left from before
+    subject->decide(queries, verdicts);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const Verdict alone = subject->decide(queries[i]);
+      EXPECT_EQ(verdicts[i].hit, alone.hit) << name << ' ' << i;
+      EXPECT_EQ(verdicts[i].stage, alone.stage) << name << ' ' << i;
+    }
+  }
 }
 
 TEST(TolerancesOfVertices, APairWithoutSizeIsReported) {
