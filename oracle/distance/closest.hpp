@@ -54,7 +54,7 @@ template <class Real>
 struct Candidate {
   ClosestFeatures features;
   Vec<Real> difference;
-  Real a, b;
+  Real a{}, b{};
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
