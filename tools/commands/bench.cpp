@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
@@ -86,12 +87,18 @@ Input file_input(const std::filesystem::path& path, const SeparationOption& sepa
   return input;
 }
 
+/// Whether some queries have a separation.
+bool any_separation(const std::vector<Query>& queries) {
+  return std::ranges::any_of(queries, [](const Query& query) { return query.separation > 0; });
+}
+
 /// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be
 /// timed. NaN if no query was answered.
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
   using std::chrono::steady_clock;
-  const Query& first = queries.front();
-  if (!subject.decides(first.kind)) return std::numeric_limits<double>::quiet_NaN();
+  const Kind kind = queries.front().kind;
+  if (!subject.decides(kind) || (any_separation(queries) && !subject.takes_separation(kind)))
+    return std::numeric_limits<double>::quiet_NaN();
   constexpr auto least = std::chrono::microseconds(500);
   const auto start = steady_clock::now();
   BatchTime sum;
@@ -155,12 +162,13 @@ std::vector<Input> inputs_of(const Options& options) {
   return inputs;
 }
 
-bool any_separation(const std::vector<Input>& inputs) {
+/// Throws Error if a subject can answer no kind of the queries that have a separation.
+void expect_separations_of(const std::vector<Input>& inputs, const Subjects& subjects) {
+  std::set<Kind> separated;
   for (const Input& input : inputs)
     for (const auto& [kind, queries] : input.queries)
-      for (const Query& query : queries)
-        if (query.separation > 0) return true;
-  return false;
+      if (any_separation(queries)) separated.insert(kind);
+  if (!separated.empty()) expect_separations(subjects, std::vector(separated.begin(), separated.end()));
 }
 
 /// A number with some decimals, as a table shows it.
@@ -233,7 +241,7 @@ int run(const Options& options) {
   limits.stop = &stop;
   const Subjects subjects = make_subjects(options.subjects, limits);
   const std::vector<Input> inputs = inputs_of(options);
-  if (any_separation(inputs)) expect_separations(subjects);
+  expect_separations_of(inputs, subjects);
   const std::string over = "/" + subjects.front()->name();
   std::FILE* const out = options.json.text();
   fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
