@@ -86,7 +86,7 @@ std::string what_was_answered(const Finding& finding) {
   }
 }
 
-/// What the points are: "A vertex (the first point) and a triangle (the other three)".
+/// A text that says which points belong to which primitive.
 std::string_view primitives(Kind kind) {
   switch (kind) {
     case Kind::vertex_triangle:

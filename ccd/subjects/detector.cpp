@@ -22,12 +22,14 @@ static_assert(bit_of(Kind::edge_edge) == NEARMISS_EDGE_EDGE);
 static_assert(bit_of(Kind::vertex_vertex) == NEARMISS_VERTEX_VERTEX);
 static_assert(bit_of(Kind::vertex_edge) == NEARMISS_VERTEX_EDGE);
 
-/// The coordinates of `count` queries without those of repeated vertices.
-std::vector<double> rows_of(Kind kind, const double* x, std::size_t count) {
+/// The coordinates of `count` queries without those of repeated vertices: x itself if there are none, and a copy
+/// in `shorter` otherwise.
+const double* rows_of(Kind kind, const double* x, std::size_t count, std::vector<double>& shorter) {
   const std::size_t size = coordinate_count(kind);
-  std::vector<double> rows(count * size);
-  for (std::size_t i = 0; i < count; ++i) copy_coordinates(kind, x + 24 * i, &rows[size * i]);
-  return rows;
+  if (vertices(kind) == 4) return x;
+  shorter.resize(count * size);
+  for (std::size_t i = 0; i < count; ++i) copy_coordinates(kind, x + 24 * i, &shorter[size * i]);
+  return shorter.data();
 }
 
 std::string text_or_empty(const char* text) { return text == nullptr ? "" : text; }
@@ -225,19 +227,16 @@ void Detector::decide(Kind kind, const double* x, const double* separations, std
                       std::span<double> times) const {
   std::fill(answers.begin(), answers.end(), std::numeric_limits<int>::min());
   std::fill(times.begin(), times.end(), nan);
-  const auto decide_rows = [&](const double* rows) {
-    subject_.decide(state_, bit_of(kind), answers.size(), rows, separations, answers.data(), times.data());
-  };
-  if (vertices(kind) == 4)
-    decide_rows(x);
-  else
-    decide_rows(rows_of(kind, x, answers.size()).data());
+  std::vector<double> shorter;
+  subject_.decide(state_, bit_of(kind), answers.size(), rows_of(kind, x, answers.size(), shorter),
+                  separations, answers.data(), times.data());
   make_arithmetic_plain();
 }
 
 BoundAnswer Detector::bound(Kind kind, const double* x) const {
   if (!info_.claims_bound) return BoundAnswer::given(std::numeric_limits<double>::infinity());
-  const double bound = subject_.distance_bound(state_, bit_of(kind), rows_of(kind, x, 1).data());
+  std::vector<double> shorter;
+  const double bound = subject_.distance_bound(state_, bit_of(kind), rows_of(kind, x, 1, shorter));
   make_arithmetic_plain();
   return BoundAnswer::given(bound);
 }

@@ -56,13 +56,16 @@ struct WithinQuery {
     using std::ldexp;
     using std::max;
     using std::nextafter;
-    const auto own = [&](const Frame& each) {
-      return detail::bound_of_vectors(detail::vectors_of_vertices<T>(query, each));
+    const auto form = [&](const Frame& each) {
+      ve = detail::vectors_of_vertices<T>(query, each);
+      B = detail::bound_of_vectors(ve);
     };
     const auto in = [&](const Frame& each) { return static_cast<T>(ldexp(given.value_or(0), each.total())); };
-    frame = frame_for<T>([&](const Frame& each) { return given ? max(own(each), in(each)) : own(each); });
-    ve = detail::vectors_of_vertices<T>(query, frame);
-    B = detail::bound_of_vectors(ve);
+    frame = frame_for<T>([&](const Frame& each) {
+      form(each);
+      return given ? max(B, in(each)) : B;
+    });
+    if (!frame.identity()) form(frame);
     if (given) {
       if (!(in(frame) >= B))
         throw Error(detail::too_small(*given, ldexp(static_cast<double>(B), -frame.total())));
