@@ -2,9 +2,9 @@
  * Queries in the caller's own memory, for the functions of wang.h and oracle.h. C99.
  *
  * A query is vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, the edges
- * x0x1 and x2x3, the vertices x0 and x1, or a vertex x0 and an edge x1x2. All coordinates have one unit, which is arbitrary; times are fractions of the
- * step. The question is whether the distance of the two closed primitives is at most the separation h at some
- * t in [0, 1]; h = 0 asks whether they touch. */
+ * x0x1 and x2x3, the vertices x0 and x1, or a vertex x0 and an edge x1x2. All coordinates have one unit,
+ * which is arbitrary; times are fractions of the step. The question is whether the distance of the two closed
+ * primitives is at most the separation h at some t in [0, 1]; h = 0 asks whether they touch. */
 #ifndef NEARMISS_QUERIES_H
 #define NEARMISS_QUERIES_H
 

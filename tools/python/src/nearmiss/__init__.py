@@ -15,7 +15,8 @@ kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, 'ee' for the edges x0x1 and
        x0 and x1, or 've' for a vertex x0 and an edge x1x2
 x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or
        MeshPairs; with 2 and 4 in place of 4 and 8 for 'vv', 3 and 6 for 've'. (2, 4, 3) or (8, 3) is one query,
-       for which results are NumPy scalars instead of arrays (n,). float64 and float32 are read in place, with any strides; integers are converted to float64.
+       for which results are NumPy scalars instead of arrays (n,). float64 and float32 are read in place, with
+       any strides; integers are converted to float64.
 
 and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation
 that is negative or not finite. Other Python threads run during a call. trial() puts a CCD that is a Python
