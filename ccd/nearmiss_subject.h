@@ -1,6 +1,6 @@
-/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts up
+/* The plug-in interface of nearmiss, version 3: a shared object that exports nearmiss_get_subject() puts up
  * to 64 continuous collision detectors on trial. C99; this header is the whole interface. A field that an
- * initialiser leaves out is 0. */
+ * initialiser leaves out is 0. A shared object that was compiled with version 2 goes on working. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-#define NEARMISS_INTERFACE 2
+#define NEARMISS_INTERFACE 3
 
 /* Kinds of queries. */
 #define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
@@ -48,7 +48,7 @@ typedef struct {
   int kinds;            /* sum of the kinds that it decides */
   int bits;             /* 53; or 24: it gets x and h rounded to float, and is judged on these; 0 means 53 */
   int time_sort;        /* the sort of time that it gives with every collision */
-  int takes_separation; /* 1 if it uses h */
+  int takes_separation; /* 1 if it uses h, for all of its kinds */
   size_t batch;         /* how many queries decide() should get at once, if possible; 0 means 1 */
   nearmiss_contract contract;
 
@@ -63,10 +63,10 @@ typedef struct {
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
    * any time in [0, 1]; h = 0 asks for contact.
-   *   x: n rows of finite doubles, x0 x1 .. at t = 0, then at t = 1; x, y, z of each: 24 numbers, or 12 for two
-   *      vertices, and 18 for a vertex and an edge. The vertices move linearly.
-   *   h: n separations, at least 0; 0 unless takes_separation is set. Rounded to float, like x, if `bits`
-   *      is 24.
+   *   x: n rows of finite doubles, x0 x1 .. at t = 0, then at t = 1; x, y, z of each: 24 numbers, or 12 for
+   *      two vertices, and 18 for a vertex and an edge. The vertices move linearly.
+   *   h: n separations, at least 0; 0 unless it uses h for this kind. Rounded to float, like x, if `bits` is
+   *      24.
    *   answer: n answers, all to be written.
    *   toi: n times of impact in [0, 1], in the unit of the time step. They are NaN on entry, and matter only
    *        for collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is
@@ -79,9 +79,15 @@ typedef struct {
    * nearest, keeps subnormals and does not trap; if the detector changes this, nearmiss restores it. */
   void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
 
-  /* The largest distance of a false positive that the detector claims for a query, in the unit of its
-   * coordinates; NULL if it claims no bound. */
+  /* The largest distance of a false positive, less h, that the detector claims for a query, in the unit of
+   * its coordinates, if that does not depend on h; NULL otherwise, or if it claims no bound. */
   double (*distance_bound)(void* state, int kind, const double* x);
+
+  /* New in version 3: */
+
+  int separation_kinds; /* sum of the kinds for which it uses h, if these are not all of its kinds */
+  /* As distance_bound, which is not called any more if this is not NULL, but it may depend on h. */
+  double (*distance_bound_within)(void* state, int kind, const double* x, double h);
 } nearmiss_subject;
 
 /* The one exported function. Returns detector number `index`, from 0; NULL after the last one. The object

@@ -86,15 +86,21 @@ void expect_kind(const Subject& subject, Kind kind) {
 void expect_separation(const Subject& subject, std::span<const Kind> of) {
   if (std::ranges::none_of(of, [&](Kind kind) { return subject.decides(kind); }))
     expect_kind(subject, of.front());
-  if (std::ranges::none_of(of, [&](Kind kind) { return subject.takes_separation(kind); }))
-    throw Error(
-        fmt::format("{}: answers for contact only, expected subjects that take a separation "
-                    "(nearmiss subjects)",
-                    subject.name()));
+  const auto takes = [&](Kind kind) { return subject.takes_separation(kind); };
+  const bool takes_some = std::ranges::any_of(kinds, takes);
+  if (std::ranges::none_of(of, takes))
+    throw Error(fmt::format(
+        "{}: answers for contact only{}, expected subjects that take a separation (nearmiss subjects)",
+        subject.name(), takes_some ? fmt::format(" in queries of kind {}", short_name(of.front())) : ""));
 }
 
 void expect_separations(const Subjects& subjects, std::span<const Kind> of) {
-  for (const auto& subject : subjects) expect_separation(*subject, of);
+  const auto decides_some = [&](const auto& subject) {
+    return std::ranges::any_of(of, [&](Kind kind) { return subject->decides(kind); });
+  };
+  const bool is_in_vain = std::ranges::none_of(subjects, decides_some);
+  for (const auto& subject : subjects)
+    if (is_in_vain || decides_some(subject)) expect_separation(*subject, of);
 }
 
 void add_bound_option(CLI::App& command, std::string& bound) {

@@ -50,8 +50,10 @@ std::vector<std::string> short_names_of_kinds();
 /// Throws Error if the subject does not decide a kind of queries.
 void expect_kind(const Subject& subject, Kind kind);
 
-/// Throws Error if the subject, or one of several subjects, takes separations for none of these kinds.
+/// Throws Error if the subject takes separations for none of these kinds.
 void expect_separation(const Subject& subject, std::span<const Kind> of = kinds_of_meshes);
+/// Throws Error if one of the subjects that decide some of these kinds takes separations for none of them, or
+/// if no subject decides any.
 void expect_separations(const Subjects& subjects, std::span<const Kind> of = kinds_of_meshes);
 
 /// --bound B: one bound for every pair.

@@ -11,9 +11,11 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "ccd/query/printable.hpp"
+#include "corpus/query_text.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search/search.hpp"
+#include "fuzz/subjects/exact.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
@@ -70,32 +72,78 @@ Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
   }
 }
 
+/// The kinds chosen with --kind, or else those that a subject decides.
+std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& subjects) {
+  if (options.kinds.empty()) {
+    const bool of_meshes = !options.separation.of_families().empty();
+    const bool of_vertices = of_meshes || !options.separation.is_given();  // as_asked()
+    return kinds_to_ask(subjects, [&](Kind kind) { return is_of_meshes(kind) ? of_meshes : of_vertices; });
+  }
+  std::vector<Kind> chosen;
+  for (const std::string& each : options.kinds) chosen.push_back(parse_kind(each, "--kind"));
+  for (const Kind kind : chosen)
+    if (std::ranges::count(chosen, kind) > 1)
+      throw Error(fmt::format("--kind: found {} twice, expected different kinds", short_name(kind)));
+  return chosen;
+}
+
+/// A family of which only the chosen kinds are asked. If --kind is given, throws Error for a family that has
+/// none of them.
+Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
+  if (const auto chosen = of_kinds(family, asked)) return *chosen;
+  if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");
+  return family;
+}
+
 /// The families chosen with --family, --sweep, --mesh and --search.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
+  const std::vector<Kind> asked = chosen_kinds(options, subjects);
+  const std::string separation = options.separation.of_families();
+  const bool asks_for_contact = options.separation.is_given() && separation.empty();
   std::vector<Family> known(families().begin(), families().end());
-  if (!options.mesh.empty()) known.push_back(family_of_mesh(options, stop));
+  if (!options.mesh.empty()) with_kinds(options, known.emplace_back(family_of_mesh(options, stop)), asked);
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
   const std::size_t of_meshes = known.size();
   known.insert(known.end(), vertex_families().begin(), vertex_families().end());
-  // Only with --separation drawn does "all" include the families that have separations of their own.
-  const std::string separation = options.separation.of_families();
-  const bool is_drawn = separation == drawn_separation;
-  const auto all = std::span(known).first(is_drawn ? of_meshes : contact);
+  // Only with --separation drawn does "all" include the families of meshes that have separations of their
+  // own.
+  std::vector<Family> all(
+      known.begin(),
+      known.begin() + static_cast<std::ptrdiff_t>(separation == drawn_separation ? of_meshes : contact));
+  all.insert(all.end(), vertex_families().begin(), vertex_families().end());
+  std::erase_if(all, [&](const Family& family) {
+    return !of_kinds(family, asked) || (asks_for_contact && family.has_separation);
+  });
   auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
                                        : find_sweeps(options.sweeps, options.steps, known);
+  const bool are_named = !options.sweeps.empty() || options.families != CampaignOptions().families;
   for (Family& family : chosen) {
-    const bool needs_one = !is_of_meshes(family.kinds[0]) && !options.separation.is_given();
-    const std::string& own = needs_one ? std::string(drawn_separation) : separation;
-    if (!own.empty() && !family.has_separation) family = with_separation(family, own);
+    if (!separation.empty() && !family.has_separation) family = with_separation(family, separation);
+    if (!options.separation.is_given()) family = as_asked(family);
+    family = with_kinds(options, family, asked);
+    // Without a word about separations, a subject that takes none is not asked for them.
+    if (family.has_separation && (are_named || options.separation.is_given()))
+      expect_separations(subjects, kinds_asked(family));
   }
-  for (const Family& family : chosen)
-    if (family.has_separation) expect_separations(subjects, family.kinds);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
-    for (Family& family : searches(*subject, stop, separation)) chosen.push_back(std::move(family));
+    for (const Family& family : searches(*subject, stop, separation))
+      if (const auto some = of_kinds(family, asked); some && !(asks_for_contact && family.has_separation))
+        chosen.push_back(*some);
   return chosen;
+}
+
+/// The short names of the kinds that a campaign asks: "vt,ee".
+std::string names_of_kinds_asked(const CampaignPlan& plan) {
+  std::vector<std::string_view> names;
+  for (const Kind kind : kinds)
+    if (std::ranges::any_of(plan.families, [&](const Family& family) {
+          return std::ranges::count(kinds_asked(family), kind) > 0;
+        }))
+      names.push_back(short_name(kind));
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 /// Everything that the campaign's results depend on. The time limit is left out, because it changes the
@@ -112,6 +160,7 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
     info["families"] = fmt::format("{} in {} steps", families, options.steps);
     again += fmt::format(" --sweep {} --steps {}", families, options.steps);
   }
+  note_option(info, "kinds", "--kind", names_of_kinds_asked(plan));
   if (const std::string separation = options.separation.of_families(); !separation.empty())
     note_option(info, "separation", "--separation", separation);
   if (options.search) {

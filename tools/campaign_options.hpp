@@ -15,6 +15,7 @@ namespace nearmiss::tools {
 struct CampaignOptions {
   TrialOptions trial;
   std::vector<std::string> families{"all"}, sweeps;
+  std::vector<std::string> kinds;  ///< short names; empty: those of kinds_to_ask()
   SeparationOption separation;
   int steps = 17;
   bool search = false;

@@ -1,6 +1,7 @@
 // The kinds of queries, and what their primitives are made of.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,9 @@ inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::
 
 /// The kinds of the pairs that decide whether triangle meshes collide. Families and scenes have them in turn.
 inline constexpr std::array kinds_of_meshes{Kind::vertex_triangle, Kind::edge_edge};
+
+/// The other kinds, with less than four vertices.
+inline constexpr std::array kinds_of_vertices{Kind::vertex_vertex, Kind::vertex_edge};
 
 /// A primitive, by the number of its vertices.
 enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
@@ -130,7 +134,9 @@ constexpr std::string_view short_name(Kind kind) { return topology(kind).short_n
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
 /// Whether triangle meshes have pairs of this kind: whether it is one of kinds_of_meshes.
-constexpr bool is_of_meshes(Kind kind) { return kind == Kind::vertex_triangle || kind == Kind::edge_edge; }
+constexpr bool is_of_meshes(Kind kind) {
+  return std::ranges::find(kinds_of_meshes, kind) != kinds_of_meshes.end();
+}
 
 /// The number of vertices of both primitives.
 constexpr int vertices(Kind kind) { return split(kind) + static_cast<int>(topology(kind).second); }

@@ -17,16 +17,19 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+/// The oldest version of the interface whose plug-ins still run.
+constexpr int oldest_interface = 2;
+
 static_assert(bit_of(Kind::vertex_triangle) == NEARMISS_VERTEX_TRIANGLE);
 static_assert(bit_of(Kind::edge_edge) == NEARMISS_EDGE_EDGE);
 static_assert(bit_of(Kind::vertex_vertex) == NEARMISS_VERTEX_VERTEX);
 static_assert(bit_of(Kind::vertex_edge) == NEARMISS_VERTEX_EDGE);
 
-/// The coordinates of `count` queries without those of repeated vertices: x itself if there are none, and a copy
-/// in `shorter` otherwise.
+/// The coordinates of `count` queries without those of repeated vertices: x itself if there are none, and a
+/// copy in `shorter` otherwise.
 const double* rows_of(Kind kind, const double* x, std::size_t count, std::vector<double>& shorter) {
   const std::size_t size = coordinate_count(kind);
-  if (vertices(kind) == 4) return x;
+  if (size == std::tuple_size_v<decltype(Query::x)>) return x;
   shorter.resize(count * size);
   for (std::size_t i = 0; i < count; ++i) copy_coordinates(kind, x + 24 * i, &shorter[size * i]);
   return shorter.data();
@@ -48,17 +51,31 @@ Contract contract_of(const nearmiss_contract& given) {
           .longest = given.longest};
 }
 
+/// The fields that version 3 added. A shared object that was compiled with version 2 has none of them.
+struct NewFields {
+  int separation_kinds = 0;
+  decltype(nearmiss_subject::distance_bound_within) distance_bound_within = nullptr;
+
+  explicit NewFields(const nearmiss_subject& subject) {
+    if (subject.interface_version < NEARMISS_INTERFACE) return;
+    separation_kinds = subject.separation_kinds;
+    distance_bound_within = subject.distance_bound_within;
+  }
+};
+
 DetectorInfo info_of(const nearmiss_subject& subject, const std::string& options) {
-  return {.name = subject.name + (options.empty() ? "" : ":" + options),
-          .version = text_or_empty(subject.version),
-          .about = text_or_empty(subject.about),
-          .kinds = subject.kinds,
-          .is_narrow = subject.bits == 24,
-          .time_sort = static_cast<TimeSort>(subject.time_sort),
-          .takes_separation = subject.takes_separation != 0,
-          .batch = std::max<std::size_t>(1, subject.batch),
-          .claims_bound = subject.distance_bound != nullptr,
-          .contract = contract_of(subject.contract)};
+  return {
+      .name = subject.name + (options.empty() ? "" : ":" + options),
+      .version = text_or_empty(subject.version),
+      .about = text_or_empty(subject.about),
+      .kinds = subject.kinds,
+      .is_narrow = subject.bits == 24,
+      .time_sort = static_cast<TimeSort>(subject.time_sort),
+      .separation_kinds = subject.takes_separation != 0 ? subject.kinds : NewFields(subject).separation_kinds,
+      .batch = std::max<std::size_t>(1, subject.batch),
+      .claims_bound =
+          subject.distance_bound != nullptr || NewFields(subject).distance_bound_within != nullptr,
+      .contract = contract_of(subject.contract)};
 }
 
 void find_nothing(void* /*state*/, int /*kind*/, std::size_t n, const double* /*x*/, const double* /*h*/,
@@ -80,7 +97,9 @@ const nearmiss_subject& empty_subject() {
                                         .open = nullptr,
                                         .close = nullptr,
                                         .decide = find_nothing,
-                                        .distance_bound = nullptr};
+                                        .distance_bound = nullptr,
+                                        .separation_kinds = 0,
+                                        .distance_bound_within = nullptr};
   return subject;
 }
 
@@ -114,6 +133,8 @@ std::string fault_of(const nearmiss_subject& subject) {
   if (subject.decide == nullptr) return "'" + name + "' without the function decide";
   if (subject.kinds < 1 || subject.kinds > bits_of_all_kinds)
     return "'" + name + "' with no known kind of queries";
+  if (const int of = NewFields(subject).separation_kinds; (of & subject.kinds) != of)
+    return "'" + name + "' with separations for a kind of queries that it does not decide";
   if (subject.bits != 0 && subject.bits != 24 && subject.bits != 53)
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
   if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
@@ -123,6 +144,10 @@ std::string fault_of(const nearmiss_subject& subject) {
 }
 
 bool decides(const DetectorInfo& info, Kind kind) { return (info.kinds & bit_of(kind)) != 0; }
+
+bool takes_separation(const DetectorInfo& info, Kind kind) {
+  return (info.separation_kinds & bit_of(kind)) != 0;
+}
 
 Query rounded_for(const DetectorInfo& info, const Query& query) {
   if (!info.is_narrow) return query;
@@ -157,9 +182,10 @@ namespace {
 /// Throws Error unless a detector follows nearmiss_subject.h and its name differs from the others.
 void expect_usable(const std::string& path, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names) {
-  if (subject.interface_version != NEARMISS_INTERFACE)
+  if (subject.interface_version < oldest_interface || subject.interface_version > NEARMISS_INTERFACE)
     throw Error(path + ": found version " + std::to_string(subject.interface_version) +
-                " of the plug-in interface, expected " + std::to_string(NEARMISS_INTERFACE));
+                " of the plug-in interface, expected " + std::to_string(oldest_interface) + " or " +
+                std::to_string(NEARMISS_INTERFACE));
   std::string fault = fault_of(subject);
   if (fault.empty() && std::find(other_names.begin(), other_names.end(), subject.name) != other_names.end())
     fault = "two detectors with the name '" + std::string(subject.name) + "'";
@@ -233,10 +259,13 @@ void Detector::decide(Kind kind, const double* x, const double* separations, std
   make_arithmetic_plain();
 }
 
-BoundAnswer Detector::bound(Kind kind, const double* x) const {
+BoundAnswer Detector::bound(Kind kind, const double* x, double separation) const {
   if (!info_.claims_bound) return BoundAnswer::given(std::numeric_limits<double>::infinity());
   std::vector<double> shorter;
-  const double bound = subject_.distance_bound(state_, bit_of(kind), rows_of(kind, x, 1, shorter));
+  const double* const row = rows_of(kind, x, 1, shorter);
+  const auto within = NewFields(subject_).distance_bound_within;
+  const double bound = within != nullptr ? within(state_, bit_of(kind), row, separation)
+                                         : subject_.distance_bound(state_, bit_of(kind), row);
   make_arithmetic_plain();
   return BoundAnswer::given(bound);
 }

@@ -20,7 +20,7 @@ struct DetectorInfo {
   int kinds = 0;
   bool is_narrow = false;  ///< whether it takes coordinates of 24 bits
   TimeSort time_sort{};
-  bool takes_separation = false;
+  int separation_kinds = 0;  ///< those for which it uses h, as a sum of bits
   std::size_t batch = 1;
   bool claims_bound = false;
   Contract contract;
@@ -39,6 +39,8 @@ std::string fault_of(const Contract& contract);
 
 /// Whether a detector decides queries of a kind.
 bool decides(const DetectorInfo& info, Kind kind);
+/// Whether a detector uses the separation of queries of a kind.
+bool takes_separation(const DetectorInfo& info, Kind kind);
 /// The query that a detector decides. If the detector is narrow, numbers are rounded to float, and those
 /// beyond the range of float to the largest float.
 Query rounded_for(const DetectorInfo& info, const Query& query);
@@ -83,7 +85,7 @@ class Detector {
   /// to float if the detector is narrow.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
-  [[nodiscard]] BoundAnswer bound(Kind kind, const double* x) const;
+  [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
 
   /// A detector that does nothing and finds no collision.
   static const Detector& empty();

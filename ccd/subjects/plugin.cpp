@@ -99,8 +99,9 @@ Verdict Plugin::decide(const Query& query) const {
 }
 
 BoundAnswer Plugin::ask_bound(const Query& query) const {
+  const Query seen = rounded(query);
   return with_detector(
-      [&](const Detector& detector) { return detector.bound(query.kind, rounded(query).x.data()); });
+      [&](const Detector& detector) { return detector.bound(query.kind, seen.x.data(), seen.separation); });
 }
 
 double Plugin::distance_bound(const Query& query) const { return ask_bound(query).bound_or_nan(); }

@@ -49,7 +49,9 @@ class Plugin final : public Subject {
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override;
   [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
   [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation(Kind /*kind*/) const override { return info_.takes_separation; }
+  [[nodiscard]] bool takes_separation(Kind kind) const override {
+    return nearmiss::takes_separation(info_, kind);
+  }
   [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
   [[nodiscard]] Contract contract() const override { return info_.contract; }
   [[nodiscard]] bool rounds() const override { return info_.is_narrow; }

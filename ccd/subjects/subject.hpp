@@ -90,8 +90,9 @@ class Subject {
   virtual void time_each(std::span<const Query> queries,
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
-  /// The largest distance of a false positive that this subject claims, in the query's unit of length. It is
-  /// infinity if the subject claims nothing or more than the largest double, and NaN if it fails to answer.
+  /// The largest distance of a false positive, less the query's separation, that this subject claims, in the
+  /// query's unit of length. It is infinity if the subject claims nothing or more than the largest double,
+  /// and NaN if it fails to answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
   /// The distance bound, or why the subject fails to give it.
@@ -105,7 +106,8 @@ class Subject {
   /// Whether the subject decides queries of a kind. It is not asked about other kinds.
   [[nodiscard]] virtual bool decides(Kind kind) const { return is_of_meshes(kind); }
 
-  /// Whether the subject answers queries of a kind with a separation h > 0. If not, it is not asked about them.
+  /// Whether the subject answers queries of a kind with a separation h > 0. If not, it is not asked about
+  /// them.
   [[nodiscard]] virtual bool takes_separation(Kind /*kind*/) const { return false; }
 
   /// What the time of a verdict means, for collisions.

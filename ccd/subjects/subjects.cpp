@@ -13,6 +13,7 @@
 #include "ccd/wang/advance.hpp"
 #include "ccd/wang/basic.hpp"
 #include "ccd/wang/bounds/tight_tolerances.hpp"
+#include "ccd/wang/closest_approach.hpp"
 #include "ccd/wang/loosened.hpp"
 #include "ccd/wang/pair_bound.hpp"
 #include "ccd/wang/wang.hpp"
@@ -26,8 +27,8 @@ namespace {
 
 /// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
 /// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
-/// `claims_bound`, `takes_separation` and `time_sort`. If it decides two vertices, and a vertex and an edge, it
-/// has `static Verdict decide_within(query, given)`, and takes separations for these kinds.
+/// `claims_bound`, `takes_separation` and `time_sort`. If it decides two vertices, and a vertex and an edge,
+/// it has `static Verdict decide_within(query, given)`, and takes separations for these kinds.
 template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:
@@ -71,9 +72,9 @@ class BuiltInSubject final : public Subject {
   [[nodiscard]] TimeSort time_sort() const override { return Policy::time_sort; }
 
  private:
-  /// Whether the policy decides two vertices, and a vertex and an edge. The times of Algorithms 1 and 2 are no
-  /// lower bounds.
-  static constexpr bool decides_vertices = Policy::time_sort == TimeSort::none && requires {
+  /// Whether the policy decides two vertices, and a vertex and an edge. The times of Algorithms 1 and 2 are
+  /// no lower bounds.
+  static constexpr bool decides_vertices = Policy::time_sort != TimeSort::lower_bound && requires {
     &Policy::decide_within;
   };
 
@@ -98,6 +99,9 @@ struct Basic {
   static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
     return basic<kind, double, plane_culling>(query);
   }
+  static Verdict decide_within(const Query& query, const std::optional<double>& /*given*/) {
+    return closest_approach<plane_culling>(query);
+  }
   static double distance_bound(const Query& /*query*/, const std::optional<double>& /*given*/) {
     return std::numeric_limits<double>::infinity();
   }
@@ -112,6 +116,7 @@ struct Empty : Basic<false> {
   static Verdict decide(const Query& /*query*/, const std::optional<double>& /*given*/) {
     return {};
   }
+  static Verdict decide_within(const Query& /*query*/, const std::optional<double>& /*given*/) { return {}; }
 };
 
 template <WangOptions options, class Rule = PaperTolerances>
@@ -132,9 +137,10 @@ struct Wang {
     return distance_bound_of(Rule()(1.0), given.value_or(pair_bound(query)));
   }
   static double needed_tolerance(const Query& query, const std::optional<double>& given) {
-    if (!is_of_meshes(query.kind)) return std::numeric_limits<double>::quiet_NaN();
     return least_loosening([&](double s) {
       const Loosened<Rule> tolerances{{}, s};
+      if (!is_of_meshes(query.kind))
+        return wang_within<double>(query, options.plane_culling, given, tolerances).hit;
       return with_kind(
           query.kind, [&]<Kind kind>() { return wang<kind, double, options>(query, given, tolerances).hit; });
     });
@@ -184,7 +190,8 @@ constexpr Entry entry(std::string_view name, std::string_view about) {
 }
 
 constexpr std::array registry{
-    entry<Basic<true>>("basic", "cubic CCD without any tolerance, plane culling: the baseline"),
+    entry<Basic<true>>(
+        "basic", "cubic CCD, or closest approach of vertices and edges, without any tolerance: the baseline"),
     entry<Basic<false>>("basic-plain", "the same without plane culling"),
     entry<Wang<WangOptions{true, VeCulling::per_root}>, true>(
         "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),

@@ -16,7 +16,20 @@ struct Loosened {
 
   template <class T>
   [[nodiscard]] Tolerances<T> operator()(T B) const {
-    Tolerances<T> tol = tolerances(B);
+    return loosened(tolerances(B));
+  }
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_vertices(T B, T R) const {
+    return loosened(tolerances.of_vertices(B, R));
+  }
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_edge(T B, T R) const {
+    return loosened(tolerances.of_edge(B, R));
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] Tolerances<T> loosened(Tolerances<T> tol) const {
     const T length = static_cast<T>(s);
     const T area = length * length;
     tol.delta *= area;

@@ -54,29 +54,28 @@ struct WithinQuery {
   /// If `given` is set, it replaces the primitives' own B; a smaller value throws Error (§5).
   explicit WithinQuery(const Query& query, const std::optional<double>& given = std::nullopt) {
     using std::ldexp;
-    using std::max;
-    using std::nextafter;
     const auto form = [&](const Frame& each) {
       ve = detail::vectors_of_vertices<T>(query, each);
       B = detail::bound_of_vectors(ve);
     };
-    const auto in = [&](const Frame& each) { return static_cast<T>(ldexp(given.value_or(0), each.total())); };
     frame = frame_for<T>([&](const Frame& each) {
       form(each);
-      return given ? max(B, in(each)) : B;
+      return B;
     });
+    const auto given_in_frame = [&] { return static_cast<T>(ldexp(given.value_or(0), frame.total())); };
+    if (given && !in_range(given_in_frame())) frame.exponent -= std::ilogb(*given) + frame.total();
     if (!frame.identity()) form(frame);
     if (given) {
-      if (!(in(frame) >= B))
+      if (!(given_in_frame() >= B))
         throw Error(detail::too_small(*given, ldexp(static_cast<double>(B), -frame.total())));
-      B = in(frame);
+      B = given_in_frame();
     }
     R = static_cast<T>(ldexp(query.separation, frame.total()));
     if (ldexp(static_cast<double>(R), -frame.total()) < query.separation)
-      R = nextafter(R, std::numeric_limits<T>::infinity());
+      R = R * (1 + epsilon<T>()) + T(0x1p-149);  // the smallest float
   }
 
-  /// Whether R is so large that the primitives are within R at t = 0: all components are at most B, and √3 < 2.
+  /// Whether R is so large that the primitives are within R at t = 0: all components are at most B, √3 < 2.
   [[nodiscard]] bool is_always_within() const { return R >= 2 * B; }
 
   /// The tolerances of a rule for these primitives, unless they are always within R.
@@ -87,10 +86,11 @@ struct WithinQuery {
 };
 
 /// Algorithm 1 with D = R for two vertices, and Algorithm 2 for a vertex and an edge, where R is the query's
-/// separation. Reports all pairs that come within R at some t in [0, 1], and none that stays farther apart than
-/// R plus within_distance_bound(). B is the primitives' own bound, or `given`. For R < 2B, the inequalities of
-/// §4.2 and §4.3 hold (`of_vertices` and `of_edge` of the rules); all other pairs are within R. With culling, a
-/// pair is rejected first if it is more than R apart along one axis at both ends, and hence always.
+/// separation. Reports all pairs that come within R at some t in [0, 1], and none that stays farther apart
+/// than R plus within_distance_bound(). B is the primitives' own bound, or `given`. For R < 2B, the
+/// inequalities of §4.2 and §4.3 hold (`of_vertices` and `of_edge` of the rules); all other pairs are within
+/// R. With culling, a pair is rejected first if it is more than R apart along one axis at both ends, and
+/// hence always.
 template <class T, class Rule = PaperTolerances>
 Verdict wang_within(const Query& query, bool plane_culling, const std::optional<double>& given = std::nullopt,
                     const Rule& rule = {}) {
@@ -109,19 +109,20 @@ Verdict wang_within(const Query& query, bool plane_culling, const std::optional<
 }
 
 /// The most by which the distance of a pair that wang_within() reports exceeds its separation, in the unit of
-/// the query's coordinates, rounded up. The distance is at most sqrt(D² + 2δ) (§4.2, §4.3), and that less R is
-/// (D² + 2δ - R²) / (sqrt(D² + 2δ) + R). 16ε D² is more than the rounding errors of all squares.
-template <class Rule = PaperTolerances>
+/// the query's coordinates, rounded up. The distance is at most sqrt(D² + 2δ) (§4.2, §4.3), and that less R
+/// is (D² + 2δ - R²) / (sqrt(D² + 2δ) + R). 16ε D² is more than the rounding errors of all squares.
+template <class Rule = PaperTolerances, class T = double>
 double within_distance_bound(const Query& query, const std::optional<double>& given = std::nullopt,
                              const Rule& rule = {}) {
-  const WithinQuery<double> pair(query, given);
+  const WithinQuery<T> pair(query, given);
   if (pair.is_always_within()) return std::numeric_limits<double>::denorm_min();  // there are none
-  const Tolerances<double> tol = pair.tolerances(query.kind, rule);
+  const Tolerances<T> tol = pair.tolerances(query.kind, rule);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!(tol.D2 < infinity)) return infinity;
-  const double squares = (tol.D2 - pair.R * pair.R) + 2 * tol.delta + 16 * epsilon<double>() * tol.D2;
-  const double bound = squares > 0 ? squares / (tol.distance_bound() + pair.R) * (1 + 0x1p-49) : 0;
-  return std::nextafter(std::ldexp(bound, -pair.frame.total()), infinity);
+  if (!(tol.D2 < T(infinity))) return infinity;
+  const T eps = epsilon<T>();
+  const T squares = (tol.D2 - pair.R * pair.R) + 2 * tol.delta + 16 * eps * tol.D2;
+  const T bound = squares > 0 ? T(squares / (tol.distance_bound() + pair.R) * (1 + 8 * eps)) : T(0);
+  return std::nextafter(std::ldexp(static_cast<double>(bound), -pair.frame.total()), infinity);
 }
 
 }  // namespace nearmiss

@@ -145,9 +145,9 @@ namespace {
 
 /// The family whose queries are two vertices, or a vertex and an edge.
 Family of_vertices(Family family) {
-  family.name = fmt::format("v-{}", family.name);
+  family.name = std::string(vertices_prefix) + family.name;
   family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);
-  family.kinds = {Kind::vertex_vertex, Kind::vertex_edge};
+  family.kinds = kinds_of_vertices;
   family.factors = nullptr;
   const auto without_others = [](const auto& make) {
     return [make](Random& random, Kind kind, auto... x) {
@@ -168,7 +168,7 @@ std::vector<Family> make_vertex_families() {
       "scale",   "mixed-scale",  "static-pair", "near-overflow", "overflow",      "near-underflow"};
   constexpr std::array with_own_separation{"near-separation", "tied-separation",        "reached-separation",
                                            "slow-approach",   "starts-near-separation", "sized-separation"};
-  std::vector<Family> all;
+  std::vector<Family> all = edge_families();
   for (const char* name : with_own_separation)
     all.push_back(of_vertices(find_family(name, separation_families())));
   for (const char* name : asking_for_contact) all.push_back(of_vertices(find_family(name, families())));
@@ -221,6 +221,34 @@ std::uint64_t stream_of(const Family& family) {
 }
 
 }  // namespace
+
+Family as_asked(const Family& family) {
+  const bool needs_one = !is_of_meshes(family.kinds[0]) && !family.has_separation;
+  return needs_one ? with_separation(family, drawn_separation) : family;
+}
+
+bool has_kind(const Family& family, Kind kind) {
+  return std::ranges::find(family.kinds, kind) != family.kinds.end();
+}
+
+void expect_kind(const Family& family, Kind kind, std::string_view where) {
+  if (!has_kind(family, kind))
+    throw Error(fmt::format("{}: found {}, expected {} or {} for the family {}", where, short_name(kind),
+                            short_name(family.kinds[0]), short_name(family.kinds[1]), family.name));
+}
+
+std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some) {
+  Family chosen = family;
+  int count = 0;
+  for (const Kind kind : family.kinds)
+    if (std::ranges::find(some, kind) != some.end()) {
+      chosen.only = kind;
+      ++count;
+    }
+  if (count == 0) return std::nullopt;
+  if (count > 1) chosen.only.reset();
+  return chosen;
+}
 
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index) {
   return {seed, stream_of(family), index};

@@ -35,6 +35,7 @@ struct Family {
   bool compare_all = false;              ///< whether all methods of the oracle decide every query
   bool has_separation = false;           ///< whether the queries have a separation h > 0
   std::array<Kind, 2> kinds = kinds_of_meshes;  ///< of queries with even and with odd indices
+  std::optional<Kind> only{};                   ///< if set, campaigns ask the queries of this kind alone
   /// Returns a query's value of each factor, "FACTOR=VALUE"; null if the family has no factors.
   std::vector<std::string> (*factors)(std::uint64_t seed, std::uint64_t index) = nullptr;
 };
@@ -75,10 +76,14 @@ std::span<const Family> families();
 /// The families whose queries have separations of their own.
 std::span<const Family> separation_families();
 
-/// Families whose queries are two vertices, or a vertex and an edge: what is left of the queries of other families
-/// without their last vertices. "v-uniform" is that of "uniform". Contact of two vertices, or of a vertex and an
-/// edge, is a coincidence, so campaigns give these families separations.
+/// Families whose queries are two vertices, or a vertex and an edge: what is left of the queries of other
+/// families without their last vertices. "v-uniform" is that of "uniform". Contact of two vertices, or of a
+/// vertex and an edge, is a coincidence, so campaigns give these families separations.
 std::span<const Family> vertex_families();
+
+/// The family as it is asked if nobody says otherwise: families of vertices and edges draw separations,
+/// unless they have their own.
+Family as_asked(const Family& family);
 
 /// families() and separation_families(), whose queries are pairs of triangle meshes.
 std::span<const Family> mesh_families();
@@ -93,6 +98,20 @@ Family find_family(std::string_view name, std::span<const Family> known = all_fa
 /// The kind of a family's query by its index: vertex-triangle or vertex-vertex if it is even, edge-edge or
 /// vertex-edge if it is odd.
 inline Kind kind_of(const Family& family, std::uint64_t index) { return family.kinds[index % 2]; }
+
+/// Whether queries of the family have a kind.
+bool has_kind(const Family& family, Kind kind);
+
+/// Throws an Error that starts with `where` if they do not.
+void expect_kind(const Family& family, Kind kind, std::string_view where);
+
+/// The kinds that campaigns ask: all that the family's queries have, or `only` one.
+inline std::span<const Kind> kinds_asked(const Family& family) {
+  return family.only ? std::span(&*family.only, 1) : std::span<const Kind>(family.kinds);
+}
+
+/// The family, of which campaigns ask some kinds alone; nothing if its queries have none of them.
+std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some);
 
 /// The random numbers from which query number `index` of a family is made.
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);

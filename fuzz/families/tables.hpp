@@ -16,5 +16,6 @@ std::vector<Family> time_families();
 std::vector<Family> file_families();
 std::vector<Family> crossed_families();
 std::vector<Family> approach_families();
+std::vector<Family> edge_families();
 
 }  // namespace nearmiss

@@ -20,8 +20,9 @@ inline constexpr std::size_t query_bytes = contact_bytes + sizeof(Query::separat
 /// The query in an input; nothing if its size is wrong, a number is not finite, or h is negative.
 inline std::optional<Query> from_bytes(const std::uint8_t* data, std::size_t size) {
   if (size != contact_bytes && size != query_bytes) return std::nullopt;
-  Query query{.kind = kinds_of_meshes[data[0] % kinds_of_meshes.size()]};
+  Query query{.kind = kinds[data[0] % kinds.size()]};
   std::memcpy(query.x.data(), data + 1, sizeof query.x);
+  repeat_vertices(query);
   if (size == query_bytes) std::memcpy(&query.separation, data + contact_bytes, sizeof query.separation);
   const bool is_distance = std::isfinite(query.separation) && query.separation >= 0;
   return is_finite(query) && is_distance ? std::optional(query) : std::nullopt;

@@ -34,8 +34,7 @@ constexpr std::size_t values = 128;
 
 // libFuzzer clears these counters before each run, and treats each counter that is set afterwards as covered.
 [[gnu::used,
-  gnu::section(
-      "__libfuzzer_extra_counters")]] std::array<std::uint8_t, signals * kinds_of_meshes.size() * values>
+  gnu::section("__libfuzzer_extra_counters")]] std::array<std::uint8_t, signals * kinds.size() * values>
     counters;
 
 std::string environment(const char* name, const char* otherwise) {
@@ -55,7 +54,7 @@ const Subject& subject() {
 }
 
 void show(Signal signal, Kind kind, std::size_t value) {
-  const auto row = static_cast<std::size_t>(signal) * kinds_of_meshes.size() + static_cast<std::size_t>(kind);
+  const auto row = static_cast<std::size_t>(signal) * kinds.size() + static_cast<std::size_t>(kind);
   counters[row * values + std::min(value, values - 1)] = 1;
 }
 
@@ -97,9 +96,11 @@ bool keeps_contract_of_subject(const Query& query) {
   return untraced([&] { return keeps_contract(subject().rounded(query), subject().contract()); });
 }
 
-/// The query in an input, as the target and its subject ask it; nothing if the input is not a query.
+/// The query in an input, as the target and its subject ask it; nothing if the input is not a query that the
+/// subject decides.
 std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   auto query = from_bytes(data, size);
+  if (query && !subject().decides(query->kind)) return std::nullopt;
   if (query && !(target.takes_separations && subject().takes_separation(query->kind))) query->separation = 0;
   return query;
 }

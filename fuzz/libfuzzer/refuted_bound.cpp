@@ -6,7 +6,7 @@
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
-const nearmiss::libfuzzer::Target nearmiss::libfuzzer::target{};
+const nearmiss::libfuzzer::Target nearmiss::libfuzzer::target{.takes_separations = true};
 
 void nearmiss::libfuzzer::examine(const Query& query) {
   const Verdict verdict = subject().decide(query);
@@ -19,8 +19,12 @@ void nearmiss::libfuzzer::examine(const Query& query) {
   if (truth.collision) return;
   const double bound = subject().distance_bound(rounded);
   if (!std::isfinite(bound)) return;  // the subject claims no bound
-  const double ratio = untraced([&] { return closest_ratio(rounded, bound); });
-  if (ratio >= 1 && untraced([&] { return distance_exceeds(rounded, bound); }))
+  const double ratio = untraced([&] {
+    const auto accuracy = [](double hi) { return 0.999 * hi; };
+    return rounded.separation == 0 || bound == 0 ? closest_ratio(rounded, bound)
+                                                 : distance_beyond_separation(rounded, bound, accuracy).hi;
+  });
+  if (ratio >= 1 && untraced([&] { return distance_exceeds_separation_by(rounded, bound); }))
     fail(Finding::What::refuted_bound, rounded, ratio);
   show_factor(Signal::distance, query.kind, ratio);
 }

@@ -34,7 +34,7 @@ std::vector<Case> cases_of(std::span<const Family> families) {
   for (const Family& family : families) {
     for (std::uint64_t i = 0; i < of_each_family; ++i) {
       Case each;
-      each.query = make_query(family, 1, i);
+      each.query = make_query(as_asked(family), 1, i);
       each.name = fmt::format("{}-{}", family.name, i);
       cases.push_back(std::move(each));
     }
@@ -42,12 +42,12 @@ std::vector<Case> cases_of(std::span<const Family> families) {
   return cases;
 }
 
-/// The cases in the folders, and queries of the families that ask for contact.
+/// The cases in the folders, and queries of the families that ask for contact, or about vertices and edges.
 std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
   std::vector<Case> cases = cases_of(families());
+  for (Case& each : cases_of(vertex_families())) cases.push_back(std::move(each));
   for (const fs::path& folder : folders)
     read_cases(folder, [&](Case&& each) {
-      if (vertices(each.query.kind) < 4) return;
       std::replace(each.name.begin(), each.name.end(), '/', '-');
       cases.push_back(std::move(each));
     });

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "ccd/wang/elementary.hpp"
 #include "fuzz/search/searched.hpp"
@@ -21,8 +23,10 @@ double reach(const Subject& subject, const Query& query) {
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives, which is smaller than usual if the subject has a small reach.
+/// The smallest size of primitives, which is smaller than usual if the subject has a small reach. That of two
+/// vertices, or of a vertex and an edge, is small for other reasons: it is the distance less h.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
+  if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical, 0)));
 }
@@ -128,11 +132,39 @@ Family far_search(const Subject& subject, const Stop& stop, std::string_view sep
                        stop, separation);
 }
 
-std::vector<Family> searches(const Subject& subject, const Stop& stop, std::string_view separation) {
+namespace {
+
+/// All searches among queries of some kinds.
+std::vector<Family> searches_among(std::span<const Kind, 2> some, const Subject& subject, const Stop& stop,
+                                   std::string_view separation) {
   std::vector<Family> all{miss_search(subject, stop, separation), far_search(subject, stop, separation)};
-  if (subject.time_sort() == TimeSort::none) return all;
-  all.push_back(late_search(subject, stop, separation));
-  all.push_back(early_search(subject, stop, separation));
+  if (subject.time_sort() != TimeSort::none) {
+    all.push_back(late_search(subject, stop, separation));
+    all.push_back(early_search(subject, stop, separation));
+  }
+  if (is_of_meshes(some.front())) return all;
+  for (Family& family : all) {
+    family.name = std::string(vertices_prefix) + family.name;
+    std::ranges::copy(some, family.kinds.begin());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Family> searches(const Subject& subject, const Stop& stop, std::string_view separation) {
+  const auto decides_some = [&](std::span<const Kind, 2> some, bool within) {
+    return std::ranges::any_of(some, [&](Kind kind) {
+      return subject.decides(kind) && (!within || subject.takes_separation(kind));
+    });
+  };
+  std::vector<Family> all;
+  if (decides_some(kinds_of_meshes, !separation.empty()))
+    all = searches_among(kinds_of_meshes, subject, stop, separation);
+  if (decides_some(kinds_of_vertices, true))
+    std::ranges::move(
+        searches_among(kinds_of_vertices, subject, stop, separation.empty() ? drawn_separation : separation),
+        std::back_inserter(all));
   return all;
 }
 

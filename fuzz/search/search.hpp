@@ -51,6 +51,8 @@ Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
                     std::string_view separation = {});
 
 /// All searches for a subject: for misses, far false positives, and, if it gives times, late and early ones.
+/// For a subject that decides two vertices, or a vertex and an edge, these are also made among such queries,
+/// which draw their separations if none is given: "v-search-miss-NAME~drawn".
 std::vector<Family> searches(const Subject& subject, const Stop& stop = Stop::never(),
                              std::string_view separation = {});
 

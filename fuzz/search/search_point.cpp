@@ -81,6 +81,8 @@ Contact contact_of(Kind kind, const SearchPoint& point) {
       {Vector::Zero(), Vector::Zero()}, point.q, point.r, clamped(point.place[0]), clamped(point.place[1]),
       clamped(point.place[2])};
   if (has_triangle(kind)) contact.beta = std::min(contact.beta, 1 - contact.alpha);
+  if (vertices(kind) < 4) contact.beta = 0;
+  if (vertices(kind) < 3) contact.alpha = 0;
   return contact;
 }
 
@@ -91,6 +93,7 @@ Query query_of(Kind kind, const SearchPoint& point, double h) {
     query.set_end(i, query.end(i) + point.gap);
   }
   query.separation = h;
+  repeat_vertices(query);
   return query;
 }
 

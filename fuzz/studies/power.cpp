@@ -20,10 +20,13 @@ std::uint64_t index_of(const Finding& finding) {
 
 }  // namespace
 
-std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact) {
+std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
+                                 std::span<const Family> of_vertices) {
   std::vector<Family> chosen(of_contact.begin(), of_contact.end());
-  if (!subject.takes_separation(Kind::vertex_triangle)) return chosen;
-  for (const Family& family : of_contact) chosen.push_back(with_separation(family, drawn_separation));
+  if (subject.takes_separation(Kind::vertex_triangle))
+    for (const Family& family : of_contact) chosen.push_back(with_separation(family, drawn_separation));
+  if (subject.takes_separation(Kind::vertex_vertex) || subject.takes_separation(Kind::vertex_edge))
+    for (const Family& family : of_vertices) chosen.push_back(as_asked(family));
   return chosen;
 }
 

@@ -20,8 +20,10 @@ struct FirstFailure {
 };
 
 /// The families of contact; for a subject that takes separations, also the same families with drawn
-/// separations.
-std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact);
+/// separations; for one that takes them for vertices and edges, also the families of these, as they are
+/// asked.
+std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
+                                 std::span<const Family> of_vertices);
 
 /// Runs a campaign until a subject misses a collision, its distance bound is refuted, or its time is late;
 /// nothing if the campaign ends before.

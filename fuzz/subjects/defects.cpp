@@ -15,6 +15,7 @@
 #include "defective/ccd/wang/advance.hpp"
 #include "defective/ccd/wang/wang.hpp"
 #include "defective/ccd/wang/wang_time.hpp"
+#include "defective/ccd/wang/within.hpp"
 
 namespace nearmiss {
 
@@ -59,7 +60,20 @@ struct DefectiveTolerances {
 
   template <class T>
   [[nodiscard]] Tolerances<T> operator()(T B) const {
-    const auto paper = paper_tolerances(static_cast<double>(B));
+    return changed_from<T>(paper_tolerances(static_cast<double>(B)));
+  }
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_vertices(T B, T R) const {
+    return changed_from<T>(PaperTolerances().of_vertices(static_cast<double>(B), static_cast<double>(R)));
+  }
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_edge(T B, T R) const {
+    return changed_from<T>(PaperTolerances().of_edge(static_cast<double>(B), static_cast<double>(R)));
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] Tolerances<T> changed_from(const Tolerances<double>& paper) const {
     Tolerances<T> tol{};
     for (std::size_t i = 0; i < tolerance_table.size(); ++i) {
       const auto member = tolerance_members<double>[i];
@@ -112,6 +126,12 @@ Verdict decide_by(const Change& change, const Query& query, const DefectiveToler
                          : defective::wang<kind, double, WangOptions{}>(query, std::nullopt, tolerances);
 }
 
+Verdict decide_within_by(const Change& change, const Query& query, const DefectiveTolerances& tolerances) {
+  defective::active_edit = change.edit;
+  return change.in_float ? defective::wang_within<float>(query, true, std::nullopt, tolerances)
+                         : defective::wang_within<double>(query, true, std::nullopt, tolerances);
+}
+
 class DefectiveSubject final : public Subject {
  public:
   DefectiveSubject(std::string_view name, const Change& change)
@@ -130,9 +150,8 @@ class DefectiveSubject final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     return sound_->distance_bound(query);
   }
-  [[nodiscard]] bool takes_separation(Kind kind) const override {
-    return decides(kind) && sound_->takes_separation(kind);
-  }
+  [[nodiscard]] bool decides(Kind kind) const override { return sound_->decides(kind); }
+  [[nodiscard]] bool takes_separation(Kind kind) const override { return sound_->takes_separation(kind); }
   [[nodiscard]] TimeSort time_sort() const override { return sound_->time_sort(); }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
@@ -142,6 +161,7 @@ class DefectiveSubject final : public Subject {
 
  private:
   [[nodiscard]] Verdict decide(const Query& query, const DefectiveTolerances& tolerances) const {
+    if (!is_of_meshes(query.kind)) return decide_within_by(change_, query, tolerances);
     return with_kind(query.kind, [&]<Kind kind>() { return decide_by<kind>(change_, query, tolerances); });
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "fuzz/subjects/forwarding_subject.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/within_separation.hpp"
@@ -85,6 +86,19 @@ std::span<const SubjectInfo> exact_subjects() {
     return all;
   }();
   return infos;
+}
+
+std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
+                               const std::function<bool(Kind)>& has_separations) {
+  const auto decides = [&](const Subject& subject, Kind kind) {
+    return dynamic_cast<const ExactSubject*>(&innermost(subject)) == nullptr && subject.decides(kind) &&
+           (!has_separations(kind) || subject.takes_separation(kind));
+  };
+  std::vector<Kind> asked;
+  for (const Kind kind : kinds)
+    if (std::ranges::any_of(subjects, [&](const auto& each) { return decides(*each, kind); }))
+      asked.push_back(kind);
+  return asked.empty() ? std::vector<Kind>(kinds_of_meshes.begin(), kinds_of_meshes.end()) : asked;
 }
 
 std::unique_ptr<Subject> try_make_exact(std::string_view name) {

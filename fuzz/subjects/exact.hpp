@@ -1,9 +1,11 @@
 // The oracle as a subject.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "ccd/subjects/subject.hpp"
 
@@ -14,6 +16,12 @@ namespace nearmiss {
 /// one at a time. Both give the largest double that is not after the earliest time; `exact-decision` gives no
 /// time. They claim to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
+
+/// The kinds that a campaign asks if nobody says otherwise: those that a subject other than an exact one
+/// decides, and takes separations for if queries of this kind have some; those of meshes if there is no such
+/// subject.
+std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
+                               const std::function<bool(Kind)>& has_separations);
 
 /// Makes the exact subject with the given name; null for any other name.
 std::unique_ptr<Subject> try_make_exact(std::string_view name);

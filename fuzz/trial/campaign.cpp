@@ -46,7 +46,7 @@ class CampaignRun {
     const auto slice = cases_.next(trials_.pace());
     if (!slice) return std::nullopt;
     return Work{[this, block = *slice](const AskBatch& ask) {
-                  for (const Kind kind : block.family->kinds) ask(batch_of(plan_, block, kind, stop_));
+                  for (const Kind kind : kinds_asked(*block.family)) ask(batch_of(plan_, block, kind, stop_));
                 },
                 [this, cases = slice->cases()](bool complete) { return counts(cases, complete); }};
   }

@@ -102,21 +102,33 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
   return sum;
 }
 
+namespace {
+
+/// The index of a family's query by its number among those that are asked.
+std::uint64_t index_of_case(const Family& family, std::uint64_t number) {
+  if (!family.only) return number;
+  return family.kinds.size() * number + (family.kinds.front() == *family.only ? 0 : 1);
+}
+
+/// The number of a query among those that are asked.
+std::uint64_t case_of_index(const Family& family, std::uint64_t index) {
+  return family.only ? index / family.kinds.size() : index;
+}
+
+}  // namespace
+
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index) {
   const auto own = std::find_if(plan.families.begin(), plan.families.end(),
                                 [&](const Family& each) { return each.name == family; });
-  const std::uint64_t round = Rounds(plan).containing(index / own->block_cases);
+  const std::uint64_t number = case_of_index(*own, index);
+  const std::uint64_t round = Rounds(plan).containing(number / own->block_cases);
   std::uint64_t cases = 0;
   for (std::size_t f = 0; f < plan.families.size(); ++f) {
     const CaseBlock block = block_of(plan, round, f);
     const auto each = plan.families.begin() + static_cast<std::ptrdiff_t>(f);
-    cases += each == own ? index + 1 : each < own ? block.last : block.first;
+    cases += each == own ? number + 1 : each < own ? block.last : block.first;
   }
   return cases;
-}
-
-std::uint64_t first_of(const CaseBlock& block, Kind kind) {
-  return block.first + (kind_of(*block.family, block.first) == kind ? 0 : 1);
 }
 
 Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop) {
@@ -125,25 +137,26 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   batch.family = block.family->name;
   batch.timed = block.family->timed;
   batch.compare_all = block.family->compare_all;
-  const std::uint64_t first = first_of(block, kind);
+  const std::uint64_t begin = index_of_case(*block.family, block.first);
+  const std::uint64_t first = begin + (kind_of(*block.family, begin) == kind ? 0 : 1);
+  const std::uint64_t step = batch.step = block.family->kinds.size();
   batch.first_number = first;
-  batch.step = kinds_of_meshes.size();
-  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds_of_meshes.size() + 1);
+  batch.queries.reserve(static_cast<std::size_t>(block.cases()));
   const QueryMaker make(*block.family, plan.seed);
-  for (std::uint64_t index = first; index < block.last; index += kinds_of_meshes.size()) {
+  for (std::uint64_t index = first; case_of_index(*block.family, index) < block.last; index += step) {
     stop.check();
     batch.queries.push_back(make(index));
   }
-  batch.place = [&plan, name = block.family->name, first](std::size_t i) {
-    return cases_up_to(plan, name, first + kinds_of_meshes.size() * i);
+  batch.place = [&plan, name = block.family->name, first, step](std::size_t i) {
+    return cases_up_to(plan, name, first + step * i);
   };
   if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
-  batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {
-    return fmt::format("{}:{}:{}", name, seed, first + kinds_of_meshes.size() * i);
+  batch.provenance = [name = block.family->name, seed = plan.seed, first, step](std::size_t i) {
+    return fmt::format("{}:{}:{}", name, seed, first + step * i);
   };
   if (block.family->factors != nullptr)
-    batch.factors = [factors = block.family->factors, seed = plan.seed, first](std::size_t i) {
-      return factors(seed, first + kinds_of_meshes.size() * i);
+    batch.factors = [factors = block.family->factors, seed = plan.seed, first, step](std::size_t i) {
+      return factors(seed, first + step * i);
     };
   return batch;
 }

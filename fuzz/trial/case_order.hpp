@@ -19,7 +19,7 @@
 
 namespace nearmiss {
 
-/// Cases [first, last) of a family.
+/// Cases [first, last) of a family: the queries of the kinds that are asked (`kinds_asked`), in their order.
 struct CaseBlock {
   const Family* family;
   std::uint64_t first, last;
@@ -27,16 +27,13 @@ struct CaseBlock {
   [[nodiscard]] std::uint64_t cases() const { return last - first; }
 };
 
-/// The first case of a kind in a block.
-std::uint64_t first_of(const CaseBlock& block, Kind kind);
-
 /// The cases of one kind in a block. Throws Stopped.
 Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop);
 
 /// The number of cases in a plan's shard; 0 if there is no end.
 std::uint64_t cases_of_shard(const CampaignPlan& plan);
 
-/// The number of cases up to and including case `index` of a family in a campaign without shards.
+/// The number of cases up to and including query `index` of a family in a campaign without shards.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
 /// The cases of a plan's shard, in order. The plan must outlive it.

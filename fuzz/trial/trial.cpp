@@ -179,13 +179,13 @@ class Judging {
     counts.near_bounds += is_near_bounds(i) ? 1 : 0;
     std::string disagreement = asks_all_methods(i) ? compare_methods(truth, counts) : "";
     const std::optional<bool> recorded = batch_.truths.empty() ? std::nullopt : batch_.truths[i];
-    if (recorded == truth.collision() && comparison_.certify_truths && disagreement.empty())
-      disagreement = certify(truth, counts);
+    const bool is_right = recorded && (truth.is_tie() || *recorded == truth.collision());
+    if (is_right && comparison_.certify_truths && disagreement.empty()) disagreement = certify(truth, counts);
     if (!disagreement.empty()) {
       ++result_.statistics.oracle_disagreements;
       keep(i, "", {Finding::What::oracle_disagreement, std::move(disagreement)}, truth);
     }
-    if (recorded.value_or(truth.collision()) != truth.collision()) {
+    if (recorded && !is_right) {
       ++result_.statistics.mismatches_with_recorded_truth;
       keep(i, "", {Finding::What::truth_mismatch, truth.contact()}, truth);
     }

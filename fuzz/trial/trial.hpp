@@ -31,7 +31,8 @@ struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
   std::vector<Query> queries = {};
-  std::vector<std::optional<bool>> truths = {};  ///< recorded truths; empty if there are none
+  std::vector<std::optional<bool>> truths =
+      {};  ///< recorded truths; empty if there are none. Both are right for a tie
   /// The numbers of the queries in their family or stream: first, first + step, and so on. They choose
   /// samples.
   std::uint64_t first_number = 0, step = 1;

@@ -39,17 +39,17 @@ class ExactCCD {
                          ea1_t1, eb0_t1, eb1_t1);
   }
 
-  /// A point and an edge, which is treated as a degenerate triangle.
+  /// A point and an edge.
   bool point_edge_ccd(const auto& p_t0, const auto& e0_t0, const auto& e1_t0, const auto& p_t1,
                       const auto& e0_t1, const auto& e1_t1, double& toi, double min_distance = 0,
                       double tmax = 1) const noexcept {
-    return point_triangle_ccd(p_t0, e0_t0, e1_t0, e1_t0, p_t1, e0_t1, e1_t1, e1_t1, toi, min_distance, tmax);
+    return first_contact(Kind::vertex_edge, toi, min_distance, tmax, p_t0, e0_t0, e1_t0, p_t1, e0_t1, e1_t1);
   }
 
-  /// Two points, one of which is treated as a degenerate triangle.
+  /// Two points.
   bool point_point_ccd(const auto& p0_t0, const auto& p1_t0, const auto& p0_t1, const auto& p1_t1,
                        double& toi, double min_distance = 0, double tmax = 1) const noexcept {
-    return point_edge_ccd(p0_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, toi, min_distance, tmax);
+    return first_contact(Kind::vertex_vertex, toi, min_distance, tmax, p0_t0, p1_t0, p0_t1, p1_t1);
   }
 
  private:
@@ -83,7 +83,7 @@ class ExactCCD {
 
   static bool first_contact(Kind kind, double& toi, double min_distance, double tmax,
                             const auto&... points) noexcept {
-    std::array<double, 24> x;
+    std::array<double, 3 * sizeof...(points)> x;
     std::size_t next = 0;
     const auto add = [&](const auto& point) {
       x[next++] = coordinate<0>(point);

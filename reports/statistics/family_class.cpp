@@ -11,11 +11,14 @@ namespace nearmiss {
 namespace {
 
 // The only place that says which class a family has.
-constexpr std::array<std::string_view, 9> ordinary{
-    "uniform",         "uniform-end", "uniform-slow",        "mesh", "floats", "kilometres",
-    "v-small-integer", "v-decimals",  "v-reached-separation"};
+constexpr std::array<std::string_view, 10> ordinary{
+    "v-drifting", "uniform",    "uniform-end",     "uniform-slow", "mesh",
+    "floats",     "kilometres", "v-small-integer", "v-decimals",   "v-reached-separation"};
 
-constexpr std::array<std::string_view, 33> degenerate{"planted",
+constexpr std::array<std::string_view, 36> degenerate{"v-along",
+                                                      "v-shrinking",
+                                                      "v-minimum",
+                                                      "planted",
                                                       "planted-ulp",
                                                       "grazing",
                                                       "parallel",
@@ -77,7 +80,8 @@ QueryClass class_of(std::string_view family) {
   if (contains(degenerate, base)) return QueryClass::degenerate;
   if (contains(extreme, base)) return QueryClass::extreme;
   // The vertices and edges of a family have its class, unless a table names them.
-  return base.starts_with("v-") ? class_of(base.substr(2)) : QueryClass::unclassified;
+  return base.starts_with(vertices_prefix) ? class_of(base.substr(vertices_prefix.size()))
+                                           : QueryClass::unclassified;
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {

@@ -7,7 +7,9 @@ namespace nearmiss {
 FamilyName::FamilyName(std::string_view name) : base(name.substr(0, name.find_first_of("@~"))) {
   for (const std::string_view each :
        {miss_search_family, far_search_family, late_search_family, early_search_family})
-    if (name.starts_with(each)) search = each.substr(0, each.size() - 1);
+    for (const std::string_view begin : {std::string_view(), vertices_prefix})
+      if (name.starts_with(begin) && name.substr(begin.size()).starts_with(each))
+        search = name.substr(0, begin.size() + each.size() - 1);
   // The name of a subject may have a ~ of its own.
   const auto tilde = std::min(search.empty() ? name.find('~') : name.rfind('~'), name.size());
   if (tilde < name.size()) separation = name.substr(tilde + 1);

@@ -12,13 +12,16 @@ inline constexpr std::string_view far_search_family = "search-far-";
 inline constexpr std::string_view late_search_family = "search-late-";
 inline constexpr std::string_view early_search_family = "search-early-";
 
+/// Begins the name of a family whose queries are two vertices, or a vertex and an edge.
+inline constexpr std::string_view vertices_prefix = "v-";
+
 /// The name of a family, taken apart: NAME, or NAME@VALUE with a fixed parameter, either followed by
 /// ~SEPARATION. Only this struct knows the form of names. The name must outlive its parts.
 struct FamilyName {
   std::string_view base;        ///< NAME; for a directed search, it includes the name of its subject
   std::string_view value;       ///< VALUE, or ""
   std::string_view separation;  ///< SEPARATION, or ""
-  std::string_view search;      ///< "search-miss" and so on for a directed search; else ""
+  std::string_view search;      ///< "search-miss", "v-search-miss" and so on for a directed search; else ""
 
   explicit FamilyName(std::string_view name);
 };

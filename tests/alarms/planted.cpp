@@ -110,6 +110,8 @@ extern "C" const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
                                         .open = nullptr,
                                         .close = nullptr,
                                         .decide = decide_all,
-                                        .distance_bound = nullptr};
+                                        .distance_bound = nullptr,
+                                        .separation_kinds = 0,
+                                        .distance_bound_within = nullptr};
   return index == 0 ? &subject : nullptr;
 }

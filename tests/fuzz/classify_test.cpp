@@ -245,7 +245,7 @@ TEST(Classify, DependsNeitherOnTheOrderOfVerticesNorOnThePowerOfTwoInTheUnit) {
 
 TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
   for (const Family& each : all_families()) {
-    const Family family = testing::as_asked(each);
+    const Family family = as_asked(each);
     std::array<int, 4> of_class{};
     for (const Query& query : testing::first_queries(family.name, 400, 5))
       ++of_class[static_cast<std::size_t>(classify(query))];

@@ -31,13 +31,6 @@ inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
   return name;
 }
 
-/// The family as a campaign asks it: with drawn separations, if it has none and its queries are vertices and
-/// edges.
-inline Family as_asked(const Family& family) {
-  const bool needs_one = !is_of_meshes(family.kinds[0]) && !family.has_separation;
-  return needs_one ? with_separation(family, drawn_separation) : family;
-}
-
 /// The number of queries of each family: NEARMISS_QUERIES of the environment, for long runs by hand, or the
 /// usual one.
 inline std::uint64_t query_count(std::uint64_t usual) {

@@ -141,8 +141,27 @@ TEST(Interface, QueriesOfFewerVerticesHaveShorterRows) {
       std::array<Verdict, 3> verdicts;
       subject->decide(std::array{query, other, query}, verdicts);
       EXPECT_TRUE(verdicts[0].hit && !verdicts[1].hit && verdicts[2].hit) << short_name(kind);
-      EXPECT_EQ(subject->distance_bound(query), static_cast<double>(coordinate_count(kind)));
+      EXPECT_EQ(subject->takes_separation(kind), kind == Kind::vertex_edge);
+      const auto last = static_cast<double>(coordinate_count(kind));
+      EXPECT_EQ(subject->distance_bound(query), last);
+      if (kind == Kind::vertex_edge) {
+        EXPECT_EQ(subject->distance_bound(with_separation(query, 0.5)), last + 0.5);
+      }
     }
+  }
+}
+
+TEST(Interface, APluginOfVersion2GoesOnWorking) {
+  const Query query = testing::falling_vertex(0.25, 0.25, 3, 1);
+  for (const bool is_isolated : {false, true}) {
+    const std::string path = NEARMISS_PLUGINS "/version_2.so";
+    const auto subject = is_isolated ? make_any_subject(path) : make_subject(path);
+    for (const Kind kind : kinds) {
+      EXPECT_EQ(subject->decides(kind), is_of_meshes(kind));
+      EXPECT_EQ(subject->takes_separation(kind), is_of_meshes(kind));
+    }
+    EXPECT_TRUE(subject->decide(with_separation(query, 1)).hit);
+    EXPECT_EQ(subject->distance_bound(with_separation(query, 1)), 0.125);
   }
 }
 

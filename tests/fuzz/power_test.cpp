@@ -62,11 +62,13 @@ TEST(FamiliesFor, HaveSeparationsTooForASubjectThatTakesThem) {
   const auto names = [](const char* subject) {
     std::vector<std::string> found;
     const std::array of_contact{find_family("uniform"), find_family("planted")};
-    for (const Family& family : families_for(*make_any_subject(subject), of_contact))
+    for (const Family& family :
+         families_for(*make_any_subject(subject), of_contact, std::array{find_family("v-uniform")}))
       found.push_back(family.name);
     return found;
   };
-  EXPECT_EQ(names("defect:vv"), (std::vector<std::string>{"uniform", "planted"}));
+  EXPECT_EQ(names("wang-time"), (std::vector<std::string>{"uniform", "planted"}));
+  EXPECT_EQ(names("defect:vv"), (std::vector<std::string>{"uniform", "planted", "v-uniform~drawn"}));
   EXPECT_EQ(names("defect:contact"),
             (std::vector<std::string>{"uniform", "planted", "uniform~drawn", "planted~drawn"}));
 }

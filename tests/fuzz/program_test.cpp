@@ -1,6 +1,9 @@
 // Detectors that are programs (fuzz/subjects/PROGRAMS.md).
 #include <gmock/gmock.h>
 
+#include <array>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "fuzz/subjects/subjects.hpp"
@@ -19,10 +22,11 @@ class ProgramTest : public testing::TemporaryFolder {
   /// A program that reports every query at t = 0.5. For each request, it first runs the code `then`, which
   /// can read the queries in `rows` and change `answers`. `lines` are added to its description.
   [[nodiscard]] std::string program(const std::string& then, const std::string& lines = "") const {
-    return command("say('nearmiss 2\\nname p\\nkinds vt ee\\nbatch 64\\n" + lines + R"(\n')
+    return command("say('nearmiss 3\\nname p\\nkinds vt ee vv ve\\nbatch 64\\n" + lines + R"(\n')
 while header := sys.stdin.buffer.read(24):
     question, kind, n = map(int, struct.unpack('<3d', header))
-    rows = [struct.unpack('<25d', sys.stdin.buffer.read(200)) for i in range(n)]
+    numbers = {4: 13, 8: 19}.get(kind, 25)
+    rows = [struct.unpack(f'<{numbers}d', sys.stdin.buffer.read(8 * numbers)) for i in range(n)]
     answers = [1, 0.5] * n
     )" + then + R"(
     sys.stdout.buffer.write(struct.pack(f'<{len(answers)}d', *answers))
@@ -85,7 +89,7 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
   EXPECT_EQ(info.about, "a test");
   EXPECT_TRUE(info.is_narrow);
   EXPECT_EQ(info.time_sort, TimeSort::estimate);
-  EXPECT_TRUE(info.takes_separation);
+  EXPECT_EQ(info.separation_kinds, info.kinds);
   EXPECT_EQ(info.batch, 64);
   EXPECT_EQ(info.contract, (Contract{.apart_at_start = true,
                                      .one_root = true,
@@ -95,6 +99,41 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
                                      .longest = 8}));
   EXPECT_EQ(subject->decide(Query{}).time, 0.5);
   EXPECT_EQ(subject->distance_bound(Query{.kind = Kind::edge_edge}), 0.25);
+}
+
+// Row by row, the answer is whether the separation is the row's last number.
+TEST_F(ProgramTest, GetsTheNumbersOfEachKindAndTheSeparation) {
+  const std::string then =
+      "if question == 1: answers = [rows[0][-1] + len(rows[0]), 0]\n"
+      "    else: answers = [x for row in rows for x in (row[-1] == row[-2], 0.5)]";
+  const auto subject = make_any_subject(program(then, "separation ee ve\\nbound yes\\n"));
+  std::array<double, 24> numbers{};
+  for (const Kind kind : kinds) {
+    const bool is_asked = kind == Kind::edge_edge || kind == Kind::vertex_edge;
+    EXPECT_EQ(subject->takes_separation(kind), is_asked);
+    numbers[coordinate_count(kind) - 1] = is_asked ? 2 : 0;
+    const Query query = with_separation(query_of(kind, numbers.data()), is_asked ? 2 : 0);
+    Query other = query;
+    other.separation = is_asked ? 1 : 0;
+    EXPECT_TRUE(subject->decide(query).hit) << short_name(kind);
+    EXPECT_EQ(subject->decide(other).hit, !is_asked) << short_name(kind);
+    EXPECT_EQ(subject->distance_bound(query),
+              query.separation + static_cast<double>(coordinate_count(kind)) + 1);
+  }
+}
+
+TEST_F(ProgramTest, OfVersion2IsAskedForBoundsWithoutTheSeparation) {
+  const std::string text =
+      program("if question == 1: answers = [rows[0][-1] + 0.5, 0]", "separation yes\\nbound yes\\n");
+  const Query query{.separation = 2};
+  EXPECT_EQ(make_any_subject(text)->distance_bound(query), 2.5);
+  const std::string file = text.substr(text.rfind(' ') + 1);
+  std::stringstream code;
+  code << std::ifstream(file).rdbuf();
+  std::string older = code.str();
+  older.replace(older.find("nearmiss 3"), 10, "nearmiss 2");
+  std::ofstream(file) << older;
+  EXPECT_EQ(make_any_subject(text)->distance_bound(query), 0.5);
 }
 
 TEST_F(ProgramTest, ThatEndsIsACrashOfTheQuery) {
@@ -149,20 +188,23 @@ TEST_F(ProgramTest, ThatSaysNothingIsRefusedAfterTheTimeForLoading) {
 
 TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   const std::pair<const char*, const char*> descriptions[]{
-      {"nearmiss 1\\n", "found 'nearmiss 1', expected 'nearmiss 2'"},
-      {"nearmiss 2\\nname p\\n", "'p' with no known kind of queries"},
-      {"nearmiss 2\\nkinds vt\\n", "a detector without a name"},
-      {"nearmiss 2\\nname p\\nkinds xy\\n", "found 'xy', expected one of vt, ee, vt ee"},
-      {"nearmiss 2\\nname p\\ngrid 0.x\\n", "found '0.x', expected a number"},
-      {"nearmiss 2\\nname p\\nbits 24.9\\n", "found '24.9', expected a whole number"},
-      {"nearmiss 2\\nname p\\nbatch 1e30\\n", "found '1e30', expected a whole number"},
-      {"nearmiss 2\\nname p\\nbatch inf\\n", "found 'inf', expected a whole number"},
-      {"nearmiss 2\\nnames p\\n", "found the line 'names'"},
-      {"nearmiss 2\\nname a\\0b\\nkinds vt\\n", "found a NUL character in 'name a?b', expected text"},
-      {"nearmiss 2\\nname a\\nname b\\nkinds vt\\n", "found the line 'name' twice, expected it once"},
-      {"nearmiss 2\\nname p\\nkinds vt\\nlongest inf\\n",
+      {"nearmiss 1\\n", "found 'nearmiss 1', expected 'nearmiss 3' or 'nearmiss 2'"},
+      {"nearmiss 3\\nname p\\n", "'p' with no known kind of queries"},
+      {"nearmiss 3\\nkinds vt\\n", "a detector without a name"},
+      {"nearmiss 3\\nname p\\nkinds xy\\n", "found 'xy', expected some of vt ee vv ve, each once"},
+      {"nearmiss 3\\nname p\\nkinds vt vt\\n", "found 'vt vt', expected some of vt ee vv ve, each once"},
+      {"nearmiss 3\\nname p\\nkinds vt\\nseparation ve\\n",
+       "'p' with separations for a kind of queries that it does not decide"},
+      {"nearmiss 3\\nname p\\ngrid 0.x\\n", "found '0.x', expected a number"},
+      {"nearmiss 3\\nname p\\nbits 24.9\\n", "found '24.9', expected a whole number"},
+      {"nearmiss 3\\nname p\\nbatch 1e30\\n", "found '1e30', expected a whole number"},
+      {"nearmiss 3\\nname p\\nbatch inf\\n", "found 'inf', expected a whole number"},
+      {"nearmiss 3\\nnames p\\n", "found the line 'names'"},
+      {"nearmiss 3\\nname a\\0b\\nkinds vt\\n", "found a NUL character in 'name a?b', expected text"},
+      {"nearmiss 3\\nname a\\nname b\\nkinds vt\\n", "found the line 'name' twice, expected it once"},
+      {"nearmiss 3\\nname p\\nkinds vt\\nlongest inf\\n",
        "found 'p' with limits of lengths that no length meets, or that are not finite"},
-      {"nearmiss 2\\nname a/p\\nkinds vt\\n", "found the name 'a/p' with ':', '=', '/' or ','"}};
+      {"nearmiss 3\\nname a/p\\nkinds vt\\n", "found the name 'a/p' with ':', '=', '/' or ','"}};
   for (const auto& each : descriptions)
     EXPECT_REFUSED(make_any_subject(command("say('" + std::string(each.first) + "\\n')")), each.second);
   EXPECT_REFUSED(make_any_subject(command("import no_such_module")), "No module named 'no_such_module'");
@@ -171,7 +213,7 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
 }
 
 TEST_F(ProgramTest, IsIdentifiedByAllFilesOfItsCommand) {
-  const std::string code = "say('nearmiss 2\\nname p\\nkinds vt\\n\\n')";
+  const std::string code = "say('nearmiss 3\\nname p\\nkinds vt\\n\\n')";
   const std::string one = digest(code);
   EXPECT_EQ(digest(code), one);
   EXPECT_NE(digest(code + "\n"), one);

@@ -102,11 +102,14 @@ TEST(Trial, ATieIsProvedUpToTheDoublesNextToIt) {
                         -1, 2.265625, 0, -8, -8, 0, 8, 8, 0, 0, -20, 0},
                   .separation = 2.25};
   Batch recorded = batch_of("tie", {tie});
-  recorded.truths = {decide(tie).collision};
-  const auto result = hold_trial({}, recorded, {.certify_truths = true});
-  EXPECT_EQ(result.statistics.oracle_total().ties, 1);
-  EXPECT_EQ(result.statistics.oracle_total().certified, 1);
-  EXPECT_EQ(result.statistics.oracle_disagreements, 0);
+  for (const bool truth : {false, true}) {
+    recorded.truths = {truth};
+    const auto result = hold_trial({}, recorded, {.certify_truths = true});
+    EXPECT_EQ(result.statistics.oracle_total().ties, 1);
+    EXPECT_EQ(result.statistics.oracle_total().certified, 1);
+    EXPECT_EQ(result.statistics.oracle_disagreements, 0);
+    EXPECT_EQ(result.statistics.mismatches_with_recorded_truth, 0);
+  }
 }
 
 TEST(Trial, EveryFindingHasASignatureThatIsCounted) {

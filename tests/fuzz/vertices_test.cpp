@@ -3,6 +3,7 @@
 #include <CGAL/Interval_nt.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "ccd/wang/bounds/tight_tolerances.hpp"
+#include "ccd/wang/within.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
@@ -28,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(All, VertexFamilies,
                          testing::name_of_test);
 
 TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
-  const Family family = testing::as_asked(GetParam());
+  const Family family = as_asked(GetParam());
   const std::uint64_t count = testing::query_count(GetParam().block_cases < 25 ? 100 : 1000);
   for (const char* name : {"wang", "wang-plain", "wang-tight"}) {
     const auto subject = make_subject(name);
@@ -48,8 +51,8 @@ TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
 /// A number that was computed, divided by a power of B.
 Interval enclosure(double x) { return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)}; }
 
-/// The constraints on the tests of two vertices, or of a vertex and an edge, for tolerances that were computed
-/// for B.
+/// The constraints on the tests of two vertices, or of a vertex and an edge, for tolerances that were
+/// computed for B.
 void expect_constraints(const Tolerances<double>& computed, double B, bool of_edge) {
   const Interval b(B);
   Tolerances<Interval> tol;
@@ -124,15 +127,37 @@ TEST(TolerancesOfVertices, EveryPairIsWithinALargeH) {
 }
 
 TEST(TolerancesOfVertices, AGivenBReplacesThePairs) {
-  const Query query = make_query(testing::as_asked(find_family("v-uniform")), 1, 1);
+  const Query query = make_query(as_asked(find_family("v-uniform")), 1, 1);
   const double own = make_subject("wang")->distance_bound(query);
   EXPECT_GT(make_subject("wang@1e4")->distance_bound(query), 10 * own);
   EXPECT_TRUE(make_subject("wang-plain@1e9")->decide(query).hit);
   EXPECT_REFUSED(make_subject("wang-plain@1e-9")->decide(query), "is smaller than a pair's own");
 }
 
+// In the smallest numbers, and with a B that the scalar does not have.
+TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
+  for (const char* name : {"wang:float", "wang-tight:float", "wang:p16", "wang-tight:dd"}) {
+    const auto subject = make_any_subject(name);
+    const auto beyond = make_any_subject(std::string(name) + "@1e100");
+    for (std::uint64_t i = 0; i < 400; ++i) {
+      Query tiny = make_query(find_family("v-small-integer"), 1, i);
+      for (double& c : tiny.x) c *= 0x1p-1074;
+      tiny.separation = static_cast<double>(1 + i % 3) * 0x1p-1074;
+      EXPECT_GT(subject->distance_bound(tiny), 0) << name << ' ' << i;
+      for (const Query& query : {tiny, make_query(find_family("v-uniform~drawn"), 1, i)}) {
+        const Subject& of = query.separation < 1e-300 ? *subject : *beyond;
+        const Query rounded = of.rounded(query);
+        const bool hit = of.decide(query).hit;
+        EXPECT_TRUE(hit || !collides(rounded)) << name << ' ' << i;
+        EXPECT_FALSE(hit && distance_exceeds_separation_by(rounded, of.distance_bound(query)))
+            << name << ' ' << i;
+      }
+    }
+  }
+}
+
 TEST(TolerancesOfVertices, OnlySubjectsWithoutTimesAndTheOracleDecideThem) {
-  for (const char* name : {"basic", "wang-time", "advance", "wang:dd", "defect:psi*0"}) {
+  for (const char* name : {"basic:float", "wang-time", "advance"}) {
     EXPECT_FALSE(make_any_subject(name)->decides(Kind::vertex_edge)) << name;
     EXPECT_FALSE(make_any_subject(name)->takes_separation(Kind::vertex_edge)) << name;
   }
@@ -164,6 +189,91 @@ TEST(TolerancesOfVertices, APairWithoutSizeIsReported) {
       EXPECT_TRUE(make_subject(name)->decide(Query{.kind = kind}).hit) << name;
       EXPECT_GE(make_subject(name)->distance_bound(Query{.kind = kind}), 0) << name;
     }
+}
+
+/// Which KKT cases of Algorithm 2 have a candidate at which a vertex is near an edge (case 5: an end of the
+/// edge).
+std::array<bool, 5> cases_that_accept(const Query& query) {
+  const WithinQuery<double> pair(query);
+  const Tolerances<double> tol = pair.tolerances(query.kind, PaperTolerances());
+  const auto any_near = [&](const auto& times) {
+    return std::any_of(times.begin(), times.end(),
+                       [&](double t) { return detail::near_edge(pair.ve, t, tol); });
+  };
+  const detail::CrossProduct<double> g(pair.ve.x0i, pair.ve.xji, tol.rho);
+  return {any_near(std::array{0.0, 1.0}), any_near(detail::piece_minima(g, pair.ve.xji, tol.S)),
+          any_near(detail::equal_components(pair.ve.xji)), any_near(detail::zero_components(g)),
+          vertex_vertex(pair.ve.x0i, tol) || vertex_vertex(pair.ve.x0j, tol)};
+}
+
+// Case 3 finds nothing that the others miss, as the proof in vertex_edge.hpp says.
+TEST(TheCasesOfAlgorithm2, FindSomeCollisionsAloneExceptTheThird) {
+  std::array<int, 5> alone{};
+  for (const Family& each : vertex_families()) {
+    const Family family = as_asked(each);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const Query query = make_query(family, 1, 2 * i + 1);
+      if (WithinQuery<double>(query).is_always_within() || !collides(query)) continue;
+      const std::array<bool, 5> accepts = cases_that_accept(query);
+      ASSERT_TRUE(std::ranges::count(accepts, true) > 0) << family.name << ' ' << i;
+      if (std::ranges::count(accepts, true) == 1)
+        ++alone[static_cast<std::size_t>(std::ranges::find(accepts, true) - accepts.begin())];
+    }
+  }
+  EXPECT_GT(alone[0], 20);
+  EXPECT_GT(alone[1], 20);
+  EXPECT_EQ(alone[2], 0);
+  EXPECT_GT(alone[3], 20);
+  EXPECT_GT(alone[4], 20);
+}
+
+TEST(ClosestApproach, MissesHardlyAnythingAwayFromH) {
+  const auto basic = make_subject("basic");
+  for (const Kind kind : kinds_of_vertices) {
+    int collisions = 0;
+    int wrong = 0;
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+      const Query query = make_query(as_asked(find_family("v-uniform")), 1, i);
+      if (query.kind != kind) continue;
+      const Verdict verdict = basic->decide(query);
+      const bool collides = nearmiss::collides(query);
+      collisions += collides ? 1 : 0;
+      wrong += verdict.hit != collides ? 1 : 0;
+      if (verdict.hit && collides) {
+        EXPECT_NEAR(verdict.time, earliest_time(query)->enclosure().lo, 1e-6) << i;
+      }
+    }
+    EXPECT_GT(collisions, 100);
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+TEST(ClosestApproach, MissesWhatComesToWithinHExactly) {
+  const auto basic = make_subject("basic");
+  int missed = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const Query query = make_query(find_family("v-near-separation@-54"), 1, i);
+    missed += collides(query) && !basic->decide(query).hit ? 1 : 0;
+  }
+  EXPECT_GT(missed, 50);
+}
+
+TEST(DefectsOfVerticesAndEdges, AreFoundByFamiliesOfTheirOwn) {
+  const auto misses = [](const char* defect, const char* name, std::uint64_t queries) {
+    const auto subject = try_make_defect(defect);
+    const Family family = as_asked(find_family(name));
+    int count = 0;
+    for (std::uint64_t i = 0; i < queries; ++i) {
+      const Query query = make_query(family, 1, 2 * i + 1);
+      count += !subject->decide(query).hit && collides(query) ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(misses("defect:ve-minimum", "v-minimum", 200), 10);
+  EXPECT_GT(misses("defect:ve-zero", "v-near-separation", 500), 5);
+  EXPECT_GT(misses("defect:S*0.5", "v-near-separation", 500), 0);
+  EXPECT_GT(misses("defect:rho*100", "v-drifting@-17", 10000), 0);
+  EXPECT_EQ(misses("defect:S*1", "v-minimum", 200), 0);
 }
 
 }  // namespace

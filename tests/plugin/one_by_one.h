@@ -39,7 +39,9 @@
                                               .open = NULL,                                        \
                                               .close = NULL,                                       \
                                               .decide = decide_one_by_one,                         \
-                                              .distance_bound = (bound)};                          \
+                                              .distance_bound = (bound),                           \
+                                              .separation_kinds = 0,                               \
+                                              .distance_bound_within = NULL};                      \
     return index == 0 ? &detector : NULL;                                                          \
   }
 

@@ -1,5 +1,6 @@
-/* Decides two vertices, and a vertex and an edge: reports a query whose numbers are 1, 2, 3 ... to the last one
- * of its row. Its bound is the row's last number. */
+/* Decides two vertices, and a vertex and an edge: reports a query whose numbers are 1, 2, 3 ... to the last
+ * one of its row. Uses separations for a vertex and an edge only. Its bound is the row's last number and the
+ * separation. */
 #include "ccd/nearmiss_subject.h"
 
 static size_t numbers_of(int kind) { return kind == NEARMISS_VERTEX_VERTEX ? 12 : 18; }
@@ -14,9 +15,9 @@ static void decide(void* state, int kind, size_t n, const double* x, const doubl
   }
 }
 
-static double bound(void* state, int kind, const double* x) {
+static double bound(void* state, int kind, const double* x, double h) {
   (void)state;
-  return x[numbers_of(kind) - 1];
+  return x[numbers_of(kind) - 1] + h;
 }
 
 const nearmiss_subject* nearmiss_get_subject(size_t index) {
@@ -25,6 +26,7 @@ const nearmiss_subject* nearmiss_get_subject(size_t index) {
                                             .kinds = NEARMISS_VERTEX_VERTEX + NEARMISS_VERTEX_EDGE,
                                             .batch = 16,
                                             .decide = decide,
-                                            .distance_bound = bound};
+                                            .separation_kinds = NEARMISS_VERTEX_EDGE,
+                                            .distance_bound_within = bound};
   return index == 0 ? &detector : NULL;
 }

@@ -72,8 +72,9 @@ class Trial(unittest.TestCase):
         np.testing.assert_array_equal(rest.x, rest.shrunk)
 
     def test_finds_nothing_about_exact_answers(self):
-        of_exact = nearmiss.Subject(exact, takes_separation=True)
-        of_times = nearmiss.Subject(exact_times, time='lower-bound', takes_separation=True)
+        asked = {'kinds': ('vt', 'ee', 'vv', 've'), 'takes_separation': True}
+        of_exact = nearmiss.Subject(exact, **asked)
+        of_times = nearmiss.Subject(exact_times, time='lower-bound', **asked)
         result = nearmiss.trial([of_exact, of_times], 4000, list(nearmiss.families()))
         self.assertEqual(len(result.findings), 0)
         self.assertEqual(result.findings.x.shape, (0, 2, 4, 3))
@@ -151,6 +152,31 @@ class Trial(unittest.TestCase):
         asked.clear()
         nearmiss.trial(nearmiss.Subject(noting, takes_separation=True), 100, families, shrunk=0)
         self.assertEqual(len(set(asked)), 4)
+
+    def test_asks_vertices_and_edges_a_function_that_decides_them(self):
+        shapes = {}
+
+        def noting(kind, x, separation):
+            self.assertTrue((separation > 0).all())
+            shapes[kind] = x.shape[1:]
+            return exact(kind, x, separation) & (x[:, 0, 0, 0] < 0)
+
+        subject = nearmiss.Subject(noting, kinds=['ve', 'vv'], takes_separation=True)
+        result = nearmiss.trial(subject, 2000)
+        self.assertEqual(shapes, {'vv': (2, 2, 3), 've': (2, 3, 3)})
+        self.assertTrue(all(name.startswith('v-') for name in result.families))
+        self.assertGreater(result.counts('noting', kind='ve').missed, 50)
+        shrunk = result.findings[result.findings.is_shrunk & (result.findings.kind == 'vv')]
+        self.assertGreater(len(shrunk), 0)
+        np.testing.assert_array_equal(shrunk.shrunk[:, :, 2], shrunk.shrunk[:, :, 1])
+        self.assertTrue(
+            nearmiss.collides('vv', shrunk.shrunk[:, :, :2], shrunk.shrunk_separation).all()
+        )
+        for kinds, families in (('ve', None), ('vt', ['v-uniform']), (['vv', 've'], ['uniform'])):
+            with self.assertRaisesRegex(ValueError, "found no query for 'noting'"):
+                nearmiss.trial(nearmiss.Subject(noting, kinds=kinds), 100, families)
+        only = nearmiss.Subject(noting, kinds='vv', takes_separation=True)
+        self.assertEqual(nearmiss.trial(only, 300, shrunk=0).counts('noting').queries, 300)
 
     def test_passes_exceptions_on(self):
         class Mine(Exception):
@@ -256,7 +282,7 @@ asked.wait()
             ('function is 5, expected a function', lambda: nearmiss.trial([5])),
             ('cases is 10000.0, expected an integer', lambda: nearmiss.trial(never, 1e4)),
             ('families is 5, expected names', lambda: nearmiss.trial(never, 10, 5)),
-            ("kinds is None, expected 'vt'", lambda: nearmiss.Subject(never, kinds=None)),
+            ("kinds is None, expected some of 'vt'", lambda: nearmiss.Subject(never, kinds=None)),
             ('found the family 5, expected a name', lambda: nearmiss.trial(never, 10, [5])),
             ('found the family 5, expected a name', lambda: nearmiss.queries(5, 'vt', 1)),
             ('count is 1.5, expected an', lambda: nearmiss.queries('uniform', 'vt', 1.5)),
@@ -282,8 +308,10 @@ asked.wait()
                 nearmiss.trial(*arguments[:4], **dict(zip(['shrunk'], arguments[4:])))
         with self.assertRaisesRegex(ValueError, 'expected one of none, estimate, lower-bound'):
             nearmiss.Subject(never, time='exact')
-        with self.assertRaisesRegex(ValueError, "expected 'vt', 'ee' or both"):
-            nearmiss.Subject(never, kinds=['vv'])
+        with self.assertRaisesRegex(
+            ValueError, r"kinds is \(\), expected some of 'vt', 'ee', 'vv' and 've'"
+        ):
+            nearmiss.Subject(never, kinds=[])
 
 
 class Queries(unittest.TestCase):

@@ -28,7 +28,7 @@ TEST_F(ReplayOfAPlugin, HasTheWholePathAndTheOptionsAsTheyWereGiven) {
 TEST_F(ReplayOfAPlugin, HasTheCommandOfAProgramAsItWasGiven) {
   write("p.py",
         "import sys\n"
-        "sys.stdout.write('nearmiss 2\\nname p\\nkinds vt ee\\n\\n')\n"
+        "sys.stdout.write('nearmiss 3\\nname p\\nkinds vt ee\\n\\n')\n"
         "sys.stdout.flush()\n"
         "while sys.stdin.buffer.read(24 + 200):\n"
         "    sys.stdout.buffer.write(bytes(16))\n"

@@ -1,4 +1,7 @@
 // The command line with queries of two vertices, and of a vertex and an edge.
+#include <map>
+#include <set>
+
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -34,10 +37,60 @@ TEST_F(Vertices, AreDecidedProvedAndMeasured) {
 TEST_F(Vertices, OnlySomeSubjectsDecideThem) {
   EXPECT_EQ(run("verdict --kind ve --separation 1.25 --subject wang q.ve").out.substr(0, 2), "1 ");
   EXPECT_EQ(run("verdict --kind vv --separation 1.25 --subject wang-tight q.vv").out, "0\n");
-  expect_refused("verdict --kind ve --subject basic q.ve", {"basic", "found queries of kind ve"});
-  expect_refused("fuzz --family vertices --subject basic --cases 100", {"basic"});
+  expect_refused("verdict --kind ve --subject advance q.ve", {"advance", "found queries of kind ve"});
+  expect_refused("fuzz --family vertices --subject advance --cases 100", {"advance"});
   expect_refused("family v-uniform --kind vt --count 1", {"found vt, expected vv or ve"});
   expect_refused("oracle --kind ve q.vv", {"q.vv:1: found 12 numbers, expected 18, or 19 with a separation"});
+}
+
+TEST_F(Vertices, ACampaignAsksTheKindsThatSubjectsDecide) {
+  const auto asked = [&](const std::string& options) {
+    const json counts =
+        json::parse(expect_code(0, "fuzz --cases 400 --json - --no-shrink " + options).out)["subjects"];
+    std::map<std::string, std::set<std::string>> kinds_of;
+    for (const auto& [subject, by_kind] : counts.items())
+      for (const auto& [kind, count] : by_kind.items())
+        if (count["queries"] > 0) kinds_of[subject].insert(kind);
+    return kinds_of;
+  };
+  using Kinds = std::map<std::string, std::set<std::string>>;
+  EXPECT_EQ(asked("--subject wang"), (Kinds{{"wang", {"vt", "ee", "vv", "ve"}}}));
+  EXPECT_EQ(asked("--subject wang-time,exact"),
+            (Kinds{{"wang-time", {"vt", "ee"}}, {"exact", {"vt", "ee"}}}));
+  EXPECT_EQ(asked("--subject exact"), (Kinds{{"exact", {"vt", "ee"}}}));
+  EXPECT_EQ(asked("--subject wang --kind ve,ee"), (Kinds{{"wang", {"ee", "ve"}}}));
+  EXPECT_EQ(asked("--subject exact --separation drawn --kind vt"), (Kinds{{"exact", {"vt"}}}));
+  EXPECT_EQ(asked("--subject wang,exact --separation drawn"),
+            (Kinds{{"wang", {"vv", "ve"}}, {"exact", {"vv", "ve"}}}));
+  // It decides vv without a separation, and ve with one.
+  const std::string rows = "--subject " + plugin("rows") + ",wang-plain";
+  const auto of_rows = [&](const std::string& options) {
+    return json::parse(
+        run("fuzz --cases 400 --json - --no-shrink " + rows + options).out)["subjects"]["rows"];
+  };
+  EXPECT_EQ(of_rows("").size(), 1);
+  EXPECT_GT(of_rows("")["ve"]["queries"], 0);
+  EXPECT_GT(of_rows(" --separation 0 --kind vv")["vv"]["queries"], 0);
+}
+
+TEST_F(Vertices, ACampaignCanBeRepeatedByItsRecord) {
+  const auto of_run = [&](const std::string& options) {
+    return json::parse(run("fuzz --cases 40 --json - " + options).out)["runs"][0];
+  };
+  const json run_of_exact = of_run("--subject exact --family v-uniform");
+  EXPECT_EQ(run_of_exact["kinds"], "vv,ve");
+  EXPECT_THAT(run_of_exact["again"].get<std::string>(), HasSubstr("--family v-uniform --kind vv,ve"));
+  EXPECT_EQ(of_run("--subject wang --kind ve,vt")["again"], of_run("--subject wang --kind vt,ve")["again"]);
+}
+
+TEST_F(Vertices, ACampaignRefusesKindsThatItsFamiliesDoNotHave) {
+  expect_refused("fuzz --subject wang --cases 10 --kind vv --family uniform",
+                 {"--kind: found vv, expected vt or ee for the family uniform"});
+  expect_refused("fuzz --subject wang --cases 10 --kind vt,vt", {"--kind: found vt twice"});
+  expect_refused("fuzz --subject wang,advance --cases 10 --kind vt,vv --separation 0.5",
+                 {"wang: answers for contact only in queries of kind vt"});
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n");
+  expect_refused("fuzz --subject wang --cases 10 --kind vv --mesh a.obj a.obj", {"--kind: found vv", "mesh"});
 }
 
 TEST_F(Vertices, ACampaignFindsShrinksAndProvesWhatIsMissed) {

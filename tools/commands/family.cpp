@@ -34,9 +34,7 @@ struct Options {
 /// --factors, its factors.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
-  if (std::ranges::find(family.kinds, kind) == family.kinds.end())
-    throw Error(fmt::format("--kind: found {}, expected {} or {} for the family {}", options.kind,
-                            short_name(family.kinds[0]), short_name(family.kinds[1]), family.name));
+  expect_kind(family, kind, "--kind");
   std::uint64_t printed = 0;
   for (std::uint64_t index = options.first; printed < options.count; ++index) {
     if (kind_of(family, index) != kind) continue;

@@ -91,6 +91,13 @@ void add_fuzz(CLI::App& app, int& exit_code) {
                    "Number of values of each parameter in a sweep")
       ->needs(sweep);
   command
+      ->add_option("--kind", options->kinds,
+                   "Kinds of queries, separated by commas; by default those that a subject other than exact "
+                   "decides")
+      ->delimiter(',')
+      ->check(CLI::IsMember(short_names_of_kinds()))
+      ->type_name("vt,ee,vv,ve");
+  command
       ->add_option(
           "--mesh", options->mesh,
           "Add the family mesh: pairs of this moving mesh, unchanged, moved into contact, and perturbed "

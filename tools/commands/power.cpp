@@ -52,8 +52,10 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   subjects.push_back(std::move(keep_contract(make_any_subject(subject), false).front()));
   CampaignPlan plan;
   const Subject& defect = *subjects.front();
-  if (way == uniform) plan.families = families_for(defect, std::array{find_family("uniform")});
-  if (way == all_families) plan.families = families_for(defect, families());
+  if (way == uniform)
+    plan.families =
+        families_for(defect, std::array{find_family("uniform")}, std::array{find_family("v-uniform")});
+  if (way == all_families) plan.families = families_for(defect, families(), vertex_families());
   if (way == all_families && defect.takes_separation(Kind::vertex_triangle))
     plan.families.insert(plan.families.end(), separation_families().begin(), separation_families().end());
   if (way == search) plan.families = searches(defect, stop);
@@ -103,8 +105,8 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-/// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for "found
-/// after S s, N executions: PATH" or "nothing in ...".
+/// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for
+/// "found after S s, N executions: PATH" or "nothing in ...".
 Hunt hunt_with_target(const Options& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command =

@@ -22,20 +22,31 @@ namespace nearmiss::tools {
 
 namespace {
 
+/// The short names of a sum of kinds: "vt and ee".
+std::string names_of(int sum) {
+  std::vector<std::string_view> names;
+  for (const Kind kind : kinds)
+    if ((sum & bit_of(kind)) != 0) names.push_back(short_name(kind));
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+/// For which kinds a plug-in uses separations, in words; "" for none.
+std::string separations_of(const DetectorInfo& info) {
+  if (info.separation_kinds == 0) return "";
+  if (info.separation_kinds == info.kinds) return "takes a separation; ";
+  return fmt::format("takes a separation for {}; ", names_of(info.separation_kinds));
+}
+
 /// Prints some lines about a plug-in.
 void print(const Subject& subject) {
   const DetectorInfo& info = *plugin_info(subject);
   constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
                                              "a lower bound of the time"};
-  std::vector<std::string> kinds_decided;
-  for (const Kind kind : kinds)
-    if (decides(info, kind)) kinds_decided.emplace_back(short_name(kind));
   fmt::print("{:<23} {}\n", subject.name(), info.about);
   fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}\n", "",
-             info.version.empty() ? "?" : info.version, fmt::join(kinds_decided, " and "),
-             info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
-             info.claims_bound ? "claims a bound; " : "", info.takes_separation ? "takes a separation; " : "",
-             info.batch);
+             info.version.empty() ? "?" : info.version, names_of(info.kinds), info.is_narrow ? 24 : 53,
+             times[static_cast<std::size_t>(info.time_sort)], info.claims_bound ? "claims a bound; " : "",
+             separations_of(info), info.batch);
   if (const std::string contract = in_words(info.contract); !contract.empty())
     fmt::print("{:<23} presumes: {}\n", "", contract);
 }

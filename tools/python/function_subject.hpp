@@ -14,10 +14,10 @@
 
 namespace nearmiss::python {
 
-/// Calls function(kind, x, separation) for queries of one kind, with x of shape (n, 2, 4, 3) and separation
-/// (n,). The function returns bools (n,), together with times (n,) if the subject gives times
-/// (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The caller must not hold
-/// Python's global interpreter lock.
+/// Calls function(kind, x, separation) for queries of one kind, with x of shape (n, 2, v, 3), where v is the
+/// kind's number of vertices, and separation (n,). The function returns bools (n,), together with times (n,)
+/// if the subject gives times (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The
+/// caller must not hold Python's global interpreter lock.
 class FunctionSubject final : public BatchSubject {
  public:
   FunctionSubject(DetectorInfo info, pybind11::function function)
@@ -29,7 +29,9 @@ class FunctionSubject final : public BatchSubject {
   [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return HUGE_VAL; }
   [[nodiscard]] bool claims_bound() const override { return false; }
   [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation(Kind /*kind*/) const override { return info_.takes_separation; }
+  [[nodiscard]] bool takes_separation(Kind kind) const override {
+    return nearmiss::takes_separation(info_, kind);
+  }
   [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
 
  private:

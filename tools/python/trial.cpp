@@ -16,7 +16,6 @@
 #include <string>
 #include <string_view>
 #include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,6 +25,7 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/built_in.hpp"
+#include "fuzz/subjects/exact.hpp"
 #include "fuzz/trial/case_order.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
@@ -44,9 +44,9 @@ std::unique_ptr<Subject> subject_of(const py::object& each) {
   info.name = each.attr("name").cast<std::string>();
   if (const std::string fault = fault_of_name(info.name); !fault.empty()) throw Error("found " + fault);
   info.time_sort = static_cast<TimeSort>(each.attr("_number_of_time_sort")().cast<int>());
-  info.takes_separation = each.attr("takes_separation").cast<bool>();
   for (const Kind kind : kinds)
     if (each.attr("kinds").contains(short_name(kind))) info.kinds |= bit_of(kind);
+  if (each.attr("takes_separation").cast<bool>()) info.separation_kinds = info.kinds;
   return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
 }
 
@@ -56,10 +56,30 @@ Subjects subjects_of(const py::list& of) {
   return subjects;
 }
 
-std::vector<Family> families_of(const std::vector<std::string>& names) {
+/// The named families. Without names, all that ask for contact, and those of vertices and edges, as far as a
+/// subject decides their kinds.
+std::vector<Family> families_of(const std::vector<std::string>& names, const Subjects& subjects) {
   std::vector<Family> chosen;
-  for (const std::string& name : names) chosen.push_back(find_family(name, mesh_families()));
+  for (const std::string& name : names) chosen.push_back(as_asked(find_family(name)));
+  if (!names.empty()) return chosen;
+  const std::vector<Kind> asked = kinds_to_ask(subjects, [](Kind kind) { return !is_of_meshes(kind); });
+  for (const auto& all : {families(), vertex_families()})
+    for (const Family& family : all)
+      if (const auto some = of_kinds(as_asked(family), asked)) chosen.push_back(*some);
   return chosen;
+}
+
+/// Throws Error if a subject is asked none of the families' queries.
+void expect_all_asked(const Subjects& subjects, const std::vector<Family>& families) {
+  const auto is_asked = [](const Subject& subject, const Family& family) {
+    return std::ranges::any_of(kinds_asked(family), [&](Kind kind) {
+      return subject.decides(kind) && (!family.has_separation || subject.takes_separation(kind));
+    });
+  };
+  for (const auto& subject : subjects)
+    if (std::ranges::none_of(families, [&](const Family& family) { return is_asked(*subject, family); }))
+      throw Error("found no query for '" + subject->name() +
+                  "', expected families of kinds that it decides, with separations only if it takes them");
 }
 
 std::atomic<bool> is_ending = false;  ///< whether the interpreter is exiting, so that all trials must end
@@ -95,7 +115,7 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   Pace pace;
   while (const auto block = cases.next(pace)) {
     const auto start = Stop::Clock::now();
-    for (const Kind kind : block->family->kinds) {
+    for (const Kind kind : kinds_asked(*block->family)) {
       Batch batch = batch_of(plan, *block, kind, stop);
       if (batch.queries.empty()) continue;
       batch.timed = false;
@@ -170,7 +190,8 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   const PlainArithmetic guard;
   const Subjects subjects = subjects_of(of_subjects);
   CampaignPlan plan;
-  plan.families = families_of(families);
+  plan.families = families_of(families, subjects);
+  expect_all_asked(subjects, plan.families);
   plan.seed = seed;
   plan.cases = cases;
   TrialResult result;
@@ -186,11 +207,10 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
 
-/// For each family that a trial can ask: its name, its description, and whether its queries have a separation.
-std::vector<std::tuple<std::string, std::string, bool>> known_families() {
-  std::vector<std::tuple<std::string, std::string, bool>> known;
-  for (const Family& family : mesh_families())
-    known.emplace_back(family.name, family.about, family.has_separation);
+/// The name and the description of each family.
+std::vector<std::pair<std::string, std::string>> known_families() {
+  std::vector<std::pair<std::string, std::string>> known;
+  for (const Family& family : all_families()) known.emplace_back(family.name, family.about);
   return known;
 }
 
@@ -202,9 +222,7 @@ py::tuple make(const std::string& family, const std::string& kind_name, std::siz
   queries.reserve(count);
   const Family from = find_family(family);
   const Kind kind = parse_kind(kind_name, "kind");
-  if (std::ranges::find(from.kinds, kind) == from.kinds.end())
-    throw Error("found the kind '" + kind_name + "', expected '" + std::string(short_name(from.kinds[0])) +
-                "' or '" + std::string(short_name(from.kinds[1])) + "' for the family " + from.name);
+  expect_kind(from, kind, "kind");
   const QueryMaker query(from, seed);
   for (std::uint64_t index = 0; queries.size() < count; ++index) {
     if (kind_of(from, index) == kind) queries.push_back(query(index));

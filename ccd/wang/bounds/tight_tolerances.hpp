@@ -188,47 +188,50 @@ Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
-/// The rule for tolerances that gives `tight_tolerances`.
+/// The tolerances for a vertex within R of an edge: S = √8 R, ρ = ε, the least ψ, and a λ² for which D is
+/// about smallest. λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ for S = 0, and at λ³ = 4Sψ for large S. All
+/// others are those of `tol`, the tolerances for B.
+template <class T>
+Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R) {
+  using std::max;
+  using std::sqrt;
+  const T eps = epsilon<T>();
+  const T margin = 1 + 16 * eps + T(0x1p-30);
+  tol.R = R;
+  tol.S = R * T(2.8284271247461903) * margin;
+  const T S = B > 0 ? T(tol.S / B) : T(0);
+  const RoundingErrors<T> errors = full_errors(eps, S, eps);
+  const T psi = errors.least_psi * margin;
+  const T cubes = 16 * S * S * psi * psi;
+  const T root = static_cast<T>(std::cbrt(static_cast<double>(cubes)));  // any λ² will do
+  const T lambda2 = max(T(2 * psi + root), T(2 * errors.length2));
+  const T longer2 = lambda2 + errors.length2;
+  const T shorter2 = lambda2 - errors.length2;
+  const T at_longer = psi / sqrt(longer2) + S;
+  const T at_shorter = (psi + errors.F) / sqrt(shorter2) + S;
+  const T D2 = max(T(longer2 / 4 + at_longer * at_longer),
+                   T(errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter));
+  const T B2 = B * B;
+  tol.rho = B2 * eps;
+  tol.psi = B2 * psi;
+  tol.lambda2 = B2 * lambda2;
+  tol.D2 = B2 * (D2 * margin);
+  return tol;
+}
+
+/// The rule for tolerances that gives `tight_tolerances`, and those of the paper for two vertices.
 struct TightTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {
     return tight_tolerances(B);
   }
-
-  /// For two vertices within R, as in the paper.
   template <class T>
   [[nodiscard]] Tolerances<T> of_vertices(T B, T R) const {
     return PaperTolerances().of_vertices(B, R);
   }
-
-  /// For a vertex within R of an edge: S = √8 R, ρ = ε, the least ψ, and a λ² for which D is about smallest.
-  /// λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ for S = 0, and at λ³ = 4Sψ for large S.
   template <class T>
   [[nodiscard]] Tolerances<T> of_edge(T B, T R) const {
-    using std::cbrt;
-    using std::max;
-    using std::sqrt;
-    const T eps = epsilon<T>();
-    const T margin = 1 + 16 * eps + T(0x1p-30);
-    Tolerances<T> tol = tight_tolerances(B);
-    tol.R = R;
-    tol.S = R * T(2.8284271247461903) * margin;
-    const T S = B > 0 ? T(tol.S / B) : T(0);
-    const RoundingErrors<T> errors = full_errors(eps, S, eps);
-    const T psi = errors.least_psi * margin;
-    const T lambda2 = max(T(2 * psi + cbrt(16 * S * S * psi * psi)), T(2 * errors.length2));
-    const T longer2 = lambda2 + errors.length2;
-    const T shorter2 = lambda2 - errors.length2;
-    const T at_longer = psi / sqrt(longer2) + S;
-    const T at_shorter = (psi + errors.F) / sqrt(shorter2) + S;
-    const T D2 = max(T(longer2 / 4 + at_longer * at_longer),
-                     T(errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter));
-    const T B2 = B * B;
-    tol.rho = B2 * eps;
-    tol.psi = B2 * psi;
-    tol.lambda2 = B2 * lambda2;
-    tol.D2 = B2 * (D2 * margin);
-    return tol;
+    return tight_tolerances_of_edge(tight_tolerances(B), B, R);
   }
 };
 

@@ -72,7 +72,9 @@ constexpr nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
                                    .open = nullptr,
                                    .close = nullptr,
                                    .decide = decide,
-                                   .distance_bound = distance_bound};
+                                   .distance_bound = distance_bound,
+                                   .separation_kinds = 0,
+                                   .distance_bound_within = nullptr};
 
 }  // namespace
 

@@ -60,7 +60,7 @@ struct PluginDescription {
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
       names{};  ///< of all detectors in the shared object, a line each
-  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, takes_separation = 0, claims_bound = 0;
+  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
   double apart_by = 0, grid = 0, shortest = 0, longest = 0;
   std::uint64_t batch = 0;

@@ -29,9 +29,9 @@ std::string text(const std::array<char, n>& written) {
   return printable(std::string_view(written.data(), strnlen(written.data(), n)));
 }
 
-// The computing time that a timed call needs for itself: to receive it, to ask the empty subject twice, and to
-// reply, with empty caches on a busy machine. In 1,500 calls on two busy cores, the median was 20 microseconds
-// and the longest 1,500.
+// The computing time that a timed call needs for itself: to receive it, to ask the empty subject twice, and
+// to reply, with empty caches on a busy machine. In 1,500 calls on two busy cores, the median was 20
+// microseconds and the longest 1,500.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
 constexpr double most_asked_twice = 2;  // some queries are decided before the time counts, and then again
 
@@ -63,7 +63,7 @@ DetectorInfo info_of(const PluginDescription& about) {
   info.is_narrow = about.is_narrow != 0;
   info.time_sort =
       static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
-  info.takes_separation = about.takes_separation != 0;
+  info.separation_kinds = about.separation_kinds & info.kinds;
   info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
   info.claims_bound = about.claims_bound != 0;
   info.contract = {.apart_at_start = about.apart_at_start != 0,

@@ -18,6 +18,7 @@
 #include "ccd/wang/loosened.hpp"
 #include "ccd/wang/pair_bound.hpp"
 #include "ccd/wang/wang.hpp"
+#include "ccd/wang/within.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 
 namespace nearmiss::ladder {
@@ -29,6 +30,14 @@ struct EitherTolerances {
   template <class T>
   [[nodiscard]] Tolerances<T> operator()(const T& B) const {
     return smallest ? tolerances_of(*smallest, epsilon<T>(), B) : paper_tolerances(B);
+  }
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_vertices(const T& B, const T& R) const {
+    return PaperTolerances().of_vertices(B, R);
+  }
+  template <class T>
+  [[nodiscard]] Tolerances<T> of_edge(const T& B, const T& R) const {
+    return smallest ? tight_tolerances_of_edge((*this)(B), B, R) : PaperTolerances().of_edge(B, R);
   }
 };
 
@@ -66,6 +75,12 @@ class Scaled final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (!claims_bound()) return std::numeric_limits<double>::infinity();
     const Arithmetic arithmetic(epsilon_exponent_);
+    if (!is_of_meshes(query.kind)) {
+      const Seen seen = as_seen(query);
+      const double bound =
+          within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
+      return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
+    }
     // Rounded up, with a margin for B in a scalar of few digits: B <= B* (1 + 40ε), where B* is exact.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
@@ -74,6 +89,12 @@ class Scaled final : public Subject {
   }
 
   [[nodiscard]] bool claims_bound() const override { return algorithm_ != Algorithm::basic; }
+  [[nodiscard]] bool decides(Kind kind) const override {
+    return is_of_meshes(kind) || algorithm_ != Algorithm::basic;
+  }
+  [[nodiscard]] bool takes_separation(Kind kind) const override {
+    return !is_of_meshes(kind) && decides(kind);
+  }
 
   [[nodiscard]] TimeSort time_sort() const override {
     return algorithm_ == Algorithm::basic ? TimeSort::estimate : TimeSort::none;
@@ -93,6 +114,7 @@ class Scaled final : public Subject {
     const Arithmetic arithmetic(epsilon_exponent_);
     Seen seen = as_seen(query);
     for (double& c : seen.query.x) c = std::ldexp(c, -seen.exponent);
+    seen.query.separation = std::ldexp(seen.query.separation, -seen.exponent);
     return seen.query;
   }
 
@@ -102,8 +124,9 @@ class Scaled final : public Subject {
   template <class Rule>
   [[nodiscard]] Verdict decide(const Query& query, const Rule& tolerances) const {
     const Seen seen = as_seen(query);
-    std::optional<double> given = given_;
-    if (given) given = std::ldexp(*given, seen.exponent);
+    const std::optional<double> given = given_in(seen);
+    if (!is_of_meshes(query.kind))
+      return wang_within<T>(seen.query, options.plane_culling, given, tolerances);
     return with_kind(query.kind, [&]<Kind kind>() {
       return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen.query)
                                             : wang<kind, T, options>(seen.query, given, tolerances);
@@ -115,8 +138,14 @@ class Scaled final : public Subject {
     int exponent = 0;
   };
 
-  /// The query with coordinates rounded to T. For float, which has a smaller range than double, they are
-  /// first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes the number of T just below.
+  /// The given bound in the unit of a scaled query.
+  [[nodiscard]] std::optional<double> given_in(const Seen& seen) const {
+    return given_ ? std::optional(std::ldexp(*given_, seen.exponent)) : std::nullopt;
+  }
+
+  /// The query with coordinates and separation rounded to T. For float, which has a smaller range than
+  /// double, they are first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes the number
+  /// of T just below.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;
@@ -127,8 +156,11 @@ class Scaled final : public Subject {
     }
     const double most = std::ldexp(largest_, exponent);
     Query seen = query;
-    for (double& c : seen.x)
+    const auto round = [&](double& c) {
       c = std::clamp(static_cast<double>(static_cast<T>(std::ldexp(c, exponent))), -most, most);
+    };
+    for (double& c : seen.x) round(c);
+    round(seen.separation);
     return {seen, exponent};
   }
 

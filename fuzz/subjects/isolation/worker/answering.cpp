@@ -127,7 +127,9 @@ std::uint64_t time_of_warm(const Detector& detector, std::uint64_t call, std::ui
 void give_bounds(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t i = first; i < last; ++i) {
     begin(i);
-    note(answers->of[i], call, detector.bound(questions->kind, questions->queries[i].data()).bound, 0);
+    const BoundAnswer given =
+        detector.bound(questions->kind, questions->queries[i].data(), questions->separations[i]);
+    note(answers->of[i], call, given.bound, 0);
   }
 }
 
@@ -187,7 +189,7 @@ void describe(const DetectorInfo& info, const std::string& names) {
   about.kinds = info.kinds;
   about.is_narrow = info.is_narrow ? 1 : 0;
   about.time_sort = static_cast<std::int32_t>(info.time_sort);
-  about.takes_separation = info.takes_separation ? 1 : 0;
+  about.separation_kinds = info.separation_kinds;
   about.claims_bound = info.claims_bound ? 1 : 0;
   about.apart_at_start = info.contract.apart_at_start ? 1 : 0;
   about.one_root = info.contract.one_root ? 1 : 0;

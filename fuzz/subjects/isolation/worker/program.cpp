@@ -21,8 +21,6 @@ namespace nearmiss::isolation {
 namespace {
 
 constexpr int look_again_ms = 5;
-constexpr std::size_t numbers_per_query = 25;  // 24 coordinates and the separation
-
 /// The program that the functions of a nearmiss_subject ask.
 Program* the_program = nullptr;
 
@@ -70,7 +68,10 @@ Program::Program(const std::string& command) : command_(command) {
   subject.version = description_.version.c_str();
   subject.about = description_.about.c_str();
   subject.decide = decide_with_the_program;
-  if (description_.claims_bound) subject.distance_bound = bound_of_the_program;
+  if (description_.claims_bound && description_.ignores_separation_in_bounds)
+    subject.distance_bound = bound_of_contact;
+  else if (description_.claims_bound)
+    subject.distance_bound_within = bound_of_the_program;
   if (const std::string fault = fault_of(subject); !fault.empty())
     throw Error("pipe:" + command_ + ": found " + fault + ", expected what fuzz/subjects/PROGRAMS.md says");
 }
@@ -87,11 +88,14 @@ void Program::decide_with_the_program(void* /*state*/, int kind, std::size_t n, 
   }
 }
 
-double Program::bound_of_the_program(void* /*state*/, int kind, const double* x) {
-  const double contact = 0;
+double Program::bound_of_the_program(void* /*state*/, int kind, const double* x, double h) {
   std::array<double, 2> answer{};
-  the_program->ask(Question::bound, kind, 1, x, &contact, answer.data());
+  the_program->ask(Question::bound, kind, 1, x, &h, answer.data());
   return answer[0];
+}
+
+double Program::bound_of_contact(void* state, int kind, const double* x) {
+  return bound_of_the_program(state, kind, x, 0);
 }
 
 Program::~Program() {
@@ -130,9 +134,10 @@ std::string Program::read_description() {
 void Program::ask(Question question, int kind, std::size_t n, const double* x, const double* h,
                   double* answers) {
   std::vector<double> frame{static_cast<double>(question), static_cast<double>(kind), static_cast<double>(n)};
-  frame.reserve(frame.size() + numbers_per_query * n);
+  const std::size_t size = coordinate_count(kind_of_bit(kind).value());
+  frame.reserve(frame.size() + (size + 1) * n);
   for (std::size_t i = 0; i < n; ++i) {
-    frame.insert(frame.end(), x + 24 * i, x + 24 * (i + 1));
+    frame.insert(frame.end(), x + size * i, x + size * (i + 1));
     frame.push_back(h[i]);
   }
   expect_silence();

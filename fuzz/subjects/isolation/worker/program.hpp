@@ -36,7 +36,8 @@ class Program {
   // These are the functions of a nearmiss_subject.
   static void decide_with_the_program(void* state, int kind, std::size_t n, const double* x, const double* h,
                                       int* answer, double* toi);
-  static double bound_of_the_program(void* state, int kind, const double* x);
+  static double bound_of_the_program(void* state, int kind, const double* x, double h);
+  static double bound_of_contact(void* state, int kind, const double* x);
 
   void start(const std::string& command);
   std::string read_description();

@@ -1,12 +1,15 @@
 #include "fuzz/subjects/isolation/worker/program_description.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/kind.hpp"
 #include "ccd/query/printable.hpp"
 
 namespace nearmiss::isolation {
@@ -40,6 +43,22 @@ int place(const std::string& value, const std::vector<std::string>& words, int f
 
 int yes_or_no(const std::string& value) { return place(value, {"no", "yes"}, 0); }
 
+/// Reads kinds with blanks between them, such as "vt ee", as a sum of their bits.
+int sum_of_kinds(const std::string& value) {
+  int sum = 0;
+  std::istringstream words(value);
+  for (std::string word; words >> word;) {
+    const auto kind = std::ranges::find(kinds, word, short_name);
+    if (kind == kinds.end() || (sum & bit_of(*kind)) != 0) {
+      std::string known;
+      for (const Kind each : kinds) known.append(" ").append(short_name(each));
+      throw Error("found '" + value + "', expected some of" + known + ", each once");
+    }
+    sum += bit_of(*kind);
+  }
+  return sum;
+}
+
 /// Reads a line of the contract; false if it is not one.
 bool read_contract_line(std::string_view key, const std::string& value, nearmiss_contract& contract) {
   if (key == "apart-at-start") {
@@ -69,13 +88,16 @@ void read_line(std::string_view key, const std::string& value, ProgramDescriptio
   } else if (key == "about") {
     into.about = value;
   } else if (key == "kinds") {
-    subject.kinds = place(value, {"vt", "ee", "vt ee"}, NEARMISS_VERTEX_TRIANGLE);
+    subject.kinds = sum_of_kinds(value);
   } else if (key == "bits") {
     subject.bits = static_cast<int>(whole_number(value));
   } else if (key == "time") {
     subject.time_sort = place(value, {"none", "estimate", "lower-bound"}, NEARMISS_NO_TIME);
   } else if (key == "separation") {
-    subject.takes_separation = yes_or_no(value);
+    if (value == "yes" || value == "no")
+      subject.takes_separation = yes_or_no(value);
+    else
+      subject.separation_kinds = sum_of_kinds(value);
   } else if (key == "batch") {
     subject.batch = whole_number(value);
   } else if (key == "bound") {
@@ -89,13 +111,13 @@ void read_line(std::string_view key, const std::string& value, ProgramDescriptio
 }  // namespace
 
 ProgramDescription ProgramDescription::parse(const std::string& text) {
-  const std::string version = "nearmiss " + std::to_string(NEARMISS_INTERFACE);
   ProgramDescription description;
   description.subject.interface_version = NEARMISS_INTERFACE;
   std::set<std::string> keys;
   std::size_t at = text.find('\n') + 1;
-  if (text.substr(0, at) != version + "\n")
-    throw Error("found '" + text.substr(0, at - 1) + "', expected '" + version + "'");
+  description.ignores_separation_in_bounds = text.starts_with("nearmiss 2\n");
+  if (!description.ignores_separation_in_bounds && !text.starts_with("nearmiss 3\n"))
+    throw Error("found '" + text.substr(0, at - 1) + "', expected 'nearmiss 3' or 'nearmiss 2'");
   while (at + 1 < text.size()) {
     const std::size_t end = text.find('\n', at);
     const std::string line = text.substr(at, end - at);

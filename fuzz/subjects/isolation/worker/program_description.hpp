@@ -11,7 +11,8 @@ namespace nearmiss::isolation {
 struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;
-  nearmiss_subject subject{};  ///< the rest, without texts and functions
+  bool ignores_separation_in_bounds = false;  ///< version 2: is asked for bounds without the separation
+  nearmiss_subject subject{};                 ///< the rest, without texts and functions
 
   /// Reads all lines, the empty one included. Throws Error.
   static ProgramDescription parse(const std::string& text);

@@ -22,8 +22,9 @@ CCD = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
 class Subject:
     """A CCD on trial.
 
-    function: gets kind ('vt' or 'ee'), x (n, 2, 4, 3) and separation (n,), and returns bools (n,): whether
-              each query is a collision. It must answer a query in the same way whenever it is asked.
+    function: gets kind ('vt', 'ee', 'vv' or 've'), x (n, 2, v, 3), where v is 4, or 2 for 'vv' and 3 for 've',
+              and separation (n,), and returns bools (n,): whether each query is a collision. It must answer a
+              query in the same way whenever it is asked.
     name:     its name in results; by default that of the function
     time:     if it is not 'none', the function returns (bools, times) instead, with the time of each
               collision in [0, 1]: 'estimate' for a time near the earliest one, 'lower-bound' for a time that
@@ -43,10 +44,10 @@ class Subject:
             raise TypeError(f'function is {self.function!r}, expected a function')
         if self.time not in _TIME_SORTS:
             raise ValueError(f'time is {self.time!r}, expected one of {", ".join(_TIME_SORTS)}')
-        kinds = _several('kinds', self.kinds, "'vt', 'ee' or both")
+        kinds = _several('kinds', self.kinds, "some of 'vt', 'ee', 'vv' and 've'")
         object.__setattr__(self, 'kinds', tuple(kind_of(kind).value for kind in kinds))
-        if not self.kinds or not set(self.kinds) <= {'vt', 'ee'}:
-            raise ValueError(f"kinds is {self.kinds!r}, expected 'vt', 'ee' or both")
+        if not self.kinds:
+            raise ValueError("kinds is (), expected some of 'vt', 'ee', 'vv' and 've'")
         if not isinstance(self.takes_separation, (bool, np.bool_)):
             raise TypeError(f'takes_separation is {self.takes_separation!r}, expected a bool')
         if not self.name:
@@ -109,10 +110,10 @@ class Counts:
 class Findings:
     """Queries on which subjects fail, with an array for each property. findings[mask] selects some of them.
 
-    x, separation:             the queries: (m, 2, 4, 3) and (m,)
+    x, separation:             the queries: (m, 2, 4, 3) and (m,); 'vv' and 've' repeat their last vertex
     shrunk, shrunk_separation: where is_shrunk is true, the simplest queries that fail in the same way; else
                                the queries themselves
-    kind:                      'vt' or 'ee'
+    kind:                      'vt', 'ee', 'vv' or 've'
     what:                      'false-negative', 'late', 'fault' or 'refuted-bound' of a subject; or
                                'oracle-disagreement'
     subject, family:           names
@@ -202,8 +203,9 @@ def trial(
     subjects: a Subject or a function like that of a Subject, the name of a built-in subject ('wang',
               'basic'), or several of these
     cases:    total number of queries, divided among the families
-    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; by default, all that ask for contact.
-              families() lists them.
+    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By default, all that
+              ask for contact, and those of vertices and edges with drawn separations, as far as a subject
+              decides their kinds.
     seed:     seed of the random queries, which are those of `nearmiss fuzz` with the same families, cases and
               seed
     shrunk:   how many findings of each signature are shrunk; to shrink one may ask a subject thousands of
@@ -216,13 +218,16 @@ def trial(
         _count(name, value)
         for name, value in (('cases', cases), ('seed', seed), ('shrunk', shrunk))
     )
-    extension = _extension()
-    if families is None:
-        families = [name for name, _, has_separation in extension.families() if not has_separation]
-    families = [_family(each) for each in _several('families', families, 'names')]
-    if cases < 1 or not families:
-        raise ValueError(f'found {cases} cases of {len(families)} families, expected at least one')
-    rows, columns = extension.hold(chosen, families, cases, seed, shrunk)
+    names = (
+        None
+        if families is None
+        else [_family(each) for each in _several('families', families, 'names')]
+    )
+    if cases < 1 or names == []:
+        raise ValueError(
+            f'found {cases} cases of {"no" if names == [] else "some"} families, expected at least one'
+        )
+    rows, columns = _extension().hold(chosen, names or [], cases, seed, shrunk)
     return TrialResult(
         [(subject, kind, family, Counts(*counts)) for subject, kind, family, *counts in rows],
         Findings(
@@ -288,7 +293,7 @@ def _count(name: str, value: Any) -> int:
 
 def families() -> dict[str, str]:
     """The families of random queries, and what is hard about each."""
-    return {name: about for name, about, _ in _extension().families()}
+    return dict(_extension().families())
 
 
 def queries(
