@@ -151,11 +151,18 @@ TEST(TimeSearches, AreMadeForSubjectsThatGiveTimes) {
     for (const Family& family : searches(subject, Stop::never(), separation)) found.push_back(family.name);
     return found;
   };
-  EXPECT_THAT(names(*make_any_subject("exact-decision"), ""),
-              ::testing::ElementsAre("search-miss-exact-decision", "search-far-exact-decision"));
-  EXPECT_THAT(names(*make_any_subject("exact"), "drawn"),
-              ::testing::ElementsAre("search-miss-exact~drawn", "search-far-exact~drawn",
-                                     "search-late-exact~drawn", "search-early-exact~drawn"));
+  EXPECT_THAT(
+      names(*make_any_subject("exact-decision"), ""),
+      ::testing::ElementsAre("search-miss-exact-decision", "search-far-exact-decision",
+                             "v-search-miss-exact-decision~drawn", "v-search-far-exact-decision~drawn"));
+  EXPECT_THAT(names(*make_any_subject("wang-time"), ""),
+              ::testing::ElementsAre("search-miss-wang-time", "search-far-wang-time", "search-late-wang-time",
+                                     "search-early-wang-time"));
+  EXPECT_THAT(names(*make_any_subject("wang"), "drawn"),
+              ::testing::ElementsAre("v-search-miss-wang~drawn", "v-search-far-wang~drawn"));
+  EXPECT_THAT(names(*make_any_subject("advance"), "drawn"),
+              ::testing::ElementsAre("search-miss-advance~drawn", "search-far-advance~drawn",
+                                     "search-late-advance~drawn", "search-early-advance~drawn"));
   for (const char* none : {"0", "near"})
     EXPECT_THROW(names(*make_any_subject("exact"), none), nearmiss::Error) << none;
 }

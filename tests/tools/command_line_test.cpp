@@ -105,7 +105,8 @@ TEST_F(CommandLine, FuzzMergeAndReport) {
   EXPECT_EQ(run("merge all.db a.db b.db").code, 0);
   const json report = report_of("all.db --baseline a.db");
   int queries = 0;
-  for (const char* kind : {"vt", "ee"}) queries += report["subjects"]["wang"][kind]["queries"].get<int>();
+  for (const char* kind : {"vt", "ee", "vv", "ve"})
+    queries += report["subjects"]["wang"][kind]["queries"].get<int>();
   EXPECT_EQ(queries, 1100);
   ASSERT_EQ(report["runs"].size(), 1);
   EXPECT_FALSE(report["runs"][0].contains("missing"));

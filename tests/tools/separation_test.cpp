@@ -58,7 +58,7 @@ TEST_F(SeparationOption, IsRefusedIfItIsNoDistanceOrIfASubjectTakesNone) {
     for (const char* other : {"-1", "nan", "inf", "x", "0.5,1"})
       expect_refused(command + " --separation=" + other, {"--separation", other});
   for (const std::string command : {"verdict --kind vt q.vt", "bench q.vt --json new.json", "shrink one.vt",
-                                    "fuzz --cases 10 --db new.db", "replay q.vt --db new.db"})
+                                    "fuzz --cases 10 --kind vt --db new.db", "replay q.vt --db new.db"})
     expect_refused(command + " --subject wang --separation 0.5", {"wang: answers for contact only"});
   write("own.vt", hit + with(hit, "0.5"));
   expect_refused("bench own.vt --subject exact,wang", {"wang: answers for contact only"});
