@@ -48,7 +48,9 @@ class Nearmiss:
         """Runs a campaign and writes its report into folder/report. Exit code 1, for misses, is no
         error here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
-        command = f'fuzz --kind {",".join(KINDS)} --family {families} --cases {cases} --seed {seed} -q'
+        command = (
+            f'fuzz --kind {",".join(KINDS)} --family {families} --cases {cases} --seed {seed} -q'
+        )
         options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
         fuzz_text = self.run(*command.split(), *options, codes=(0, 1))
         report_text = self.run('report', store, '-o', folder / 'report', codes=(0, 1))
