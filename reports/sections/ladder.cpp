@@ -73,8 +73,10 @@ nlohmann::ordered_json place_json(const LadderPlace& place) {
 
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
   std::map<std::string, CountsSum> by_subject;
+  // The power of ε is about the bound 41 B ε^¼ of pairs of meshes.
   for (const auto& [key, counts] : statistics.counts)
-    if (only.empty() || origin(key.family) == only) by_subject[key.subject].add(key.family, counts);
+    if (is_of_meshes(key.kind) && (only.empty() || origin(key.family) == only))
+      by_subject[key.subject].add(key.family, counts);
   std::vector<Rung> all;
   for (auto& [subject, sum] : by_subject)
     if (LadderPlace place = place_of(subject);

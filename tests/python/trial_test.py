@@ -157,13 +157,13 @@ class Trial(unittest.TestCase):
         shapes = {}
 
         def noting(kind, x, separation):
-            self.assertTrue((separation > 0).all())
             shapes[kind] = x.shape[1:]
             return exact(kind, x, separation) & (x[:, 0, 0, 0] < 0)
 
         subject = nearmiss.Subject(noting, kinds=['ve', 'vv'], takes_separation=True)
         result = nearmiss.trial(subject, 2000)
         self.assertEqual(shapes, {'vv': (2, 2, 3), 've': (2, 3, 3)})
+        self.assertTrue((result.findings.separation > 0).all())
         self.assertTrue(all(name.startswith('v-') for name in result.families))
         self.assertGreater(result.counts('noting', kind='ve').missed, 50)
         shrunk = result.findings[result.findings.is_shrunk & (result.findings.kind == 'vv')]

@@ -121,6 +121,7 @@ void add_ladder(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CampaignOptions>();
   auto names = std::make_shared<std::vector<std::string>>(default_scalars());
   options->families = {"uniform", "sliver", "parallel"};
+  for (const Kind kind : kinds_of_meshes) options->kinds.emplace_back(short_name(kind));
   options->search = true;
   auto* command = app.add_subcommand(
       "ladder", "Measure false positives at many precisions, with directed search for the farthest");

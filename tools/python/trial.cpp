@@ -56,13 +56,28 @@ Subjects subjects_of(const py::list& of) {
   return subjects;
 }
 
-/// The named families. Without names, all that ask for contact, and those of vertices and edges, as far as a
-/// subject decides their kinds.
+/// The kinds that are asked if no families are named: those that a function decides; without functions, those
+/// of a campaign with these subjects.
+std::vector<Kind> kinds_of(const Subjects& subjects) {
+  const auto is_function = [](const auto& each) {
+    return dynamic_cast<const FunctionSubject*>(each.get()) != nullptr;
+  };
+  std::vector<Kind> asked = kinds_to_ask(subjects, [](Kind kind) { return !is_of_meshes(kind); });
+  if (std::ranges::any_of(subjects, is_function))
+    std::erase_if(asked, [&](Kind kind) {
+      return std::ranges::none_of(subjects,
+                                  [&](const auto& each) { return is_function(each) && each->decides(kind); });
+    });
+  return asked;
+}
+
+/// The named families. Without names, all that ask for contact, and those of vertices and edges, as far as
+/// they have the kinds that are asked.
 std::vector<Family> families_of(const std::vector<std::string>& names, const Subjects& subjects) {
   std::vector<Family> chosen;
   for (const std::string& name : names) chosen.push_back(as_asked(find_family(name)));
   if (!names.empty()) return chosen;
-  const std::vector<Kind> asked = kinds_to_ask(subjects, [](Kind kind) { return !is_of_meshes(kind); });
+  const std::vector<Kind> asked = kinds_of(subjects);
   for (const auto& all : {families(), vertex_families()})
     for (const Family& family : all)
       if (const auto some = of_kinds(as_asked(family), asked)) chosen.push_back(*some);

@@ -82,7 +82,7 @@ export async function showsWhereCollisionsAreMissed(browser) {
 }
 
 export async function showsWhatDecides(browser) {
-  const page = await open(browser, makeReport("decided", ["--cases", "2200", "--subject", "adaptive,wang,exact"]));
+  const page = await open(browser, makeReport("decided", ["--cases", "2200", "--kind", "vt,ee", "--subject", "adaptive,wang,exact"]));
   const { deciders, subjects } = jsonOf("decided");
   const families = [...new Set(Object.values(subjects.adaptive).flatMap((ofKind) => Object.keys(ofKind.families)))].sort();
   assert.deepEqual(deciders.map(({ family }) => family), ["", ...families]);

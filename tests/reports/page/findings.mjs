@@ -170,7 +170,7 @@ async function checkOtherSections(page) {
   assert.equal(await page.isVisible("#power-section"), false);
   assert.equal(await page.isVisible("#environments-section"), false);
   const again = await page.locator("#how code").textContent();
-  assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --cases 2200");
+  assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --kind vt,ee --cases 2200");
 }
 
 /**
@@ -192,7 +192,7 @@ export async function showsVersions(browser) {
 }
 
 export async function showsFindings(browser) {
-  const page = await open(browser, makeReport("found", ["--cases", "2200", "--subject", "basic,wang"]));
+  const page = await open(browser, makeReport("found", ["--cases", "2200", "--subject", "basic,wang", "--kind", "vt,ee"]));
   const report = jsonOf("found");
   await checkVerdicts(page, report);
   await checkCharts(page, report);
@@ -225,7 +225,7 @@ export async function showsThatNothingWasFound(browser) {
 }
 
 export async function showsTheBaseline(browser) {
-  const url = makeReport("later", ["--cases", "2200", "--subject", "basic,wang,basic-plain", "--seed", "2"], ["--baseline", "found.db"]);
+  const url = makeReport("later", ["--cases", "2200", "--kind", "vt,ee", "--subject", "basic,wang,basic-plain", "--seed", "2"], ["--baseline", "found.db"]);
   const page = await open(browser, url);
   assert.equal(await page.isVisible("#baseline"), true);
   const news = await page.textContent("#news");

@@ -204,8 +204,8 @@ def trial(
               'basic'), or several of these
     cases:    total number of queries, divided among the families
     families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By default, all that
-              ask for contact, and those of vertices and edges with drawn separations, as far as a subject
-              decides their kinds.
+              ask for contact, and those of vertices and edges with drawn separations, as far as one of the
+              functions decides their kinds
     seed:     seed of the random queries, which are those of `nearmiss fuzz` with the same families, cases and
               seed
     shrunk:   how many findings of each signature are shrunk; to shrink one may ask a subject thousands of
