@@ -42,9 +42,9 @@ struct Motion {
   Vector to_vertex, vertex_moves, edge, edge_moves;
 };
 
+constexpr double rounded_to = 1e-6;
 /// Found by random search. Only the minimum of a piece is near as long as h is at most 1.09 times the
 /// smallest distance; for the first four motions, 1.22 times.
-constexpr double rounded_to = 1e-6;
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -100,7 +100,10 @@ Query at_minimum(Random& random, Kind kind, double x) {
 /// meets the edge's end x1. The components of the cross product are equal, and small at all times; h is far
 /// smaller.
 Query drifting(Random& random, Kind kind, double x) {
-  const Vector normal((random.one_in(2) ? 1 : -1), (random.one_in(2) ? 1 : -1), 1);
+  // The order of evaluating arguments is up to the compiler, so each is drawn in its own statement.
+  const double x_of_normal = random.one_in(2) ? 1 : -1;
+  const double y_of_normal = random.one_in(2) ? 1 : -1;
+  const Vector normal(x_of_normal, y_of_normal, 1);
   const Vector along = normal.cross(random.vector(1)).normalized();
   const Vector across = along.cross(normal).normalized();
   const double length = random.uniform(0.25, 1);

@@ -113,7 +113,7 @@ TEST_P(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
       {"v-minimum", 0x544298827828d8f0},
       {"v-along", 0x4fa27ff43d0ac811},
       {"v-shrinking", 0x9eeeb84c5f2c2a60},
-      {"v-drifting", 0xdca64e5d7fb47f22},
+      {"v-drifting", 0x307a1f96c2622d12},
       {"v-near-separation", 0xb702d8d61adf0f7a},
       {"v-tied-separation", 0xa93676cc5824bcf9},
       {"v-reached-separation", 0x02201f60bea5e930},
