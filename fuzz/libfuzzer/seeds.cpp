@@ -31,10 +31,11 @@ namespace fs = std::filesystem;
 std::vector<Case> cases_of(std::span<const Family> families) {
   constexpr std::uint64_t of_each_family = 10;
   std::vector<Case> cases;
-  for (const Family& family : families) {
+  for (const Family& each_family : families) {
+    const Family family = as_asked(each_family);
     for (std::uint64_t i = 0; i < of_each_family; ++i) {
       Case each;
-      each.query = make_query(as_asked(family), 1, i);
+      each.query = make_query(family, 1, i);
       each.name = fmt::format("{}-{}", family.name, i);
       cases.push_back(std::move(each));
     }

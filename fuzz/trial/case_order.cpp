@@ -141,7 +141,7 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   const std::uint64_t first = begin + (kind_of(*block.family, begin) == kind ? 0 : 1);
   const std::uint64_t step = batch.step = block.family->kinds.size();
   batch.first_number = first;
-  batch.queries.reserve(static_cast<std::size_t>(block.cases()));
+  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds_asked(*block.family).size() + 1);
   const QueryMaker make(*block.family, plan.seed);
   for (std::uint64_t index = first; case_of_index(*block.family, index) < block.last; index += step) {
     stop.check();

@@ -21,6 +21,7 @@ namespace nearmiss::isolation {
 namespace {
 
 constexpr int look_again_ms = 5;
+
 /// The program that the functions of a nearmiss_subject ask.
 Program* the_program = nullptr;
 

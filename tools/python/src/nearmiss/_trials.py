@@ -22,9 +22,9 @@ CCD = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
 class Subject:
     """A CCD on trial.
 
-    function: gets kind ('vt', 'ee', 'vv' or 've'), x (n, 2, v, 3), where v is 4, or 2 for 'vv' and 3 for 've',
-              and separation (n,), and returns bools (n,): whether each query is a collision. It must answer a
-              query in the same way whenever it is asked.
+    function: gets kind ('vt', 'ee', 'vv' or 've'), x (n, 2, v, 3), where v is 4, or 2 for 'vv' and
+              3 for 've', and separation (n,), and returns bools (n,): whether each query is a
+              collision. It must answer a query in the same way whenever it is asked.
     name:     its name in results; by default that of the function
     time:     if it is not 'none', the function returns (bools, times) instead, with the time of each
               collision in [0, 1]: 'estimate' for a time near the earliest one, 'lower-bound' for a time that
@@ -203,9 +203,9 @@ def trial(
     subjects: a Subject or a function like that of a Subject, the name of a built-in subject ('wang',
               'basic'), or several of these
     cases:    total number of queries, divided among the families
-    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By default, all that
-              ask for contact, and those of vertices and edges with drawn separations, as far as one of the
-              functions decides their kinds
+    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By
+              default, all that ask for contact, and those of vertices and edges with drawn
+              separations, as far as one of the functions decides their kinds
     seed:     seed of the random queries, which are those of `nearmiss fuzz` with the same families, cases and
               seed
     shrunk:   how many findings of each signature are shrunk; to shrink one may ask a subject thousands of
