@@ -119,6 +119,9 @@ Enclosure distance_beyond_separation(const Query& query, double unit, const Need
 double closest_ratio(const Query& query, double unit) {
   const PlainArithmetic guard;
   if (!(unit > 0)) return infinity;
+  constexpr double usual_width = 1e-3;
+  if (query.separation > 0)
+    return distance_beyond_separation(query, unit, [](double hi) { return hi * (1 - usual_width); }).hi;
   const auto measured = [&](double width) {
     // Subnormal doubles are farther apart than the relative width allows.
     constexpr double apart = 4 * std::numeric_limits<double>::denorm_min();
@@ -126,7 +129,7 @@ double closest_ratio(const Query& query, double unit) {
     return distance_in_units(query, unit, needed).hi;
   };
   constexpr double near = 1e-2;
-  const double ratio = measured(1e-3);
+  const double ratio = measured(usual_width);
   return std::abs(ratio - 1) < near ? measured(1e-9) : ratio;
 }
 

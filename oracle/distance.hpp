@@ -1,4 +1,5 @@
-// The smallest distance of two primitives over the step. Only two functions depend on the query's separation.
+// The smallest distance of two primitives over the step. Only the functions that name h depend on the query's
+// separation.
 #pragma once
 
 #include "ccd/query/query.hpp"
@@ -19,8 +20,8 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
 /// negative. Up to rounding, lo >= needed(hi).
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, or of 1e-9 if
-/// the quotient is near 1; infinite if the unit is 0.
+/// An upper bound of (the smallest distance - h) / unit for the query's separation h, with a relative
+/// accuracy of 1e-3, or for h = 0 of 1e-9 if the quotient is near 1; infinite if the unit is 0.
 double closest_ratio(const Query& query, double unit);
 
 /// A time in [0, 1] at which the distance of the primitives is close to its minimum, for pictures.

@@ -87,8 +87,7 @@ auto Plugin::with_detector(const Act& act) const {
 }
 
 Verdict Plugin::decide(const Query& query) const {
-  if (!decides(query.kind) || (query.separation > 0 && !takes_separation(query.kind)))
-    return {.fault = Fault::not_asked};
+  if (!is_asked(query.kind, query.separation > 0)) return {.fault = Fault::not_asked};
   return with_detector([&](const Detector& detector) {
     const Query seen = rounded(query);
     int answer = 0;

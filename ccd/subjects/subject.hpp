@@ -110,6 +110,11 @@ class Subject {
   /// them.
   [[nodiscard]] virtual bool takes_separation(Kind /*kind*/) const { return false; }
 
+  /// Whether the subject is asked queries of a kind, with or without separations h > 0.
+  [[nodiscard]] bool is_asked(Kind kind, bool has_separation) const {
+    return decides(kind) && (!has_separation || takes_separation(kind));
+  }
+
   /// What the time of a verdict means, for collisions.
   [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }
 

@@ -19,11 +19,7 @@ void nearmiss::libfuzzer::examine(const Query& query) {
   if (truth.collision) return;
   const double bound = subject().distance_bound(rounded);
   if (!std::isfinite(bound)) return;  // the subject claims no bound
-  const double ratio = untraced([&] {
-    const auto accuracy = [](double hi) { return 0.999 * hi; };
-    return rounded.separation == 0 || bound == 0 ? closest_ratio(rounded, bound)
-                                                 : distance_beyond_separation(rounded, bound, accuracy).hi;
-  });
+  const double ratio = untraced([&] { return closest_ratio(rounded, bound); });
   if (ratio >= 1 && untraced([&] { return distance_exceeds_separation_by(rounded, bound); }))
     fail(Finding::What::refuted_bound, rounded, ratio);
   show_factor(Signal::distance, query.kind, ratio);

@@ -91,8 +91,8 @@ std::span<const SubjectInfo> exact_subjects() {
 std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
                                const std::function<bool(Kind)>& has_separations) {
   const auto decides = [&](const Subject& subject, Kind kind) {
-    return dynamic_cast<const ExactSubject*>(&innermost(subject)) == nullptr && subject.decides(kind) &&
-           (!has_separations(kind) || subject.takes_separation(kind));
+    return dynamic_cast<const ExactSubject*>(&innermost(subject)) == nullptr &&
+           subject.is_asked(kind, has_separations(kind));
   };
   std::vector<Kind> asked;
   for (const Kind kind : kinds)

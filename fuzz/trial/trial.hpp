@@ -52,8 +52,7 @@ struct Batch {
   [[nodiscard]] std::uint64_t number(std::size_t i) const { return first_number + step * i; }
   /// Whether a subject can answer these queries.
   [[nodiscard]] bool can_ask(const Subject& subject) const {
-    const bool has_separation = !queries.empty() && queries.front().separation > 0;
-    return subject.decides(kind) && (!has_separation || subject.takes_separation(kind));
+    return subject.is_asked(kind, !queries.empty() && queries.front().separation > 0);
   }
 };
 

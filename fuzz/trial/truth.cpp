@@ -64,10 +64,7 @@ Truth::Distance Truth::distance(double unit) {
 
 double Truth::precise_ratio(double unit, double ratio) const {
   if (Histogram::lower_border(ratio) == 0) return ratio;
-  if (query_.separation == 0) return std::min(closest_ratio(query_, unit), ratio);
-  constexpr double width = 1e-3;
-  return std::min(distance_beyond_separation(query_, unit, [](double hi) { return hi * (1 - width); }).hi,
-                  ratio);
+  return std::min(closest_ratio(query_, unit), ratio);
 }
 
 bool Truth::exceeds(double unit) const {

@@ -105,6 +105,9 @@ TEST(Distance, ItsRatioToABoundIsKnownWhereItOverflows) {
   Query query = falling_vertex(0.25, 0.25, 3, 2);
   EXPECT_NEAR(closest_ratio(query, 4), 0.5, 1e-3);
   EXPECT_NEAR(closest_ratio(query, 2), 1, 1e-8);
+  EXPECT_NEAR(closest_ratio(with_separation(query, 1.5), 2), 0.25, 1e-3);
+  EXPECT_EQ(closest_ratio(with_separation(query, 2.5), 2), 0);
+  EXPECT_EQ(closest_ratio(with_separation(query, 1.5), 0), std::numeric_limits<double>::infinity());
   for (std::size_t z = 2; z < 24; z += 3) query.x[z] = query.x[z] == 0 ? -0x1p1023 : 0x1.8p1023;
   EXPECT_EQ(minimum_distance(query).hi, std::numeric_limits<double>::infinity());
   EXPECT_NEAR(closest_ratio(query, 0x1p1020), 20, 0.02);

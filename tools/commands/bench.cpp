@@ -97,8 +97,7 @@ bool any_separation(const std::vector<Query>& queries) {
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
   using std::chrono::steady_clock;
   const Kind kind = queries.front().kind;
-  if (!subject.decides(kind) || (any_separation(queries) && !subject.takes_separation(kind)))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (!subject.is_asked(kind, any_separation(queries))) return std::numeric_limits<double>::quiet_NaN();
   constexpr auto least = std::chrono::microseconds(500);
   const auto start = steady_clock::now();
   BatchTime sum;

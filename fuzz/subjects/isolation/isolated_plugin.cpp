@@ -131,7 +131,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   [[nodiscard]] bool can_decide(const Query& query) const {
-    return decides(query.kind) && (query.separation == 0 || takes_separation(query.kind));
+    return is_asked(query.kind, query.separation > 0);
   }
 
   /// The size of the next batch: up to batch_size queries of one kind. The plug-in can decide all or none of
