@@ -1,5 +1,6 @@
 #include "fuzz/parallel.hpp"
 
+#include <sys/mman.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <exception>
 #include <latch>
+#include <new>
 #include <system_error>
 #include <vector>
 
@@ -44,10 +46,20 @@ int usable_threads(int jobs) {
   return std::min(jobs, most.load());
 }
 
+/// Throws std::bad_alloc unless some memory is left. If TBB finds none while it starts, it does not throw, but
+/// waits forever for a lock that it holds itself (2022.1).
+void expect_memory() {
+  constexpr std::size_t enough = 16'000'000;
+  void* const some = mmap(nullptr, enough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (some == MAP_FAILED) throw std::bad_alloc();
+  munmap(some, enough);
+}
+
 /// Runs a parallel algorithm on at most `jobs` threads. By default, the library starts at most one thread per
 /// core.
 void on_threads(int jobs, const std::function<void()>& algorithm) {
   jobs = usable_threads(jobs);
+  expect_memory();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   tbb::task_arena(jobs).execute(algorithm);

@@ -87,9 +87,8 @@ std::vector<Family> families_of(const std::vector<std::string>& names, const Sub
 /// Throws Error if a subject is asked none of the families' queries.
 void expect_all_asked(const Subjects& subjects, const std::vector<Family>& families) {
   const auto is_asked = [](const Subject& subject, const Family& family) {
-    return std::ranges::any_of(kinds_asked(family), [&](Kind kind) {
-      return subject.decides(kind) && (!family.has_separation || subject.takes_separation(kind));
-    });
+    return std::ranges::any_of(kinds_asked(family),
+                               [&](Kind kind) { return subject.is_asked(kind, family.has_separation); });
   };
   for (const auto& subject : subjects)
     if (std::ranges::none_of(families, [&](const Family& family) { return is_asked(*subject, family); }))
@@ -217,7 +216,10 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
     result = decide_all(plan, subjects, stop);
     shrink(result.findings, subjects, shrunk_of_each_signature, stop);
   } catch (const Stopped&) {
-    throw std::runtime_error("the interpreter ends, and so does the trial");
+    // The interpreter ends, and so does this thread, without a word: a thread that prints at that time aborts
+    // the program.
+    PyErr_SetNone(PyExc_SystemExit);
+    throw py::error_already_set();
   }
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
