@@ -25,10 +25,11 @@ namespace nearmiss {
 
 namespace {
 
-/// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
-/// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
-/// `claims_bound`, `takes_separation` and `time_sort`. If it decides two vertices, and a vertex and an edge,
-/// it has `static Verdict decide_within(query, given)`, and takes separations for these kinds.
+/// A policy has `template <Kind> static Verdict decide(query, given)` for the pairs of triangle meshes, with
+/// separations if `takes_separation`, and `static Verdict decide_within(query, given)` for two vertices, and
+/// for a vertex and an edge, always with separations. It also has static functions `distance_bound(query,
+/// given)` and `needed_tolerance(query, given)` that return double, and the constants `claims_bound` and
+/// `time_sort`.
 template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:
@@ -65,23 +66,16 @@ class BuiltInSubject final : public Subject {
   }
 
   [[nodiscard]] bool claims_bound() const override { return Policy::claims_bound; }
-  [[nodiscard]] bool decides(Kind kind) const override { return is_of_meshes(kind) || decides_vertices; }
+  [[nodiscard]] bool decides(Kind /*kind*/) const override { return true; }
   [[nodiscard]] bool takes_separation(Kind kind) const override {
-    return is_of_meshes(kind) ? Policy::takes_separation : decides_vertices;
+    return !is_of_meshes(kind) || Policy::takes_separation;
   }
   [[nodiscard]] TimeSort time_sort() const override { return Policy::time_sort; }
 
  private:
-  /// Whether the policy decides two vertices, and a vertex and an edge. The times of Algorithms 1 and 2 are
-  /// no lower bounds.
-  static constexpr bool decides_vertices = Policy::time_sort != TimeSort::lower_bound && requires {
-    &Policy::decide_within;
-  };
-
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
     if (!is_finite(query)) refuse_coordinates(name_);
-    if constexpr (decides_vertices)
-      if (!is_of_meshes(query.kind)) return Policy::decide_within(query, given_);
+    if (!is_of_meshes(query.kind)) return Policy::decide_within(query, given_);
     return with_kind(query.kind, [&]<Kind kind>() { return Policy::template decide<kind>(query, given_); });
   }
 
@@ -155,6 +149,9 @@ struct WangTime : Wang<options> {
   static Verdict decide(const Query& query, const std::optional<double>& given) {
     return wang_time<kind, double, options>(query, given);
   }
+  static Verdict decide_within(const Query& query, const std::optional<double>& given) {
+    return wang_within_time<double>(query, options.plane_culling, given);
+  }
 };
 
 struct Advance {
@@ -165,6 +162,9 @@ struct Advance {
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
     return advance<kind, double>(query);
+  }
+  static Verdict decide_within(const Query& query, const std::optional<double>& /*given*/) {
+    return advance<Kind::vertex_triangle, double>(query);
   }
   static double distance_bound(const Query& query, const std::optional<double>& /*given*/) {
     const double bound =
@@ -202,7 +202,7 @@ constexpr std::array registry{
     entry<Wang<WangOptions{true, VeCulling::per_root}, TightTolerances>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),
     entry<WangTime<WangOptions{true, VeCulling::per_root}>>(
-        "wang-time", "wang with a lower bound of the earliest time of contact"),
+        "wang-time", "wang with a lower bound of the earliest time at which the distance is at most h"),
     entry<Advance>("advance", "conservative advancement: steps in time that cannot be too long"),
 };
 

@@ -1,4 +1,4 @@
-// A lower bound of the earliest time of contact, computed by parts of wang.
+// Lower bounds of the earliest time of contact, and of the time at which a distance falls to a separation.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,14 @@
 #include <optional>
 #include <tuple>
 
+#include "ccd/wang/advance.hpp"
 #include "ccd/wang/cubic.hpp"
 #include "ccd/wang/motion.hpp"
 #include "ccd/wang/proximity.hpp"
 #include "ccd/wang/tolerances.hpp"
 #include "ccd/wang/ve_culling.hpp"
 #include "ccd/wang/wang.hpp"
+#include "ccd/wang/within.hpp"
 
 namespace nearmiss {
 
@@ -153,6 +155,19 @@ Verdict wang_time(const Query& query, const std::optional<double>& given = std::
                   const Rule& tolerances = {}) {
   Verdict verdict = wang<kind, T, options>(query, given, tolerances);
   if (verdict.hit) verdict.time = static_cast<double>(detail::contactless_until<kind, T>(query));
+  return verdict;
+}
+
+/// Decides as `wang_within` does. The time of a report is a lower bound: the distance is more than the
+/// query's separation before it. The times of Algorithms 1 and 2 are no lower bounds, so `advance` gives the
+/// time.
+template <class T, class Rule = PaperTolerances>
+Verdict wang_within_time(const Query& query, bool plane_culling,
+                         const std::optional<double>& given = std::nullopt, const Rule& rule = {}) {
+  Verdict verdict = wang_within<T>(query, plane_culling, given, rule);
+  if (!verdict.hit) return verdict;
+  const Verdict advanced = advance<Kind::vertex_triangle, T>(query);
+  verdict.time = advanced.hit ? advanced.time : 1;
   return verdict;
 }
 

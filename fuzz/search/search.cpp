@@ -86,10 +86,6 @@ Query search_miss(const Searched& subject, Random& random, Kind kind) {
 
 Query search_far(const Searched& subject, Random& random, Kind kind) {
   const double h = subject.separation(random, kind);
-  const auto ratio_of = [&](const Query& query, double bound) {
-    if (h == 0 || bound == 0) return closest_ratio(query, bound);
-    return distance_beyond_separation(query, bound, [](double hi) { return 0.999 * hi; }).hi;
-  };
   // The value of a collision, from -1 to 0. It grows as the smallest distance approaches the separation.
   const auto depth_of = [&](const Query& query) {
     return h == 0 ? 0 : std::min(minimum_distance(query).hi / h - 1, 0.0);
@@ -104,7 +100,7 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
       const Decision truth = decide(query);
       if (truth.collision || truth.is_tie) return depth_of(query);
       const double bound = subject->claims_bound() ? subject->distance_bound(query) : reach(*subject, query);
-      const double ratio = ratio_of(query, bound);
+      const double ratio = closest_ratio(query, bound);
       if (!subject->claims_bound()) return ratio;
       return ratio >= 1 && distance_exceeds_separation_by(query, bound) ? HUGE_VAL : std::min(ratio, 1.0);
     };
@@ -132,20 +128,20 @@ Family far_search(const Subject& subject, const Stop& stop, std::string_view sep
                        stop, separation);
 }
 
+Family among_vertices(Family search) {
+  search.name = std::string(vertices_prefix) + search.name;
+  std::ranges::copy(kinds_of_vertices, search.kinds.begin());
+  return search;
+}
+
 namespace {
 
-/// All searches among queries of some kinds.
-std::vector<Family> searches_among(std::span<const Kind, 2> some, const Subject& subject, const Stop& stop,
-                                   std::string_view separation) {
+/// All searches of a subject.
+std::vector<Family> all_searches(const Subject& subject, const Stop& stop, std::string_view separation) {
   std::vector<Family> all{miss_search(subject, stop, separation), far_search(subject, stop, separation)};
   if (subject.time_sort() != TimeSort::none) {
     all.push_back(late_search(subject, stop, separation));
     all.push_back(early_search(subject, stop, separation));
-  }
-  if (is_of_meshes(some.front())) return all;
-  for (Family& family : all) {
-    family.name = std::string(vertices_prefix) + family.name;
-    std::ranges::copy(some, family.kinds.begin());
   }
   return all;
 }
@@ -154,17 +150,13 @@ std::vector<Family> searches_among(std::span<const Kind, 2> some, const Subject&
 
 std::vector<Family> searches(const Subject& subject, const Stop& stop, std::string_view separation) {
   const auto decides_some = [&](std::span<const Kind, 2> some, bool within) {
-    return std::ranges::any_of(some, [&](Kind kind) {
-      return subject.decides(kind) && (!within || subject.takes_separation(kind));
-    });
+    return std::ranges::any_of(some, [&](Kind kind) { return subject.is_asked(kind, within); });
   };
   std::vector<Family> all;
-  if (decides_some(kinds_of_meshes, !separation.empty()))
-    all = searches_among(kinds_of_meshes, subject, stop, separation);
+  if (decides_some(kinds_of_meshes, !separation.empty())) all = all_searches(subject, stop, separation);
   if (decides_some(kinds_of_vertices, true))
-    std::ranges::move(
-        searches_among(kinds_of_vertices, subject, stop, separation.empty() ? drawn_separation : separation),
-        std::back_inserter(all));
+    for (Family& each : all_searches(subject, stop, separation.empty() ? drawn_separation : separation))
+      all.push_back(among_vertices(std::move(each)));
   return all;
 }
 

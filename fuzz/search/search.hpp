@@ -50,6 +50,9 @@ Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
 Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
                     std::string_view separation = {});
 
+/// The same search among two vertices, and a vertex and an edge: "v-search-miss-NAME~SEPARATION".
+Family among_vertices(Family search);
+
 /// All searches for a subject: for misses, far false positives, and, if it gives times, late and early ones.
 /// For a subject that decides two vertices, or a vertex and an edge, these are also made among such queries,
 /// which draw their separations if none is given: "v-search-miss-NAME~drawn".

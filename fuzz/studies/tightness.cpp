@@ -43,9 +43,16 @@ struct Gauge {
   std::function<std::optional<double>(const Query&)> read;
 };
 
-Gauge tolerance_gauge(const NamedTolerance& tolerance) {
+/// A search as miss_search() or far_search(), among pairs of meshes or among vertices.
+template <class Search>
+Family search_by(const Search& search, const Subject& subject, bool among) {
+  return among ? among_vertices(search(subject, Stop::never(), drawn_separation))
+               : search(subject, Stop::never(), "");
+}
+
+Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among) {
   auto subject = try_make_defect(scaled_tolerance(tolerance.name, 1));
-  auto search = miss_search(*subject);
+  auto search = search_by(miss_search, *subject, among);
   const auto of = tolerance.accepts ? Extreme::Of::accepting_tolerance : Extreme::Of::keeping_tolerance;
   auto nothing = nothing_found(of, std::string(tolerance.name));
   const auto read = [&tolerance, &subject = *subject,
@@ -61,9 +68,9 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance) {
   return {std::move(nothing), std::move(subject), std::move(search), read};
 }
 
-Gauge tests_gauge(const Tests& tests) {
+Gauge tests_gauge(const Tests& tests, bool among) {
   auto subject = make_any_subject(tests.subject);
-  auto search = far_search(*subject);
+  auto search = search_by(far_search, *subject, among);
   const auto read = [&subject = *subject](const Query& query) -> std::optional<double> {
     if (!subject.decide(query).hit || collides(query)) return std::nullopt;
     return closest_ratio(query, subject.distance_bound(query));
@@ -72,11 +79,11 @@ Gauge tests_gauge(const Tests& tests) {
           std::move(search), read};
 }
 
-Gauge gauge_of(std::string_view name) {
+Gauge gauge_of(std::string_view name, bool among) {
   for (const NamedTolerance& tolerance : named_tolerances())
-    if (tolerance.name == name) return tolerance_gauge(tolerance);
+    if (tolerance.name == name) return tolerance_gauge(tolerance, among);
   for (const Tests& tests : tests_table)
-    if (tests.name == name) return tests_gauge(tests);
+    if (tests.name == name) return tests_gauge(tests, among);
   throw Error(fmt::format("unknown tolerance '{}', expected some of {}", excerpt(name),
                           fmt::join(tightness_names(), ", ")));
 }
@@ -109,7 +116,7 @@ std::vector<std::string> tightness_names() {
 
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop) {
   std::vector<Gauge> gauges;
-  for (const std::string& name : plan.names) gauges.push_back(gauge_of(name));
+  for (const std::string& name : plan.names) gauges.push_back(gauge_of(name, plan.among_vertices));
   for (const Gauge& gauge : gauges) {
     if (stop) return;
     Extreme sum = gauge.nothing;

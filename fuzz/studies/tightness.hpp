@@ -15,8 +15,9 @@ namespace nearmiss {
 
 /// The measurements, and the time for each.
 struct TightnessPlan {
-  std::vector<std::string> names;        ///< some of `tightness_names()`
-  std::vector<Family> families;          ///< sources of queries in addition to directed search
+  std::vector<std::string> names;  ///< some of `tightness_names()`
+  std::vector<Family> families;    ///< sources of queries in addition to directed search
+  bool among_vertices = false;     ///< whether the search is among two vertices, and a vertex and an edge
   std::chrono::duration<double> time{};  ///< time for each name
   std::uint64_t seed = 1;
   int jobs = 1;

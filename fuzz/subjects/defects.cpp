@@ -128,6 +128,13 @@ Verdict decide_by(const Change& change, const Query& query, const DefectiveToler
 
 Verdict decide_within_by(const Change& change, const Query& query, const DefectiveTolerances& tolerances) {
   defective::active_edit = change.edit;
+  if (change.sound == Sound::advance) return defective::advance<Kind::vertex_triangle, double>(query);
+  if (change.sound == Sound::wang_time) {
+    Verdict verdict = defective::wang_within_time<double>(query, true, std::nullopt, tolerances);
+    if (verdict.hit && change.in_float)
+      verdict.time = defective::advance<Kind::vertex_triangle, float>(query).time;
+    return verdict;
+  }
   return change.in_float ? defective::wang_within<float>(query, true, std::nullopt, tolerances)
                          : defective::wang_within<double>(query, true, std::nullopt, tolerances);
 }

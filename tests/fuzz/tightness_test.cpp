@@ -14,10 +14,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Extreme measure(const std::string& name) {
+Extreme measure(const std::string& name, bool among_vertices = false) {
   TightnessPlan plan;
   plan.names = {name};
-  plan.families = {find_family("planted-ulp"), find_family("near-parallel-edges")};
+  plan.among_vertices = among_vertices;
+  if (among_vertices)
+    plan.families = {as_asked(find_family("v-near-separation")), as_asked(find_family("v-minimum"))};
+  else
+    plan.families = {find_family("planted-ulp"), find_family("near-parallel-edges")};
   plan.time = 1h;
   std::atomic<bool> stop{false};
   Extreme last;
@@ -57,6 +61,18 @@ TEST(Tightness, TellsHowFarTestsReach) {
   EXPECT_FALSE(collides(extreme.query));
   EXPECT_GT(extreme.value, 0);
   EXPECT_LT(extreme.value, 1);
+}
+
+TEST(Tightness, AmongVerticesIsThatOfTheirTolerances) {
+  const Extreme extreme = measure("D2", true);
+  ASSERT_TRUE(extreme.found());
+  EXPECT_FALSE(is_of_meshes(extreme.query.kind));
+  EXPECT_TRUE(collides(extreme.query));
+  EXPECT_FALSE(try_make_defect(scaled_tolerance("D2", extreme.value))->decide(extreme.query).hit);
+  const Extreme reach = measure("vertex-vertex", true);
+  ASSERT_TRUE(reach.found());
+  EXPECT_GT(reach.value, 0.9);
+  EXPECT_LE(reach.value, 1);
 }
 
 TEST(Tightness, KnowsItsNames) {

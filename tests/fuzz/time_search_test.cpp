@@ -157,12 +157,16 @@ TEST(TimeSearches, AreMadeForSubjectsThatGiveTimes) {
                              "v-search-miss-exact-decision~drawn", "v-search-far-exact-decision~drawn"));
   EXPECT_THAT(names(*make_any_subject("wang-time"), ""),
               ::testing::ElementsAre("search-miss-wang-time", "search-far-wang-time", "search-late-wang-time",
-                                     "search-early-wang-time"));
+                                     "search-early-wang-time", "v-search-miss-wang-time~drawn",
+                                     "v-search-far-wang-time~drawn", "v-search-late-wang-time~drawn",
+                                     "v-search-early-wang-time~drawn"));
   EXPECT_THAT(names(*make_any_subject("wang"), "drawn"),
               ::testing::ElementsAre("v-search-miss-wang~drawn", "v-search-far-wang~drawn"));
   EXPECT_THAT(names(*make_any_subject("advance"), "drawn"),
               ::testing::ElementsAre("search-miss-advance~drawn", "search-far-advance~drawn",
-                                     "search-late-advance~drawn", "search-early-advance~drawn"));
+                                     "search-late-advance~drawn", "search-early-advance~drawn",
+                                     "v-search-miss-advance~drawn", "v-search-far-advance~drawn",
+                                     "v-search-late-advance~drawn", "v-search-early-advance~drawn"));
   for (const char* none : {"0", "near"})
     EXPECT_THROW(names(*make_any_subject("exact"), none), nearmiss::Error) << none;
 }

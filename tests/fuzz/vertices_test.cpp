@@ -156,12 +156,12 @@ TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
   }
 }
 
-TEST(TolerancesOfVertices, OnlySubjectsWithoutTimesAndTheOracleDecideThem) {
-  for (const char* name : {"basic:float", "wang-time", "advance"}) {
+TEST(TolerancesOfVertices, AreThoseOfSomeSubjects) {
+  for (const char* name : {"basic:float", "adaptive"}) {
     EXPECT_FALSE(make_any_subject(name)->decides(Kind::vertex_edge)) << name;
     EXPECT_FALSE(make_any_subject(name)->takes_separation(Kind::vertex_edge)) << name;
   }
-  for (const char* name : {"wang", "wang-eps", "exact", "exact-decision"})
+  for (const char* name : {"wang", "wang-eps", "wang-time", "advance", "exact", "exact-decision"})
     EXPECT_TRUE(make_any_subject(name)->takes_separation(Kind::vertex_vertex)) << name;
 }
 

@@ -37,8 +37,8 @@ TEST_F(Vertices, AreDecidedProvedAndMeasured) {
 TEST_F(Vertices, OnlySomeSubjectsDecideThem) {
   EXPECT_EQ(run("verdict --kind ve --separation 1.25 --subject wang q.ve").out.substr(0, 2), "1 ");
   EXPECT_EQ(run("verdict --kind vv --separation 1.25 --subject wang-tight q.vv").out, "0\n");
-  expect_refused("verdict --kind ve --subject advance q.ve", {"advance", "found queries of kind ve"});
-  expect_refused("fuzz --family vertices --subject advance --cases 100", {"advance"});
+  expect_refused("verdict --kind ve --subject adaptive q.ve", {"adaptive", "found queries of kind ve"});
+  expect_refused("fuzz --family vertices --subject adaptive --cases 100", {"adaptive"});
   expect_refused("family v-uniform --kind vt --count 1", {"found vt, expected vv or ve"});
   expect_refused("oracle --kind ve q.vv", {"q.vv:1: found 12 numbers, expected 18, or 19 with a separation"});
 }
@@ -55,8 +55,7 @@ TEST_F(Vertices, ACampaignAsksTheKindsThatSubjectsDecide) {
   };
   using Kinds = std::map<std::string, std::set<std::string>>;
   EXPECT_EQ(asked("--subject wang"), (Kinds{{"wang", {"vt", "ee", "vv", "ve"}}}));
-  EXPECT_EQ(asked("--subject wang-time,exact"),
-            (Kinds{{"wang-time", {"vt", "ee"}}, {"exact", {"vt", "ee"}}}));
+  EXPECT_EQ(asked("--subject adaptive,exact"), (Kinds{{"adaptive", {"vt", "ee"}}, {"exact", {"vt", "ee"}}}));
   EXPECT_EQ(asked("--subject exact"), (Kinds{{"exact", {"vt", "ee"}}}));
   EXPECT_EQ(asked("--subject wang --kind ve,ee"), (Kinds{{"wang", {"ee", "ve"}}}));
   EXPECT_EQ(asked("--subject exact --separation drawn --kind vt"), (Kinds{{"exact", {"vt"}}}));

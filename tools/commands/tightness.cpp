@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "fuzz/studies/tightness.hpp"
@@ -18,6 +21,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> names{"all"}, values;
+  bool among_vertices = false;
   std::string time;
   CampaignOptions campaign;  ///< for the values of an option; seed, jobs and record also apply to tolerances
 };
@@ -30,13 +34,18 @@ int measure_tolerances(const Options& options) {
   const std::string time = options.time.empty() ? usual_time : options.time;
   TightnessPlan plan;
   plan.names = options.names == std::vector<std::string>{"all"} ? tightness_names() : options.names;
-  plan.families.assign(families().begin(), families().end());
+  plan.among_vertices = options.among_vertices;
+  if (plan.among_vertices)
+    std::ranges::transform(vertex_families(), std::back_inserter(plan.families), as_asked);
+  else
+    plan.families.assign(families().begin(), families().end());
   plan.time = parse_duration(time, "--time");
   plan.seed = campaign.seed;
   plan.jobs = campaign.trial.jobs;
   RunInfo info = run_info("tightness");
   info["seed"] = fmt::format("{}", plan.seed);
   info["time for each"] = time;
+  info["kinds"] = plan.among_vertices ? "vv,ve" : "vt,ee";
   Record record(campaign.record, std::move(info));
   {
     Progress progress(campaign.record.quiet);
@@ -91,6 +100,8 @@ void add_tolerance_options(CLI::App& command, Options& options) {
       ->delimiter(',')
       ->capture_default_str()
       ->type_name("all|A,B,...");
+  command.add_flag("--vertices", options.among_vertices,
+                   "Measure among two vertices, and a vertex and an edge, instead of pairs of meshes");
   command
       .add_option(
           "--time", options.time,
@@ -113,6 +124,7 @@ void add_value_options(CLI::App& command, Options& options) {
                                  "it with each of them")
                      ->delimiter(',')
                      ->excludes("--tolerance")
+                     ->excludes("--vertices")
                      ->type_name("A,B,...");
   auto* subject =
       command
