@@ -177,6 +177,13 @@ Kind parse_kind(std::string_view text, std::string_view where) {
   throw Error(fmt::format("{}: found kind '{}', expected {}", where, excerpt(text), names_of_kinds()));
 }
 
+std::string names_of_kinds(int sum, std::string_view between) {
+  std::vector<std::string_view> names;
+  for (const Kind kind : kinds)
+    if ((sum & bit_of(kind)) != 0) names.push_back(short_name(kind));
+  return fmt::format("{}", fmt::join(names, between));
+}
+
 std::string names_of_kinds(std::string_view before) {
   std::string names;
   for (const Kind kind : kinds)

@@ -59,6 +59,9 @@ Query parse_line(Kind kind, std::string_view line, std::string_view where);
 /// "vt", "ee", "vv" or "ve". Throws Error that starts with `where`.
 Kind parse_kind(std::string_view text, std::string_view where);
 
+/// The short names of the kinds in a sum of their bits, as in "vt, ee".
+std::string names_of_kinds(int sum, std::string_view between);
+
 /// The short names of all kinds, as in "vt, ee, vv or ve", each after `before`.
 std::string names_of_kinds(std::string_view before = "");
 

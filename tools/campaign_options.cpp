@@ -137,13 +137,10 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
 
 /// The short names of the kinds that a campaign asks: "vt,ee".
 std::string names_of_kinds_asked(const CampaignPlan& plan) {
-  std::vector<std::string_view> names;
-  for (const Kind kind : kinds)
-    if (std::ranges::any_of(plan.families, [&](const Family& family) {
-          return std::ranges::count(kinds_asked(family), kind) > 0;
-        }))
-      names.push_back(short_name(kind));
-  return fmt::format("{}", fmt::join(names, ","));
+  int sum = 0;
+  for (const Family& family : plan.families)
+    for (const Kind kind : kinds_asked(family)) sum |= bit_of(kind);
+  return names_of_kinds(sum, ",");
 }
 
 /// Everything that the campaign's results depend on. The time limit is left out, because it changes the

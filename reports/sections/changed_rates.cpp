@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "corpus/query_text.hpp"
 #include "reports/statistics/family.hpp"
 
 namespace nearmiss {
@@ -64,12 +65,17 @@ constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
+/// The values now and before of some pairs of families and kinds, and the sum of these kinds.
+struct FewFailures {
+  std::vector<std::pair<Proportion, Proportion>> proportions;
+  int kinds = 0;
+};
+
 /// The pairs (now, before) that have at least one failure and at most `few` in both campaigns together, by
 /// the rate's name. The steps of a sweep share their draws, and so are no independent samples. Therefore only
 /// the step with the most failures is included. Selecting pairs by the sum of both counts favours neither
 /// campaign, so the later test stays valid.
-std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_few(
-    const std::vector<ChangedRate>& pairs, std::uint64_t few) {
+std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
   std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;
   for (const ChangedRate& each : pairs) {
@@ -77,9 +83,12 @@ std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_fe
     const ChangedRate*& place = chosen[{each.subject, each.what}][{each.kind, draws_of(each.family)}];
     if (place == nullptr || both(each) > both(*place)) place = &each;
   }
-  std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> found;
+  std::map<RateName, FewFailures> found;
   for (const auto& [name, by_draws] : chosen)
-    for (const auto& [draws, rate] : by_draws) found[name].emplace_back(rate->now, rate->before);
+    for (const auto& [draws, rate] : by_draws) {
+      found[name].proportions.emplace_back(rate->now, rate->before);
+      found[name].kinds |= bit_of(parse_kind(rate->kind, "a rate"));
+    }
   return found;
 }
 
@@ -88,10 +97,15 @@ std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_fe
 std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
   std::map<RateName, ChangedRate> best;
   for (const std::uint64_t few : fews)
-    for (const auto& [name, proportions] : pairs_with_few(pairs, few)) {
+    for (const auto& [name, failures] : pairs_with_few(pairs, few)) {
+      const auto& proportions = failures.proportions;
       if (proportions.size() == 1) continue;  // pairs_of_rates already compares single families
-      ChangedRate sum{name.second, name.first, "vt, ee", fmt::format("families with at most {}", few),
-                      {},          {}};
+      ChangedRate sum{name.second,
+                      name.first,
+                      names_of_kinds(failures.kinds, ", "),
+                      fmt::format("families with at most {}", few),
+                      {},
+                      {}};
       for (const auto& [now, before] : proportions) {
         sum.now += now;
         sum.before += before;

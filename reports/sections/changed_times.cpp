@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "corpus/query_text.hpp"
 #include "reports/statistics/family.hpp"
 
 namespace nearmiss {
@@ -147,6 +148,7 @@ class Times {
   explicit Times(const Statistics& now) : now_(log_times(now)) {
     for (const auto& [key, time] : now_) {
       ++families_[key.subject];
+      kinds_[key.subject] |= bit_of(key.kind);
       whole_[key.subject] += time.mean;
     }
     for (auto& [subject, sum] : whole_) sum /= static_cast<double>(families_[subject]);
@@ -182,7 +184,8 @@ class Times {
       const double deviation =
           std::sqrt(std::max(variance.value, sample_variance(ratios.own) * ratios.of_difference()));
       const boost::math::students_t student(variance.degrees_of_freedom());
-      tested.push_back({key.subject, is_whole(key) ? "vt, ee" : std::string(short_name(key.kind)), key.family,
+      const int of = is_whole(key) ? kinds_.at(key.subject) : bit_of(key.kind);
+      tested.push_back({key.subject, names_of_kinds(of, ", "), key.family,
                         std::exp(expected - mean(ratios.common)), std::exp(expected), std::exp(now),
                         2 * cdf(complement(student, std::abs(ratios.change()) / deviation))});
     }
@@ -239,6 +242,7 @@ class Times {
 
   LogTimes now_;
   std::map<std::string, std::size_t> families_;  // number of families and kinds
+  std::map<std::string, int> kinds_;             // sum of kinds
   std::map<std::string, double> whole_;          // mean over families and kinds
   std::map<CountsKey, Ratios> ratios_;
 };

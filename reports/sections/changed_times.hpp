@@ -13,7 +13,7 @@ namespace nearmiss {
 
 /// A run time per query that differs by more than those of equal campaigns do.
 struct ChangedTime {
-  /// ChangedTime::all_families, and "vt, ee", for a subject as a whole.
+  /// For a subject as a whole, ChangedTime::all_families and all of its kinds, as in "vt, ee".
   std::string subject, kind, family;
   double before = 0;    ///< ns in the baseline: the geometric mean over its campaigns
   double expected = 0;  ///< ns expected now: `before` multiplied by the slowdown of everything else

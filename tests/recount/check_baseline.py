@@ -11,6 +11,7 @@ from statistics import mean, variance
 
 from scipy.stats import hypergeom, t
 
+from asking import KINDS
 from check_numbers import SOLVED
 from comparison import Near
 
@@ -97,7 +98,9 @@ class _Times:
         medians = {subject: _median(logs) for subject, logs in by_subject.items() if logs}
         machine = _median([0, *medians.values()])
         for subject, ratio in medians.items():
-            self._note((subject, 'vt, ee', ALL), ratio, machine)
+            kinds = {key[1] for key in self.subjects[subject]}
+            names = ', '.join(kind for kind in KINDS if kind in kinds)
+            self._note((subject, names, ALL), ratio, machine)
         for key, ratio in ratios.items():
             has_spread = len(self.subjects[key[0]]) >= FEWEST_FAMILIES
             self._note(key, ratio, medians[key[0]] if has_spread else machine)
@@ -136,10 +139,8 @@ class _Times:
 
     def tested(self):
         """The entries that report.json should have for the compared times, in order."""
-        order = {'vt, ee': 'vt'}
-        kinds = ['vt', 'ee']
         for key in sorted(
-            self.own, key=lambda k: (k[0], kinds.index(order.get(k[1], k[1])), k[2])
+            self.own, key=lambda k: (k[0], 0 if k[2] == ALL else KINDS.index(k[1]), k[2])
         ):
             own, terms = self.own[key], self._spread(key)
             value = sum(v for v, _ in terms)

@@ -83,7 +83,7 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const auto with = [](std::uint64_t missed, std::uint64_t in_the_last) {
     std::map<CountsKey, Counts> all;
     for (int i = 0; i < 30; ++i)
-      all[{"basic", kinds[static_cast<std::size_t>(i % 2)], "family " + std::to_string(i)}] =
+      all[{"basic", kinds[static_cast<std::size_t>(i % 3)], "family " + std::to_string(i)}] =
           counts(20000, 10000, missed, 0);
     all[{"basic", Kind::edge_edge, "last"}] = counts(20000, 10000, in_the_last, 0);
     return campaign("1", std::move(all));
@@ -95,8 +95,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
-      "worse: false negatives of basic vt, ee in families with at most 5, 0 of 300,000 before, 30 of 300,000 "
-      "now\n");
+      "worse: false negatives of basic vt, ee, vv in families with at most 5, 0 of 300,000 before, 30 of "
+      "300,000 now\n");
   EXPECT_THAT(describe(changes(with(12, 500), with(6, 500))),
               HasSubstr("in families with at most 20, 180 of"));
   EXPECT_THAT(changes(with(1, 500), with(1, 500)).rates, IsEmpty());

@@ -10,6 +10,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "ccd/subjects/plugin.hpp"
+#include "corpus/query_text.hpp"
 #include "fuzz/libfuzzer/targets.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
@@ -22,19 +23,11 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The short names of a sum of kinds: "vt and ee".
-std::string names_of(int sum) {
-  std::vector<std::string_view> names;
-  for (const Kind kind : kinds)
-    if ((sum & bit_of(kind)) != 0) names.push_back(short_name(kind));
-  return fmt::format("{}", fmt::join(names, " and "));
-}
-
 /// For which kinds a plug-in uses separations, in words; "" for none.
 std::string separations_of(const DetectorInfo& info) {
   if (info.separation_kinds == 0) return "";
   if (info.separation_kinds == info.kinds) return "takes a separation; ";
-  return fmt::format("takes a separation for {}; ", names_of(info.separation_kinds));
+  return fmt::format("takes a separation for {}; ", names_of_kinds(info.separation_kinds, " and "));
 }
 
 /// Prints some lines about a plug-in.
@@ -44,9 +37,9 @@ void print(const Subject& subject) {
                                              "a lower bound of the time"};
   fmt::print("{:<23} {}\n", subject.name(), info.about);
   fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}\n", "",
-             info.version.empty() ? "?" : info.version, names_of(info.kinds), info.is_narrow ? 24 : 53,
-             times[static_cast<std::size_t>(info.time_sort)], info.claims_bound ? "claims a bound; " : "",
-             separations_of(info), info.batch);
+             info.version.empty() ? "?" : info.version, names_of_kinds(info.kinds, " and "),
+             info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
+             info.claims_bound ? "claims a bound; " : "", separations_of(info), info.batch);
   if (const std::string contract = in_words(info.contract); !contract.empty())
     fmt::print("{:<23} presumes: {}\n", "", contract);
 }
