@@ -1,6 +1,7 @@
 // The only source of random numbers. It needs a counter and a key, and no state that outlives a query.
 #pragma once
 
+#define R123_USE_SSE 0  // Philox needs no vectors, and their header takes more than a second to compile
 #include <Random123/philox.h>
 
 #include <array>

@@ -37,8 +37,9 @@ function(nearmiss_options target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
-# nearmiss_precompile(TARGET HEADER...): compiles once the headers of other libraries that most files of a
-# target include. The preset debug does not do so, and thus checks that each file includes what it uses.
+# nearmiss_precompile(TARGET HEADER...): compiles once the headers that most files of a target include, most of
+# them of other libraries. The preset debug does not do so, and thus checks that each file includes what it uses.
+set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statistics.hpp)
 function(nearmiss_precompile target)
   target_precompile_headers(${target} PRIVATE <algorithm> <functional> <map> <optional> <string> <vector> <Eigen/Core> <Eigen/Geometry>
     ${ARGN})
@@ -75,7 +76,10 @@ function(nearmiss_tests folder)
   add_executable(${folder}_tests ${sources})
   nearmiss_options(${folder}_tests)
   target_link_libraries(${folder}_tests PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
-  nearmiss_precompile(${folder}_tests <gmock/gmock.h> <gtest/gtest.h>)
+  if(folder MATCHES "^(fuzz|reports|tools)$")
+    set(statistics ${nearmiss_statistics_header})
+  endif()
+  nearmiss_precompile(${folder}_tests <gmock/gmock.h> <gtest/gtest.h> ${statistics})
   gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
