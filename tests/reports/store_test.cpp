@@ -6,6 +6,9 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include "ccd/query/error.hpp"
@@ -127,6 +130,33 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   create_symlink(file("killed") / "a.db", file("link.db"));
   EXPECT_EQ(load_campaign(file("link.db")).statistics, some_statistics("wang"));
   EXPECT_EQ(read("a.db"), read("killed/a.db"));
+}
+
+// SQLite deletes the file that such a journal names.
+TEST_F(StoreTest, AJournalThatNamesAnotherFileIsRefused) {
+  { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
+  write("precious", "mine");
+  constexpr std::string_view magic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  constexpr std::uint32_t page = 4096;
+  const auto number = [](std::uint32_t value) {
+    return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16 & 0xff),
+                       static_cast<char>(value >> 8 & 0xff), static_cast<char>(value & 0xff)};
+  };
+  std::string journal(magic);
+  journal += number(0) + number(0) + number(static_cast<std::uint32_t>(read("a.db").size() / page)) +
+             number(512) + number(page);
+  journal.resize(512);
+  const std::string name = file("precious").string();
+  std::uint32_t sum = 0;
+  for (const char c : name) sum += static_cast<std::uint32_t>(c);
+  journal += number(0x40000000 / page + 1) + name + number(static_cast<std::uint32_t>(name.size())) +
+             number(sum) + std::string(magic);
+  write("a.db-journal", journal);
+  EXPECT_REFUSED(load_campaign(file("a.db")), "the journal a.db-journal of a change to several files");
+  EXPECT_REFUSED(salvage_campaign(file("a.db")), "a.db-journal");
+  EXPECT_REFUSED(Store(file("a.db")), "a.db-journal");
+  EXPECT_REFUSED(Store(file("a.db"), info, shard), "a.db-journal");
+  EXPECT_EQ(read("precious"), "mine");
 }
 
 TEST_F(StoreTest, WaitsForReadersWhenItIsOpened) {
