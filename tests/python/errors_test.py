@@ -2,6 +2,7 @@
 
 import itertools
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -163,6 +164,21 @@ class DuringACall(unittest.TestCase):
         is_over.set()
         thread.join()
         self.assertGreater(counted, 0)
+
+    def test_the_end_of_the_interpreter_ends_it(self):
+        program = """
+import sys, threading, time, numpy, nearmiss
+x = numpy.random.rand(1000, 2, 4, 3)
+def ask():
+    while True:
+        getattr(nearmiss, sys.argv[1])('vt', x)
+threading.Thread(target=ask, daemon=True).start()
+time.sleep(0.2)
+"""
+        for function in ('collides', 'earliest_time', 'certificate', 'wang'):
+            command = [sys.executable, '-c', program, function]
+            run = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual((run.returncode, run.stderr), (0, ''), function)
 
     def test_a_signal_ends_it(self):
         main = threading.main_thread().ident

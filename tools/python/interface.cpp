@@ -17,6 +17,7 @@
 
 #include "ccd/query/arithmetic.hpp"
 #include "oracle/interface/nearmiss.hpp"
+#include "tools/python/ending.hpp"
 
 namespace nearmiss::python {
 namespace {
@@ -99,18 +100,17 @@ py::array_t<T> one_for_each(const Queries& queries) {
   return py::array_t<T>(static_cast<py::ssize_t>(queries.size()));
 }
 
-/// Calls ask(part, first) for one part of the queries after the other, while other Python threads run.
-/// Between parts it handles signals, at most every tenth of a second; slow queries get smaller parts, so that
-/// signals are handled soon. Returns the first status other than NEARMISS_OK at once.
+/// Calls ask(part, first) for one part of the queries after the other, until the interpreter exits. Between
+/// parts it handles signals, at most every tenth of a second; slow queries get smaller parts, so that signals
+/// are handled soon. Returns the first status other than NEARMISS_OK at once.
 template <class Ask>
-int ask_in_parts(const Queries& queries, const Ask& ask) {
+int ask_until_the_end(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t most = 256;
   constexpr std::chrono::milliseconds long_time{10}, between_signals{100};
-  const py::gil_scoped_release others_run;
   auto last = Clock::now();
   std::size_t size = 1;
-  for (std::size_t first = 0; first < queries.size();) {
+  for (std::size_t first = 0; first < queries.size() && !is_ending;) {
     const auto start = Clock::now();
     const nearmiss_queries part = queries.slice(first, std::min(size, queries.size() - first));
     if (const int status = ask(part, first); status != NEARMISS_OK) return status;
@@ -123,6 +123,18 @@ int ask_in_parts(const Queries& queries, const Ask& ask) {
     last = Clock::now();
   }
   return NEARMISS_OK;
+}
+
+/// As ask_until_the_end, while other Python threads run.
+template <class Ask>
+int ask_in_parts(const Queries& queries, const Ask& ask) {
+  const Running this_call;
+  const int status = [&] {
+    const py::gil_scoped_release others_run;
+    return ask_until_the_end(queries, ask);
+  }();
+  if (is_ending) end_silently();
+  return status;
 }
 
 /// Raises the exception for a status. Queries are asked in parts, and only the last part that was asked has
@@ -238,4 +250,5 @@ PYBIND11_MODULE(_interface, module) {
   module.def("certificates", &certificates);
   module.def("wang", &wang);
   module.def("wang_bound", &wang_bound);
+  module.def("end_calls", &end_calls);
 }

@@ -4,8 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -15,7 +13,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -30,6 +27,7 @@
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/trial.hpp"
+#include "tools/python/ending.hpp"
 #include "tools/python/function_subject.hpp"
 
 namespace nearmiss::python {
@@ -94,26 +92,6 @@ void expect_all_asked(const Subjects& subjects, const std::vector<Family>& famil
     if (std::ranges::none_of(families, [&](const Family& family) { return is_asked(*subject, family); }))
       throw Error("found no query for '" + subject->name() +
                   "', expected families of kinds that it decides, with separations only if it takes them");
-}
-
-std::atomic<bool> is_ending = false;  ///< whether the interpreter is exiting, so that all trials must end
-std::atomic<int> running = 0;         ///< number of trials that are running
-
-/// Notes that a trial is running.
-struct Running {
-  Running() { ++running; }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-  ~Running() { --running; }
-};
-
-/// Ends all trials. Waits a few seconds at most, because a function under trial may not return.
-void end_trials() {
-  is_ending = true;
-  const py::gil_scoped_release others_run;
-  constexpr std::chrono::milliseconds pause(1), patience(3000);
-  for (auto waited = pause; running > 0 && waited < patience; waited += pause)
-    std::this_thread::sleep_for(pause);
 }
 
 /// Lets Python handle the signals that have come.
@@ -216,10 +194,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
     result = decide_all(plan, subjects, stop);
     shrink(result.findings, subjects, shrunk_of_each_signature, stop);
   } catch (const Stopped&) {
-    // The interpreter ends, and so does this thread, without a word: a thread that prints at that time aborts
-    // the program.
-    PyErr_SetNone(PyExc_SystemExit);
-    throw py::error_already_set();
+    end_silently();  // only the end of the interpreter stops a trial
   }
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
@@ -257,5 +232,5 @@ PYBIND11_MODULE(_trial, module) {
   module.def("hold", &hold);
   module.def("families", &known_families);
   module.def("queries", &make);
-  module.def("end_trials", &end_trials);
+  module.def("end_calls", &end_calls);
 }

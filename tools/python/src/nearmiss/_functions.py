@@ -1,5 +1,6 @@
 """The functions over arrays of queries, which __init__.py describes."""
 
+import atexit
 import enum
 from typing import Any, Literal, NamedTuple, Union, overload
 
@@ -15,6 +16,8 @@ from nearmiss._queries import (
     at_most_1,
     not_negative,
 )
+
+atexit.register(_interface.end_calls)  # daemon threads may not use Python after this
 
 
 class DecidedBy(enum.IntEnum):

@@ -317,5 +317,5 @@ def _extension() -> Any:
         raise ImportError(
             'this nearmiss has no trials, because it was built without the component tools'
         ) from None
-    atexit.register(extension.end_trials)  # daemon threads may not use Python after this
+    atexit.register(extension.end_calls)  # daemon threads may not use Python after this
     return extension
