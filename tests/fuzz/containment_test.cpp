@@ -11,6 +11,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -300,6 +301,12 @@ TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {
       odd.*field = limit;
       EXPECT_THROW(isolation::info_of(odd), Error) << limit;
     }
+  for (const char* name : {"", "a/b", "a=b:c", "wang (beyond contract)"}) {
+    isolation::PluginDescription odd = honest();
+    odd.name = {};
+    std::copy_n(name, std::strlen(name), odd.name.begin());
+    EXPECT_THROW(isolation::info_of(odd), Error) << name;
+  }
   isolation::PluginDescription odd = honest();
   odd.names = {"a:b\n"};
   EXPECT_THROW(isolation::names_of(odd), Error);

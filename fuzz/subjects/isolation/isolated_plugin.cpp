@@ -301,6 +301,7 @@ std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& n
   auto first = std::make_unique<WorkerProcess>(*code, limits);
   const std::vector<std::string> names = first->names();
   const bool has_chosen = is_program(name) || !PluginName::parse(name).subject.empty();
+  if (names.empty() && !has_chosen) throw Error(name + ": the plug-in's process described no detector");
   std::vector<std::unique_ptr<Subject>> subjects;
   if (has_chosen || names.size() == 1)
     subjects.push_back(std::make_unique<IsolatedPlugin>(std::move(code), limits, std::move(first)));

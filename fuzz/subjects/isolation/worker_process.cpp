@@ -72,6 +72,8 @@ DetectorInfo info_of(const PluginDescription& about) {
                    .grid = about.grid,
                    .shortest = about.shortest,
                    .longest = about.longest};
+  expect_no(
+      fault_of_name(std::string_view(info.name).substr(0, info.name.find(':'))));  // without its options
   expect_no(fault_of(info.contract));
   return info;
 }
