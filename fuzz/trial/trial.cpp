@@ -1,6 +1,7 @@
 #include "fuzz/trial/trial.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -52,6 +53,13 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
+/// A hash of some coordinates. Queries of other families and seeds with the same numbers are at the same places
+/// of batches, so a sample must not depend on the number alone.
+std::uint64_t hash_of(const Query& query) {
+  const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(query.x[i]); };
+  return bits(0) ^ std::rotl(bits(13), 32);
+}
+
 /// A sample of the queries that a subject answered, the last one first.
 struct Sample {
   std::vector<std::size_t> numbers;  ///< in the batch
@@ -60,7 +68,9 @@ struct Sample {
   Sample(const Batch& batch, const std::vector<Verdict>& verdicts) {
     constexpr std::uint64_t one_in = 256;
     for (std::size_t i = verdicts.size(); i-- > 0;) {
-      if (verdicts[i].fault != Fault::none || !is_sampled(batch.number(i), one_in)) continue;
+      if (verdicts[i].fault != Fault::none ||
+          !is_sampled(batch.number(i) ^ hash_of(batch.queries[i]), one_in))
+        continue;
       numbers.push_back(i);
       queries.push_back(batch.queries[i]);
     }

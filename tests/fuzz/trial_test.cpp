@@ -168,6 +168,29 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
 }
 
+// Queries of other seeds have the same numbers, and are at the same places of batches.
+TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
+  for (const std::size_t wrong : {0, 1, 2, 12}) {
+    std::uint64_t noticed = 0;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+      std::vector<Query> queries;
+      for (std::uint64_t i = 0; i < 16; ++i)
+        queries.push_back(make_query(find_family("uniform-slow"), seed, 2 * i));
+      std::size_t place = 0;
+      const auto of_place = [&](const Query&) {
+        const bool hit = place++ != warm_up_queries + wrong;
+        return Verdict{hit, hit ? Stage::unspecified : Stage::none};
+      };
+      Batch batch = batch_of("uniform-slow", queries);
+      batch.step = 2;
+      noticed +=
+          counts_of(hold_trial(one(std::make_unique<testing::MadeUpSubject>("of place", of_place)), batch))
+              .without_answer(Fault::inconsistent);
+    }
+    EXPECT_GT(noticed, 0) << wrong;
+  }
+}
+
 TEST(Trial, AFaultWhenAskedASecondTimeIsAFault) {
   const auto faults = [](Fault second) {
     std::size_t calls = 0;
