@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -45,14 +46,13 @@ struct Gauge {
 
 /// A search as miss_search() or far_search(), among pairs of meshes or among vertices.
 template <class Search>
-Family search_by(const Search& search, const Subject& subject, bool among) {
-  return among ? among_vertices(search(subject, Stop::never(), drawn_separation))
-               : search(subject, Stop::never(), "");
+Family search_by(const Search& search, const Subject& subject, bool among, const Stop& stop) {
+  return among ? among_vertices(search(subject, stop, drawn_separation)) : search(subject, stop, "");
 }
 
-Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among) {
+Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among, const Stop& stop) {
   auto subject = try_make_defect(scaled_tolerance(tolerance.name, 1));
-  auto search = search_by(miss_search, *subject, among);
+  auto search = search_by(miss_search, *subject, among, stop);
   const auto of = tolerance.accepts ? Extreme::Of::accepting_tolerance : Extreme::Of::keeping_tolerance;
   auto nothing = nothing_found(of, std::string(tolerance.name));
   const auto read = [&tolerance, &subject = *subject,
@@ -68,9 +68,9 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among) {
   return {std::move(nothing), std::move(subject), std::move(search), read};
 }
 
-Gauge tests_gauge(const Tests& tests, bool among) {
+Gauge tests_gauge(const Tests& tests, bool among, const Stop& stop) {
   auto subject = make_any_subject(tests.subject);
-  auto search = search_by(far_search, *subject, among);
+  auto search = search_by(far_search, *subject, among, stop);
   const auto read = [&subject = *subject](const Query& query) -> std::optional<double> {
     if (!subject.decide(query).hit || collides(query)) return std::nullopt;
     return closest_ratio(query, subject.distance_bound(query));
@@ -79,20 +79,30 @@ Gauge tests_gauge(const Tests& tests, bool among) {
           std::move(search), read};
 }
 
-Gauge gauge_of(std::string_view name, bool among) {
+/// Whether Algorithms 1 and 2 do without this tolerance or group of tests.
+bool needs_four_vertices(std::string_view name) {
+  constexpr std::array<std::string_view, 4> all{"eta", "mu", "tau", "proximity"};
+  return std::ranges::find(all, name) != all.end();
+}
+
+Gauge gauge_of(std::string_view name, bool among, const Stop& stop) {
+  const auto is_it = [&](const auto& each) {
+    return each.name == name && !(among && needs_four_vertices(name));
+  };
   for (const NamedTolerance& tolerance : named_tolerances())
-    if (tolerance.name == name) return tolerance_gauge(tolerance, among);
+    if (is_it(tolerance)) return tolerance_gauge(tolerance, among, stop);
   for (const Tests& tests : tests_table)
-    if (tests.name == name) return tests_gauge(tests, among);
+    if (is_it(tests)) return tests_gauge(tests, among, stop);
   throw Error(fmt::format("unknown tolerance '{}', expected some of {}", excerpt(name),
-                          fmt::join(tightness_names(), ", ")));
+                          fmt::join(tightness_names(among), ", ")));
 }
 
 /// The extreme value among a block of queries of a family.
 Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed, std::uint64_t first,
-                   std::uint64_t count) {
+                   std::uint64_t count, const Stop& stop) {
   Extreme sum = gauge.nothing;
   for (std::uint64_t index = first; index < first + count; ++index) {
+    stop.check();
     Extreme one = gauge.nothing;
     one.query = make_query(family, seed, index);
     if (const auto value = gauge.read(one.query)) {
@@ -107,16 +117,18 @@ Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed,
 
 }  // namespace
 
-std::vector<std::string> tightness_names() {
+std::vector<std::string> tightness_names(bool among_vertices) {
   std::vector<std::string> names;
   for (const NamedTolerance& tolerance : named_tolerances()) names.emplace_back(tolerance.name);
   for (const Tests& tests : tests_table) names.emplace_back(tests.name);
+  if (among_vertices) std::erase_if(names, needs_four_vertices);
   return names;
 }
 
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop) {
+  const Stop ending(stop);
   std::vector<Gauge> gauges;
-  for (const std::string& name : plan.names) gauges.push_back(gauge_of(name, plan.among_vertices));
+  for (const std::string& name : plan.names) gauges.push_back(gauge_of(name, plan.among_vertices, ending));
   for (const Gauge& gauge : gauges) {
     if (stop) return;
     Extreme sum = gauge.nothing;
@@ -124,13 +136,16 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
     const std::size_t wave = 8 * static_cast<std::size_t>(plan.jobs);
     for (std::uint64_t round = 0; !stop && steady_clock::now() - start < plan.time; ++round) {
       std::vector<Extreme> parts(wave, gauge.nothing);
-      in_parallel(plan.jobs, wave, [&](std::size_t i) {
-        const std::uint64_t number = round * (wave / 2) + i / 2;  // index among the blocks of its sort
-        const std::uint64_t families = plan.families.size();
-        parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4)
-                              : read_block(gauge, plan.families[number % families], plan.seed,
-                                           1000 * (number / families), 1000);
-      });
+      try {
+        in_parallel(plan.jobs, wave, [&](std::size_t i) {
+          const std::uint64_t number = round * (wave / 2) + i / 2;  // index among the blocks of its sort
+          const std::uint64_t families = plan.families.size();
+          parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4, ending)
+                                : read_block(gauge, plan.families[number % families], plan.seed,
+                                             1000 * (number / families), 1000, ending);
+        });
+      } catch (const Stopped&) {  // the parts that are done count
+      }
       for (const Extreme& part : parts) sum.merge(part);
       sink(sum, false);
     }

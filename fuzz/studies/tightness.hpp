@@ -15,7 +15,7 @@ namespace nearmiss {
 
 /// The measurements, and the time for each.
 struct TightnessPlan {
-  std::vector<std::string> names;  ///< some of `tightness_names()`
+  std::vector<std::string> names;  ///< some of `tightness_names(among_vertices)`
   std::vector<Family> families;    ///< sources of queries in addition to directed search
   bool among_vertices = false;     ///< whether the search is among two vertices, and a vertex and an edge
   std::chrono::duration<double> time{};  ///< time for each name
@@ -24,8 +24,8 @@ struct TightnessPlan {
 };
 
 /// The names of the tolerances, and of the groups of accepting tests: "proximity", "vertex-edge",
-/// "vertex-vertex".
-std::vector<std::string> tightness_names();
+/// "vertex-vertex". Among vertices, only those of Algorithms 1 and 2.
+std::vector<std::string> tightness_names(bool among_vertices = false);
 
 /// Receives the result so far for a name; `done` is set when the time for this name is over.
 using TightnessSink = std::function<void(const Extreme&, bool done)>;

@@ -1,6 +1,7 @@
 // Measures the tightness of known tolerances.
 #include "fuzz/studies/tightness.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -77,7 +78,11 @@ TEST(Tightness, AmongVerticesIsThatOfTheirTolerances) {
 
 TEST(Tightness, KnowsItsNames) {
   EXPECT_EQ(tightness_names().size(), named_tolerances().size() + 3);
+  EXPECT_THAT(tightness_names(true),
+              ::testing::UnorderedElementsAre("D2", "delta", "S", "psi", "rho", "lambda2", "vertex-edge",
+                                              "vertex-vertex"));
   EXPECT_REFUSED(measure("nu"), "'nu'");
+  EXPECT_REFUSED(measure("mu", true), "'mu'");
 }
 
 }  // namespace

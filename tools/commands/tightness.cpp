@@ -33,8 +33,9 @@ int measure_tolerances(const Options& options) {
   const CampaignOptions& campaign = options.campaign;
   const std::string time = options.time.empty() ? usual_time : options.time;
   TightnessPlan plan;
-  plan.names = options.names == std::vector<std::string>{"all"} ? tightness_names() : options.names;
   plan.among_vertices = options.among_vertices;
+  plan.names =
+      options.names == std::vector<std::string>{"all"} ? tightness_names(plan.among_vertices) : options.names;
   if (plan.among_vertices)
     std::ranges::transform(vertex_families(), std::back_inserter(plan.families), as_asked);
   else
