@@ -46,9 +46,11 @@ int usable_threads(int jobs) {
   return std::min(jobs, most.load());
 }
 
-/// Throws std::bad_alloc unless some memory is left. If TBB finds none while it starts, it does not throw, but
-/// waits forever for a lock that it holds itself (2022.1).
-void expect_memory() {
+/// Throws std::bad_alloc unless some memory is left before TBB starts. If TBB finds none then, it does not
+/// throw, but waits forever for a lock that it holds itself (2022.1).
+void expect_memory_to_start() {
+  static std::atomic<bool> has_started = false;
+  if (has_started.exchange(true)) return;
   constexpr std::size_t enough = 16'000'000;
   void* const some = mmap(nullptr, enough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (some == MAP_FAILED) throw std::bad_alloc();
@@ -58,8 +60,8 @@ void expect_memory() {
 /// Runs a parallel algorithm on at most `jobs` threads. By default, the library starts at most one thread per
 /// core.
 void on_threads(int jobs, const std::function<void()>& algorithm) {
+  expect_memory_to_start();
   jobs = usable_threads(jobs);
-  expect_memory();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   tbb::task_arena(jobs).execute(algorithm);
