@@ -1,6 +1,7 @@
 # shellcheck shell=bash
 # The options of all scripts. A script sources this file before anything else, and declares its options with
 # `options`. A script's usage is the comment at its top.
+unset CDPATH  # with it, cd prints a folder, and may go to another one
 script=$(realpath "$0")
 script_name=${script#"$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")/"}
 
