@@ -9,7 +9,7 @@ include(CMakePackageConfigHelpers)
 # the user's.
 set(query arithmetic error kind query scalar)
 set(wang advance basic cubic motion pair_bound plane_culling proximity quadratic tolerances ve_culling verdict
-  vertex_edge vertex_vertex wang wang_time)
+  vertex_edge vertex_vertex wang wang_time within)
 set(wang/bounds constraints proven solver_errors tight_tolerances)
 foreach(room query wang wang/bounds)
   list(TRANSFORM ${room} REPLACE "(.+)" "ccd/${room}/\\1.hpp" OUTPUT_VARIABLE headers)
