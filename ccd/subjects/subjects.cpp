@@ -163,8 +163,8 @@ struct Advance {
   static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
     return advance<kind, double>(query);
   }
-  static Verdict decide_within(const Query& query, const std::optional<double>& /*given*/) {
-    return advance<Kind::vertex_triangle, double>(query);
+  static Verdict decide_within(const Query& query, const std::optional<double>& given) {
+    return decide<Kind::vertex_triangle>(query, given);
   }
   static double distance_bound(const Query& query, const std::optional<double>& /*given*/) {
     const double bound =

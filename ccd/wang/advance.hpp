@@ -18,7 +18,7 @@ namespace nearmiss {
 /// The polygon of all differences x - y of a point x of the first primitive and a point y of the second: a
 /// triangle (vertex-triangle) or a parallelogram (edge-edge), whose corners are the differences of vertices
 /// and move linearly. The distance of the primitives is the distance of the origin from this polygon. Two
-/// vertices, and a vertex and an edge, give a triangle whose corners coincide (has_triangle).
+/// vertices, and a vertex and an edge, give a triangle with corners that coincide (has_triangle).
 template <Kind kind, class T>
 struct DifferencePolygon {
   static constexpr std::size_t size = has_triangle(kind) ? 3 : 4;

@@ -52,21 +52,22 @@ fs::path log_of(const fs::path& file, std::string_view ending) {
   return log;
 }
 
-/// Throws Error if the journal beside a store names another file, which SQLite would delete when it takes back
-/// a half-done change. No journal of nearmiss does.
-void expect_own_journal(const fs::path& file) {
+/// The file, for SQLite to open. Throws Error if the journal beside it names another file, which SQLite would
+/// delete when it takes back a half-done change. No journal of nearmiss does.
+const fs::path& with_own_journal(const fs::path& file) {
   constexpr std::array<char, 8> magic{'\xd9', '\xd5', '\x05', '\xf9', '\x20', '\xa1', '\x63', '\xd7'};
   const fs::path journal = log_of(file, "-journal");
-  if (!fs::exists(journal)) return;
+  if (!fs::exists(journal)) return file;
   expect_regular_file(journal);
   std::array<char, magic.size()> last{};
   std::ifstream in(journal, std::ios::binary | std::ios::ate);
-  if (in.tellg() < std::streamoff{magic.size()}) return;
+  if (in.tellg() < std::streamoff{magic.size()}) return file;
   in.seekg(-std::streamoff{magic.size()}, std::ios::end);
   if (in.read(last.data(), last.size()) && last == magic)
     throw Error(
         fmt::format("found the journal {} of a change to several files, expected one to this store alone",
                     journal.filename().string()));
+  return file;
 }
 
 /// Opens a store to read it. The store is not changed, unless its writer was killed while it changed the file
@@ -74,9 +75,8 @@ void expect_own_journal(const fs::path& file) {
 SQLite::Database open_to_read(const fs::path& file) {
   constexpr int most_bytes = 1 << 26;  // limit for a key or a value
   const bool change_is_half_done = fs::exists(log_of(file, "-journal"));
-  expect_own_journal(file);
-  SQLite::Database db(file.string(), change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY,
-                      patience_ms);
+  SQLite::Database db(with_own_journal(file).string(),
+                      change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms);
   sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, most_bytes);
   return db;
 }
@@ -175,7 +175,7 @@ Campaign read_store(const fs::path& file, bool checks_structure, const Check& ch
 /// A connection for writing.
 struct Connection {
   Connection(const fs::path& file, int flags)
-      : db((expect_own_journal(file), file.string()), SQLite::OPEN_READWRITE | flags, patience_ms) {
+      : db(with_own_journal(file).string(), SQLite::OPEN_READWRITE | flags, patience_ms) {
     db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   }
   Connection(const Connection&) = delete;
@@ -194,9 +194,9 @@ struct Connection {
 
 /// Whether a file is an empty database.
 bool is_empty_database(const fs::path& file) {
-  expect_own_journal(file);
+  const fs::path& own = with_own_journal(file);
   try {
-    SQLite::Database db(file.string(), SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
+    SQLite::Database db(own.string(), SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
     return is_empty(db);
   } catch (const SQLite::Exception&) {
     return false;

@@ -180,6 +180,16 @@ time.sleep(0.2)
             run = subprocess.run(command, capture_output=True, text=True)
             self.assertEqual((run.returncode, run.stderr), (0, ''), function)
 
+    def test_a_function_that_python_calls_at_its_end_may_ask(self):
+        program = """
+import atexit
+atexit.register(lambda: print(nearmiss.collides('vt', nearmiss.queries('uniform', 'vt', 1)[0])))
+import nearmiss
+"""
+        run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stderr), (0, ''))
+        self.assertRegex(run.stdout, r'^\[(True|False)\]$')
+
     def test_a_signal_ends_it(self):
         main = threading.main_thread().ident
         thread = threading.Thread(target=lambda: signal.pthread_kill(main, signal.SIGINT))

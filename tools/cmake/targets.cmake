@@ -37,9 +37,11 @@ function(nearmiss_options target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
+# The only header of our own that is precompiled in several targets.
+set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statistics.hpp)
+
 # nearmiss_precompile(TARGET HEADER...): compiles once the headers that most files of a target include, most of
 # them of other libraries. The preset debug does not do so, and thus checks that each file includes what it uses.
-set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statistics.hpp)
 function(nearmiss_precompile target)
   target_precompile_headers(${target} PRIVATE <algorithm> <functional> <map> <optional> <string> <vector> <Eigen/Core> <Eigen/Geometry>
     ${ARGN})

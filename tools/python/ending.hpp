@@ -1,5 +1,5 @@
-// What a module does when the interpreter exits while calls are under way in other threads. Python ends a thread
-// that asks for its lock after that, and a thread that ends within C++ aborts the program.
+// Lets the interpreter exit while other threads are still in a call. Python ends a thread that asks for its
+// lock after that, and a thread that is ended within C++ aborts the program.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,12 +10,18 @@
 
 namespace nearmiss::python {
 
-inline std::atomic<bool> is_ending =
-    false;                            ///< whether the interpreter is exiting, so that all calls must end
-inline std::atomic<int> running = 0;  ///< number of calls that are under way
+/// Whether the interpreter is exiting.
+inline std::atomic<bool> is_ending = false;
+/// The thread in which it exits. Functions that Python calls at its exit may still make calls there.
+inline std::thread::id ending_thread;
+/// The number of calls that are under way.
+inline std::atomic<int> running = 0;
 
-/// Ends this thread's part of the program without a word: a thread that prints while the interpreter exits
-/// aborts the program, too.
+/// Whether a call in this thread must end.
+inline bool must_end() { return is_ending && std::this_thread::get_id() != ending_thread; }
+
+/// Ends a call by the exception that ends its thread without a word. A thread that prints while the
+/// interpreter exits aborts the program, too.
 [[noreturn]] inline void end_silently() {
   PyErr_SetNone(PyExc_SystemExit);
   throw pybind11::error_already_set();
@@ -24,7 +30,7 @@ inline std::atomic<int> running = 0;  ///< number of calls that are under way
 /// Notes that a call is under way. It is made and destroyed while this thread has Python's lock.
 struct Running {
   Running() {
-    if (is_ending) end_silently();
+    if (must_end()) end_silently();
     ++running;
   }
   Running(const Running&) = delete;
@@ -35,6 +41,7 @@ struct Running {
 /// Ends all calls; the package calls it when the interpreter exits. Waits a few seconds at most, because a
 /// Python function under trial may not return.
 inline void end_calls() {
+  ending_thread = std::this_thread::get_id();
   is_ending = true;
   const pybind11::gil_scoped_release others_run;
   constexpr std::chrono::milliseconds pause(1), patience(3000);

@@ -110,7 +110,7 @@ int ask_until_the_end(const Queries& queries, const Ask& ask) {
   constexpr std::chrono::milliseconds long_time{10}, between_signals{100};
   auto last = Clock::now();
   std::size_t size = 1;
-  for (std::size_t first = 0; first < queries.size() && !is_ending;) {
+  for (std::size_t first = 0; first < queries.size() && !must_end();) {
     const auto start = Clock::now();
     const nearmiss_queries part = queries.slice(first, std::min(size, queries.size() - first));
     if (const int status = ask(part, first); status != NEARMISS_OK) return status;
@@ -133,7 +133,7 @@ int ask_in_parts(const Queries& queries, const Ask& ask) {
     const py::gil_scoped_release others_run;
     return ask_until_the_end(queries, ask);
   }();
-  if (is_ending) end_silently();
+  if (must_end()) end_silently();
   return status;
 }
 
