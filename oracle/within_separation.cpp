@@ -49,6 +49,20 @@ class ApproachSearch {
   double low_ = 0, required_ = 0;
 };
 
+bool always_farther_apart_than(double h, const Query& query) {
+  switch (query.kind) {
+    case Kind::vertex_triangle:
+      return farther_apart_than<Kind::vertex_triangle>(h, query);
+    case Kind::edge_edge:
+      return farther_apart_than<Kind::edge_edge>(h, query);
+    case Kind::vertex_vertex:
+      return farther_apart_than<Kind::vertex_vertex>(h, query);
+    case Kind::vertex_edge:
+      break;
+  }
+  return farther_apart_than<Kind::vertex_edge>(h, query);
+}
+
 }  // namespace
 
 KnownApproach known_approach(const Query& query) {
@@ -56,8 +70,7 @@ KnownApproach known_approach(const Query& query) {
   const double h = query.separation;
   if (!is_finite(query)) return {FilterStage::undecided};
   if (!boxes_meet(query)) return {FilterStage::boxes};
-  if (with_kind(query.kind, [&]<Kind kind>() { return farther_apart_than<kind>(h, query); }))
-    return {FilterStage::planes};
+  if (always_farther_apart_than(h, query)) return {FilterStage::planes};
   const FirstTime first = ApproachSearch(query).decide();
   if (first.never) return {FilterStage::apart};
   return {first.comes ? FilterStage::within : FilterStage::undecided, first.time, first.estimate};

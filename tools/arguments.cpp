@@ -160,17 +160,11 @@ isolation::PluginLimits PluginLimitOptions::limits() const {
   return {.time = parse_duration(time, "--query-time"), .bytes = bytes};
 }
 
-bool can_be_kept(std::string text) {
-  const auto is_blank = [](char c) { return c == '\n' || c == '\t'; };
-  std::replace_if(text.begin(), text.end(), is_blank, ' ');
-  return printable(text) == text;
-}
-
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
   Subjects made;
   for (const std::string& text : texts) {
-    if (!can_be_kept(text))
+    if (!has_printable_lines(text))
       throw Error(
           fmt::format("--subject: found '{}', expected a path in UTF-8 without control characters, because "
                       "reports name it",

@@ -79,12 +79,8 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// Whether a subject's text can be kept in JSON and repeated in a command: whether it is UTF-8 without
-/// control characters other than line ends and tabs.
-bool can_be_kept(std::string text);
-
 /// Makes the subjects that these texts denote (fuzz/subjects/subjects.hpp), with distinct names; each plug-in
-/// runs in its own process. Throws Error, also for a text that cannot be kept.
+/// runs in its own process. Throws Error, also for a text that a store cannot keep (has_printable_lines).
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 

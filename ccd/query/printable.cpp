@@ -1,5 +1,6 @@
 #include "ccd/query/printable.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,12 @@ std::string printable(std::string_view text) {
     text.remove_prefix(length != 0 ? length : 1);
   }
   return result;
+}
+
+bool has_printable_lines(std::string text) {
+  const auto is_blank = [](char c) { return c == '\n' || c == '\t'; };
+  std::replace_if(text.begin(), text.end(), is_blank, ' ');
+  return printable(text) == text;
 }
 
 }  // namespace nearmiss

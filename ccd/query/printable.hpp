@@ -10,4 +10,7 @@ namespace nearmiss {
 /// part of a valid sequence becomes '?', and each line end becomes a blank.
 std::string printable(std::string_view text);
 
+/// Whether a text consists of valid UTF-8 without control characters, except line ends and tabs.
+bool has_printable_lines(std::string text);
+
 }  // namespace nearmiss

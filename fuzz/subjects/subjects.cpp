@@ -35,6 +35,11 @@ std::unique_ptr<Subject> make_built_in_or_refuse(std::string_view name, std::opt
   refuse_subject(name, known);
 }
 
+/// Whether a name, without options or bound, is that of a built-in subject.
+bool is_built_in_name(std::string_view name) {
+  return try_make_built_in(name.substr(0, name.find_first_of(":@"))) != nullptr;
+}
+
 /// The file's name without its extension: "v2" for "lib/v2.py", "v2.so" and "v2.so.1".
 std::string stem_of(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
@@ -49,7 +54,7 @@ std::string file_of_program(std::string_view program) {
 }
 
 /// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if a NAME
-/// cannot begin with the file's name. "" if there is no file, or if neither text can be a NAME.
+/// cannot begin with the file's name, or must not. "" if there is no file, or if neither text can be a NAME.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";
@@ -62,8 +67,14 @@ std::string name_of_file(const Subject& subject) {
   const std::string chosen = parsed.subject.empty() ? "" : "." + detector;
   if (!stem.empty())
     for (const std::string& name : {stem + chosen, detector + "-" + stem})
-      if (is_given_name(name)) return name;
+      if (is_given_name(name) && !is_built_in_name(name)) return name;
   return "";
+}
+
+/// Whether a plug-in or a renamed subject has the name of a built-in subject, so that a merge would add up the
+/// results of both.
+bool takes_built_in_name(const Subject& subject) {
+  return (plugin_identity(subject) || !given_name(subject).empty()) && is_built_in_name(subject.name());
 }
 
 }  // namespace
@@ -94,14 +105,20 @@ void tell_apart(Subjects& subjects) {
   std::map<std::string, int> times;
   for (const auto& subject : subjects) ++times[names.emplace_back(subject->name())];
   for (auto& subject : subjects)
-    if (times.at(subject->name()) > 1 && given_name(*subject).empty())
+    if ((times.at(subject->name()) > 1 || takes_built_in_name(*subject)) && given_name(*subject).empty())
       if (const std::string name = name_of_file(*subject); !name.empty())
         subject = named(std::move(subject), name, true);
   std::set<std::string> seen;
-  for (std::size_t i = 0; i < subjects.size(); ++i)
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    const std::string another = shell_quoted("NAME=" + SubjectText::parse(text_of(*subjects[i])).subject);
+    if (takes_built_in_name(*subjects[i]))
+      throw Error(
+          fmt::format("found the name '{}', which a built-in subject has, expected another, such as {}",
+                      names[i], another));
     if (!seen.insert(subjects[i]->name()).second)
       throw Error(fmt::format("found two subjects named '{}', expected different names, such as {}", names[i],
-                              shell_quoted("NAME=" + SubjectText::parse(text_of(*subjects[i])).subject)));
+                              another));
+  }
 }
 
 std::string text_of(const Subject& subject) {

@@ -135,7 +135,7 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   detail::Candidate<Real> best;
   for (const auto& [vertex, from, to] : topology(x.differences().kind()).vertices_and_edges)
     detail::consider_edge(x, vertex, from, to, best);
-  detail::consider_interiors(x, best);
+  if (is_of_meshes(x.differences().kind())) detail::consider_interiors(x, best);
   return detail::points_of(x, best);
 }
 

@@ -1,13 +1,23 @@
 // Conversion of distances between units, rounded in a known direction.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace nearmiss::certified {
 
-inline double above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
-inline double below(double x) { return x > 0 ? std::nextafter(x, 0.0) : 0; }
+/// The next double above x >= 0, and the next below, but at least 0: the bits of positive doubles, read as
+/// integers, are in the order of the doubles.
+inline double above(double x) {
+  return x < std::numeric_limits<double>::infinity()
+             ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(x + 0.0) + 1)
+             : x;
+}
+inline double below(double x) {
+  return x > 0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) - 1) : 0;
+}
 
 /// Converts distances from the unit of VertexDifferences to multiples of `unit`, and back.
 class Conversion {

@@ -11,15 +11,13 @@ namespace {
 
 /// The time at which the centres of the primitives are nearest, a first guess.
 double time_of_nearest_centres(const VertexDifferences& differences) {
-  const std::size_t second = second_primitive(differences.kind());
   Vec<double> start{};
   Vec<double> end{};
-  for (std::size_t i = 0; i < second; ++i)
-    for (std::size_t j = second; j < 4; ++j)
-      for (std::size_t k = 0; k < 3; ++k) {
-        start[k] += differences.at(0, i, j)[k].hi;
-        end[k] += differences.at(1, i, j)[k].hi;
-      }
+  for (const auto& [i, j] : topology(differences.kind()).gaps)
+    for (std::size_t k = 0; k < 3; ++k) {
+      start[k] += differences.at(0, i, j)[k].hi;
+      end[k] += differences.at(1, i, j)[k].hi;
+    }
   const Vec<double> moved = end - start;
   const double squared = dot(moved, moved);
   // The order of the arguments of max turns -0 into 0.

@@ -79,13 +79,11 @@ Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& di
   Separation separation;
   separation.length = {longest(direction, 0), 0, 0};
   const Vec<Real> n = of_double<Real>(direction);
-  const std::size_t second = second_primitive(differences.kind());
-  for (std::size_t i = 0; i < second; ++i)
-    for (std::size_t j = second; j < 4; ++j) {
-      const double error = 8 * roundoff<Real> * separation.length[0] * differences.reach(i, j);
-      separation.add({to_double(dot(n, x.position(i, j))), to_double(dot(n, x.velocity(i, j))), 0, 0},
-                     {error, 2 * error, 0, 0});
-    }
+  for (const auto& [i, j] : topology(differences.kind()).gaps) {
+    const double error = 8 * roundoff<Real> * separation.length[0] * differences.reach(i, j);
+    separation.add({to_double(dot(n, x.position(i, j))), to_double(dot(n, x.velocity(i, j))), 0, 0},
+                   {error, 2 * error, 0, 0});
+  }
   return separation;
 }
 
@@ -115,11 +113,9 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
     separation.add({to_double(dot(n0, p)), to_double(dot(n0, w) + dot(n1, p)), to_double(dot(n1, w)), 0},
                    {error, 4 * error, 4 * error, 0});
   };
-  const std::size_t second = second_primitive(differences.kind());
   // `to` has the same products as `from`.
-  for (std::size_t i = 0; i < second; ++i)
-    for (std::size_t j = second; j < 4; ++j)
-      if (i != to && j != to) add(i, j);
+  for (const auto& [i, j] : topology(differences.kind()).gaps)
+    if (i != to && j != to) add(i, j);
   return separation;
 }
 

@@ -5,12 +5,6 @@
 
 namespace nearmiss::certified {
 
-namespace {
-
-constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-}  // namespace
-
 VertexDifferences::VertexDifferences(const Query& query)
     : kind_(query.kind), exponent_(0), pairs_{}, total_reach_(0) {
   double largest = 0;
@@ -20,15 +14,18 @@ VertexDifferences::VertexDifferences(const Query& query)
     // Each component has its own sum and maximum, so that the operations do not wait for each other.
     Vec<double> most{};
     Vec<double> sums{};
-    for (std::size_t pair = 0; pair < pairs.size(); ++pair)
+    for_each_pair(kind_, [&](std::size_t i, std::size_t j) {
       for (std::size_t time = 0; time < 2; ++time)
         for (std::size_t k = 0; k < 3; ++k) {
-          const auto coordinate = [&](std::size_t i) { return factor * query.x[12 * time + 3 * i + k]; };
-          const DoubleWord value = two_sum(coordinate(pairs[pair][0]), -coordinate(pairs[pair][1]));
-          pairs_[pair].at[time][k] = value;
+          const auto coordinate = [&](std::size_t vertex) {
+            return factor * query.x[12 * time + 3 * vertex + k];
+          };
+          const DoubleWord value = two_sum(coordinate(i), -coordinate(j));
+          pairs_[number_of_pair(i, j)].at[time][k] = value;
           sums[k] += std::abs(value.hi) + std::abs(value.lo);
           most[k] = std::max(most[k], std::abs(value.hi));
         }
+    });
     largest = std::max({most[0], most[1], most[2]});
     return std::isfinite(sums[0] + sums[1] + sums[2]);
   };
@@ -45,7 +42,8 @@ void VertexDifferences::scale(int exponent) {
   // Multiplies by two factors, because 2^exponent need not be a double.
   const double factor = std::ldexp(1.0, exponent / 2);
   const double other_factor = std::ldexp(1.0, exponent - exponent / 2);
-  for (VertexDifference& pair : pairs_) {
+  for_each_pair(kind_, [&](std::size_t i, std::size_t j) {
+    VertexDifference& pair = pairs_[number_of_pair(i, j)];
     double reach = 0;
     for (Vec<DoubleWord>& v : pair.at)
       for (DoubleWord& c : v) {
@@ -55,7 +53,7 @@ void VertexDifferences::scale(int exponent) {
     constexpr double root_of_three = 1.7320508075688777;  // rounded up
     pair.reach = root_of_three * reach;
     total_reach_ += pair.reach;
-  }
+  });
 }
 
 }  // namespace nearmiss::certified

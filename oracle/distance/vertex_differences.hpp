@@ -23,7 +23,27 @@ constexpr NormalPairs normal_pairs(Kind kind) {
   return {{p.to, p.from}, {q.to, q.from}, r};
 }
 
-/// The differences x_i - x_j of all pairs of vertices at both ends of the step. Their unit, 2^exponent, is
+/// The number of the pair of two different vertices, from 0 to 5.
+constexpr std::size_t number_of_pair(std::size_t i, std::size_t j) {
+  constexpr std::array<std::array<std::size_t, 4>, 4> numbers{
+      {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
+  return numbers[i][j];
+}
+
+/// Calls `use(i, j)` with i < j for each pair of vertices of a kind. The numbers are constants for the compiler.
+template <class Use>
+[[gnu::always_inline]] inline void for_each_pair(Kind kind, const Use& use) {
+  const int count = vertices(kind);
+  use(0, 1);
+  if (count > 2) use(0, 2);
+  if (count > 3) use(0, 3);
+  if (count > 2) use(1, 2);
+  if (count > 3) use(1, 3);
+  if (count > 3) use(2, 3);
+}
+
+/// The differences x_i - x_j of all pairs of vertices at both ends of the step; 0 for vertices that the kind
+/// does not have. Their unit, 2^exponent, is
 /// such that the largest component is between 1 and 2 (all are 0 if all vertices coincide).
 ///
 /// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
@@ -39,7 +59,7 @@ class VertexDifferences {
   /// The largest distance of x_i and x_j over [0, 1] is at most this.
   [[nodiscard]] double reach(std::size_t i, std::size_t j) const { return pair_of(i, j).reach; }
   [[nodiscard]] double reach(VertexPair pair) const { return reach(pair.to, pair.from); }
-  /// The sum of the reaches of all six pairs.
+  /// The sum of the reaches of all pairs.
   [[nodiscard]] double total_reach() const { return total_reach_; }
 
   /// x_i - x_j at the start (0) or the end (1) of the step, for i < j.
@@ -55,11 +75,8 @@ class VertexDifferences {
     std::array<Vec<DoubleWord>, 2> at;
     double reach;
   };
-  /// Requires i != j.
   [[nodiscard]] const VertexDifference& pair_of(std::size_t i, std::size_t j) const {
-    constexpr std::array<std::array<std::size_t, 4>, 4> numbers{
-        {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
-    return pairs_[numbers[i][j]];
+    return pairs_[number_of_pair(i, j)];
   }
 
   Kind kind_;
@@ -77,16 +94,17 @@ class VerticesAt {
  public:
   VerticesAt(const VertexDifferences& differences, const Real& t) : differences_(differences) {
     const Real early = Real(1) - t;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j)
-        for (std::size_t k = 0; k < 3; ++k) {
-          const Real start = real(differences.at(0, i, j)[k]);
-          const Real end = real(differences.at(1, i, j)[k]);
-          positions_[i][j][k] = early * start + t * end;
-          positions_[j][i][k] = -positions_[i][j][k];
-          velocities_[i][j][k] = end - start;
-          velocities_[j][i][k] = -velocities_[i][j][k];
-        }
+    if (vertices(differences.kind()) < 4) positions_ = velocities_ = {};
+    for_each_pair(differences.kind(), [&](std::size_t i, std::size_t j) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Real start = real(differences.at(0, i, j)[k]);
+        const Real end = real(differences.at(1, i, j)[k]);
+        positions_[i][j][k] = early * start + t * end;
+        positions_[j][i][k] = -positions_[i][j][k];
+        velocities_[i][j][k] = end - start;
+        velocities_[j][i][k] = -velocities_[i][j][k];
+      }
+    });
   }
 
   [[nodiscard]] const VertexDifferences& differences() const { return differences_; }

@@ -27,7 +27,7 @@ inline bool boxes_meet(const Query& query) {
   bool meet = true;
   for (int k = 0; k < 3; ++k) {
     const auto [lo_a, hi_a] = range(0, middle, k);
-    const auto [lo_b, hi_b] = range(middle, 4, k);
+    const auto [lo_b, hi_b] = range(middle, vertices(query.kind), k);
     meet &= !(lo_a - hi_b > query.separation || lo_b - hi_a > query.separation);
   }
   return meet;

@@ -41,7 +41,7 @@ template <Kind kind, class Height, class IsAbove>
   };
   constexpr std::size_t middle = split(kind);
   const auto first = [&](std::size_t time) { return range(time, 0, middle); };
-  const auto second = [&](std::size_t time) { return range(time, middle, 4); };
+  const auto second = [&](std::size_t time) { return range(time, middle, vertices(kind)); };
   const auto a0 = first(0);
   const auto a1 = first(1);
   const auto b0 = second(0);

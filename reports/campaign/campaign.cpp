@@ -192,7 +192,7 @@ std::string how_far(const Run& run) {
 }  // namespace
 
 std::string missing_shards(const Run& run) {
-  constexpr std::size_t most_named = 1000;  // a damaged store may claim any number of shards
+  constexpr std::size_t most_named = 20;  // a damaged store may claim any number of shards
   std::vector<std::uint64_t> missing;       ///< the first of them
   std::vector<std::uint64_t> unfinished;
   std::vector<std::string> asked;  ///< number of cases of each unfinished shard

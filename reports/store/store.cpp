@@ -52,22 +52,28 @@ fs::path log_of(const fs::path& file, std::string_view ending) {
   return log;
 }
 
-/// The file, for SQLite to open. Throws Error if the journal beside it names another file, which SQLite would
-/// delete when it takes back a half-done change. No journal of nearmiss does.
-const fs::path& with_own_journal(const fs::path& file) {
+/// Throws Error if the journal beside a store names another file, which SQLite would delete when it takes back a
+/// half-done change. No journal of nearmiss does.
+void expect_own_journal(const fs::path& file) {
   constexpr std::array<char, 8> magic{'\xd9', '\xd5', '\x05', '\xf9', '\x20', '\xa1', '\x63', '\xd7'};
   const fs::path journal = log_of(file, "-journal");
-  if (!fs::exists(journal)) return file;
+  if (!fs::exists(journal)) return;
   expect_regular_file(journal);
   std::array<char, magic.size()> last{};
   std::ifstream in(journal, std::ios::binary | std::ios::ate);
-  if (in.tellg() < std::streamoff{magic.size()}) return file;
+  if (in.tellg() < std::streamoff{magic.size()}) return;
   in.seekg(-std::streamoff{magic.size()}, std::ios::end);
   if (in.read(last.data(), last.size()) && last == magic)
     throw Error(
         fmt::format("found the journal {} of a change to several files, expected one to this store alone",
                     journal.filename().string()));
-  return file;
+}
+
+/// The path by which SQLite opens a store with its own journal. It is absolute, because ":memory:" alone is no
+/// file to SQLite.
+std::string path_for_sqlite(const fs::path& file) {
+  expect_own_journal(file);
+  return fs::absolute(file).string();
 }
 
 /// Opens a store to read it. The store is not changed, unless its writer was killed while it changed the file
@@ -75,7 +81,7 @@ const fs::path& with_own_journal(const fs::path& file) {
 SQLite::Database open_to_read(const fs::path& file) {
   constexpr int most_bytes = 1 << 26;  // limit for a key or a value
   const bool change_is_half_done = fs::exists(log_of(file, "-journal"));
-  SQLite::Database db(with_own_journal(file).string(),
+  SQLite::Database db(path_for_sqlite(file),
                       change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms);
   sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, most_bytes);
   return db;
@@ -175,7 +181,7 @@ Campaign read_store(const fs::path& file, bool checks_structure, const Check& ch
 /// A connection for writing.
 struct Connection {
   Connection(const fs::path& file, int flags)
-      : db(with_own_journal(file).string(), SQLite::OPEN_READWRITE | flags, patience_ms) {
+      : db(path_for_sqlite(file), SQLite::OPEN_READWRITE | flags, patience_ms) {
     db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   }
   Connection(const Connection&) = delete;
@@ -194,9 +200,9 @@ struct Connection {
 
 /// Whether a file is an empty database.
 bool is_empty_database(const fs::path& file) {
-  const fs::path& own = with_own_journal(file);
+  const std::string path = path_for_sqlite(file);
   try {
-    SQLite::Database db(own.string(), SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
+    SQLite::Database db(path, SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
     return is_empty(db);
   } catch (const SQLite::Exception&) {
     return false;

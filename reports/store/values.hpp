@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -67,7 +69,10 @@ inline void to_json(nlohmann::json& json, const Extreme& extreme) {
 inline void from_json(const nlohmann::json& json, Extreme& extreme) {
   json.at("of").get_to(extreme.of);
   json.at("name").get_to(extreme.name);
-  extreme.value = std::stod(json.at("value").get<std::string>());
+  const auto value = json.at("value").get<std::string>();
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), extreme.value);
+  if (error != std::errc() || end != value.data() + value.size() || std::isnan(extreme.value))
+    throw Error(fmt::format("found '{}', expected a number", value));
   json.at("query").get_to(extreme.query);
   json.at("provenance").get_to(extreme.provenance);
   json.at("queries").get_to(extreme.queries);

@@ -195,6 +195,7 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
       {"nearmiss 3\\nname p\\nkinds vt vt\\n", "found 'vt vt', expected some of vt ee vv ve, each once"},
       {"nearmiss 3\\nname p\\nkinds vt\\nseparation ve\\n",
        "'p' with separations for a kind of queries that it does not decide"},
+      {"nearmiss 3\\nname p\\nkinds vt\\nseparation\\n", "found '', expected some of vt ee vv ve, each once"},
       {"nearmiss 3\\nname p\\ngrid 0.x\\n", "found '0.x', expected a number"},
       {"nearmiss 3\\nname p\\nbits 24.9\\n", "found '24.9', expected a whole number"},
       {"nearmiss 3\\nname p\\nbatch 1e30\\n", "found '1e30', expected a whole number"},
@@ -204,7 +205,8 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
       {"nearmiss 3\\nname a\\nname b\\nkinds vt\\n", "found the line 'name' twice, expected it once"},
       {"nearmiss 3\\nname p\\nkinds vt\\nlongest inf\\n",
        "found 'p' with limits of lengths that no length meets, or that are not finite"},
-      {"nearmiss 3\\nname a/p\\nkinds vt\\n", "found the name 'a/p' with ':', '=', '/' or ','"}};
+      {"nearmiss 3\\nname a/p\\nkinds vt\\n", "found the name 'a/p' with ':', '=', '/' or ','"},
+      {"nearmiss 3\\nname oracle\\nkinds vt\\n", "found the name 'oracle', under which"}};
   for (const auto& each : descriptions)
     EXPECT_REFUSED(make_any_subject(command("say('" + std::string(each.first) + "\\n')")), each.second);
   EXPECT_REFUSED(make_any_subject(command("import no_such_module")), "No module named 'no_such_module'");

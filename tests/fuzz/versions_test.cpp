@@ -77,6 +77,14 @@ TEST_F(SubjectFiles, WithEqualNamesAreRefusedUnlessTheyAreRenamed) {
   EXPECT_THAT(names_of({"x=" + a, "y=" + a, "wang", "z=wang@0.5"}), ElementsAre("x", "y", "wang", "z@0.5"));
 }
 
+TEST_F(SubjectFiles, DoNotHaveTheNameOfABuiltInSubject) {
+  EXPECT_THAT(names_of({plugin("fork")}), ElementsAre("fork"));
+  EXPECT_THAT(names_of({copied("fork", "wang.so"), "wang"}), ElementsAre("wang-wang", "wang"));
+  EXPECT_REFUSED(names_of({"exact=" + plugin("fork")}),
+                 "found the name 'exact', which a built-in subject has, expected another, such as NAME=/");
+  EXPECT_REFUSED(names_of({"wang=basic"}), "such as NAME=basic");
+}
+
 TEST(SubjectNames, ComeBeforeTheFirstOfColonSlashAndEqualsSign) {
   EXPECT_EQ(SubjectText::parse("a-1.b_C=./v.so:k=1").name, "a-1.b_C");
   for (const char* none : {"./v.so:k=1", "fcl:tolerance=1", "pipe:./p --a=b", "wang", "./a=b/c.so"}) {

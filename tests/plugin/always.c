@@ -1,4 +1,4 @@
-/* A complete plug-in. The return value and the time of its answers, its sort of time,
+/* A complete plug-in. Its name, the return value and the time of its answers, its sort of time,
  * whether it takes a separation, and its claimed distance bound are set when it is compiled. */
 #include <stddef.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #endif
 #ifdef BAD_NAME
 #define NAME "+1+1\033[31m\xff"
-#else
+#elif !defined NAME
 #define NAME "always"
 #endif
 

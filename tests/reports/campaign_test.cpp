@@ -117,7 +117,7 @@ TEST(Campaign, SaysWhichShardsAreMissing) {
             "shards 1 of 2 are missing, shards 0 of 2 are not complete (stopped after 0 cases)");
   EXPECT_THAT(
       missing_shards({{}, {{.index = 1, .count = ~std::uint64_t{0}, .complete = true}}, {}}),
-      AllOf(StartsWith("shards 0, 2, 3, "), EndsWith(", 1000, ... of 18446744073709551615 are missing")));
+      AllOf(StartsWith("shards 0, 2, 3, "), EndsWith(", 20, ... of 18446744073709551615 are missing")));
 }
 
 TEST(Campaign, SaysHowFarARunHasCome) {

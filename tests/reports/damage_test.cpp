@@ -248,6 +248,23 @@ TEST_F(DamageTest, APictureIsAnObject) {
   EXPECT_REFUSED(load_campaign(file("b.db")), "b.db: table picture: type must be object, but is number");
 }
 
+TEST_F(DamageTest, ATextThatIsNotPrintableIsRefused) {
+  for (std::string Finding::*const text : {&Finding::subject, &Finding::provenance, &Finding::signature}) {
+    Finding finding = some_finding("here");
+    finding.*text = "wang\nFAKE: ok\x1b[2J";
+    write_campaign({{{{}, {}, {finding}}}, {}}, file("b.db"));
+    EXPECT_REFUSED(load_campaign(file("b.db")), "b.db: table finding: found 'wang");
+    std::filesystem::remove(file("b.db"));
+  }
+  write_campaign({{{{{"again", "two\nlines"}}, {}, {}}}, {}}, file("d.db"));
+  EXPECT_EQ(load_campaign(file("d.db")).runs.front().info.at("again"), "two\nlines");
+  write_campaign({{{{{"a\x7f", "b"}}, {}, {}}}, {}}, file("b.db"));
+  EXPECT_REFUSED(load_campaign(file("b.db")),
+                 "b.db: table run: found 'a\x7f', expected printable characters");
+  write_campaign({{}, some_statistics("\x1b]0;wang\a")}, file("c.db"));
+  EXPECT_REFUSED(load_campaign(file("c.db")), "c.db: table counts: found");
+}
+
 TEST_F(DamageTest, ACounterIsAnIntegerThatFits) {
   Campaign one{{{}}, {}};
   const Signature signature = signature_of(some_finding("0"));

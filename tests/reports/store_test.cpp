@@ -41,9 +41,12 @@ TEST_F(StoreTest, GivesBackWhatWasSaved) {
     store.save({}, before, std::span(findings).first(1));
     store.add({"scene:cloth", picture});
   }
-  Store(file("a.db")).save(some_statistics("wang"), shard, std::span(findings).last(1));
+  Statistics statistics = some_statistics("wang");
+  statistics.extremes["denormal"] = {
+      Extreme::Of::accepting_tolerance, "denormal", 5e-324, testing::stored_query, "uniform:1:4", 7};
+  Store(file("a.db")).save(statistics, shard, std::span(findings).last(1));
   const Campaign campaign = load_campaign(file("a.db"));
-  EXPECT_EQ(campaign.statistics, some_statistics("wang"));
+  EXPECT_EQ(campaign.statistics, statistics);
   EXPECT_EQ(campaign.runs,
             (std::vector<nearmiss::Run>{{info, {shard}, findings, {{"scene:cloth", picture}}}}));
 }
@@ -244,6 +247,14 @@ TEST_F(StoreTest, AFullDiskLosesNothingThatWasSaved) {
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
   EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {shard}, {}}}));
+}
+
+TEST_F(StoreTest, MayHaveANameThatSqliteKnows) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(file(""));
+  Store(":memory:", info, shard).save(some_statistics("wang"), shard, {});
+  EXPECT_EQ(load_campaign(":memory:").statistics, some_statistics("wang"));
+  std::filesystem::current_path(before);
 }
 
 TEST_F(StoreTest, ACampaignIsWrittenBesideItsFile) {

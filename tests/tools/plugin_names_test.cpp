@@ -39,6 +39,19 @@ TEST_F(ReplayOfAPlugin, HasTheCommandOfAProgramAsItWasGiven) {
   EXPECT_EQ(run(again.substr(9), "cd report &&").code, 1);
 }
 
+TEST_F(CommandLine, APluginMayBeInAnyFolder) {
+  const std::string folder = "a\nb";
+  std::filesystem::create_directory(file(folder));
+  std::filesystem::copy(plugin("never"), file(folder) / "never.so");
+  const std::string fuzz = "fuzz --family small-integer --cases 200 --db a.db --subject ./never.so ";
+  const std::string there = "cd '" + folder + "' &&";
+  EXPECT_EQ(run(fuzz, there).code, 1);
+  EXPECT_EQ(run(fuzz + "--resume", there).code, 1);
+  EXPECT_EQ(run("report a.db -o report", there).code, 1);
+  const std::string again = read_json(folder + "/report/report.json")["findings"][0]["again"];
+  EXPECT_EQ(run(again.substr(9), "cd '" + folder + "/report' &&").code, 1) << again;
+}
+
 TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
   if (run("subjects --peers").out.find("fcl\n") == std::string::npos) GTEST_SKIP() << "found no libfcl-dev";
   const std::string fuzz = "fuzz --subject fcl --cases 200 --db a.db --query-memory 2G --query-time ";

@@ -53,7 +53,8 @@ TEST_F(CommandLine, PowerResumesWhereItStopped) {
 
 TEST_F(CommandLine, AnInterruptEndsPowersHuntWithLibFuzzer) {
   write("fuzzer",
-        "test $2 = late || { echo nothing in 2 s, 100 executions; exit; }\ntouch late\nsleep 100000\n");
+        "test $2 = late || { echo nothing in 2 s, 100 executions; exit; }\n"
+        "trap '' TERM\ntouch late\nsleep 100000\n");
   Background power(file(""),
                    "power --time 24h --way libfuzzer --libfuzzer 'sh fuzzer' --json new.json "
                    "--subject defect:vv,defect:later-root");

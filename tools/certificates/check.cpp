@@ -77,7 +77,7 @@ std::string message(const Json::exception& error) {
 
 /// The library's parser does not recurse; it calls `look` as it goes.
 Json parse(std::string_view line) try {
-  demand(line.size() <= 1 << 19, "a line of more than 512 KiB");
+  if (line.size() > longest_line) throw Unreadable("a line of more than 512 KiB");
   // The library would take a zero byte for the end of the line.
   if (!std::ranges::all_of(line, [](unsigned char c) { return 0 < c && c < 128 && c != '\\'; }))
     throw Unreadable("a backslash, or not ASCII");

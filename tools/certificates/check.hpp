@@ -25,10 +25,12 @@ struct Statement {
   bool operator==(const Statement&) const = default;
 };
 
+inline constexpr std::size_t longest_line = 1 << 19;  ///< in bytes, without the end of the line
+
 struct Refused : std::runtime_error {  ///< the line proves nothing; what() says why
   using std::runtime_error::runtime_error;
 };
-struct Unreadable : Refused {  ///< the line is not even a JSON object
+struct Unreadable : Refused {  ///< the line is not even a JSON object, or too long
   using Refused::Refused;
 };
 

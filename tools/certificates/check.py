@@ -16,7 +16,7 @@ import sys
 from collections import namedtuple
 from fractions import Fraction
 from functools import reduce
-from itertools import permutations, product, zip_longest
+from itertools import chain, permutations, product, zip_longest
 from json import JSONDecoder
 from math import lcm
 
@@ -41,7 +41,7 @@ def require(truth, reason):
 
 
 def read(line):
-    require(len(line) <= 1 << 19, 'the line is too long')
+    require(len(line) <= 1 << 19, 'unreadable: more than 512 KiB')
     require(line.isascii() and '\\' not in line, 'unreadable: a backslash, or not ASCII')
     try:
         pairs = JSON.decode(line)
@@ -185,14 +185,14 @@ if __name__ == '__main__':
     try:
         for name in names:
             with open(0 if name == '-' else name, encoding='latin-1', newline='\n') as file:
-                for i, line in enumerate(file.readlines() or [''], 1):
+                take = lambda: file.readline((1 << 19) + 2)
+                for i, line in enumerate(chain([take()], iter(take, '')), 1):
                     try:
                         verdicts.append(bool(check(line.rstrip('\n'))))
                     except Refused as error:
                         require(str(error)[:10] != 'unreadable', f'{name}:{i}: {error}')
-                        verdicts.append(
-                            '-q' not in sys.argv and print(f'{name}:{i}: refused: {error}')
-                        )
+                        told = f'{name}:{i}: refused: {error}'
+                        verdicts.append('-q' not in sys.argv and print(told))
         print(f'accepted {verdicts.count(True)} of {len(verdicts)}')
         sys.stdout.close()
     except (OSError, Refused, ValueError, AttributeError) as error:

@@ -77,7 +77,8 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Runs a command in the shell, and returns its output. A signal to nearmiss ends the command, too.
+/// Runs a command in the shell, and returns its output. A signal to nearmiss ends the command, too, after a
+/// second by a kill.
 std::string output_of(const std::string& command) {
   std::array<int, 2> pipe{};
   const pid_t process = pipe2(pipe.data(), O_CLOEXEC) == 0 ? fork() : -1;
@@ -92,10 +93,12 @@ std::string output_of(const std::string& command) {
   close(pipe[1]);
   std::string text;
   std::array<char, 4096> buffer;
+  int asked_to_end = 0;
   for (ssize_t n = 1; n != 0;) {
     constexpr int patience_ms = 100;
+    constexpr int most_asked = 10;
     pollfd readable{.fd = pipe[0], .events = POLLIN, .revents = 0};
-    if (interrupted()) kill(-process, SIGTERM);
+    if (interrupted()) kill(-process, ++asked_to_end > most_asked ? SIGKILL : SIGTERM);
     if (poll(&readable, 1, patience_ms) <= 0) continue;
     n = read(pipe[0], buffer.data(), buffer.size());
     if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));

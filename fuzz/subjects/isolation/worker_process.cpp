@@ -185,8 +185,12 @@ void WorkerProcess::load(const std::string& plugin) {
   if (answers_->error[0] != '\0') throw Error(text(answers_->error) + memory);
   look_at_others();
   others_compute_ = false;  // what they computed until now does not count
-  info_ = info_of(answers_->about);
-  names_ = names_of(answers_->about);
+  try {
+    info_ = info_of(answers_->about);
+    names_ = names_of(answers_->about);
+  } catch (const Error& fault) {
+    throw Error(plugin + ": " + fault.what());
+  }
 }
 
 void WorkerProcess::give(std::span<const Query> queries) {

@@ -43,19 +43,23 @@ int place(const std::string& value, const std::vector<std::string>& words, int f
 
 int yes_or_no(const std::string& value) { return place(value, {"no", "yes"}, 0); }
 
+Error expected_kinds(const std::string& value) {
+  std::string known;
+  for (const Kind each : kinds) known.append(" ").append(short_name(each));
+  return Error("found '" + value + "', expected some of" + known + ", each once");
+}
+
 /// Reads kinds with blanks between them, such as "vt ee", as a sum of their bits.
 int sum_of_kinds(const std::string& value) {
   int sum = 0;
   std::istringstream words(value);
   for (std::string word; words >> word;) {
     const auto kind = std::ranges::find(kinds, word, short_name);
-    if (kind == kinds.end() || (sum & bit_of(*kind)) != 0) {
-      std::string known;
-      for (const Kind each : kinds) known.append(" ").append(short_name(each));
-      throw Error("found '" + value + "', expected some of" + known + ", each once");
-    }
+    const bool is_new = kind != kinds.end() && (sum & bit_of(*kind)) == 0;
+    if (!is_new) throw expected_kinds(value);
     sum += bit_of(*kind);
   }
+  if (sum == 0) throw expected_kinds(value);
   return sum;
 }
 
