@@ -193,7 +193,7 @@ std::string how_far(const Run& run) {
 
 std::string missing_shards(const Run& run) {
   constexpr std::size_t most_named = 20;  // a damaged store may claim any number of shards
-  std::vector<std::uint64_t> missing;       ///< the first of them
+  std::vector<std::uint64_t> missing;     ///< the first of them
   std::vector<std::uint64_t> unfinished;
   std::vector<std::string> asked;  ///< number of cases of each unfinished shard
   const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;
