@@ -143,12 +143,8 @@ std::span<const Family> separation_families() {
 
 namespace {
 
-/// The family whose queries are two vertices, or a vertex and an edge.
-Family of_vertices(Family family) {
-  family.name = std::string(vertices_prefix) + family.name;
-  family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);
-  family.kinds = kinds_of_vertices;
-  family.factors = nullptr;
+/// The family with repeat_vertices() as the last step of making a query.
+Family without_other_vertices(Family family) {
   const auto without_others = [](const auto& make) {
     return [make](Random& random, Kind kind, auto... x) {
       Query query = make(random, kind, x...);
@@ -161,6 +157,15 @@ Family of_vertices(Family family) {
   return family;
 }
 
+/// The family whose queries are two vertices, or a vertex and an edge.
+Family of_vertices(Family family) {
+  family.name = std::string(vertices_prefix) + family.name;
+  family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);
+  family.kinds = kinds_of_vertices;
+  family.factors = nullptr;
+  return without_other_vertices(std::move(family));
+}
+
 std::vector<Family> make_vertex_families() {
   constexpr std::array asking_for_contact{
       "uniform", "uniform-slow", "floats",      "kilometres",    "small-integer", "decimals",
@@ -168,7 +173,8 @@ std::vector<Family> make_vertex_families() {
       "scale",   "mixed-scale",  "static-pair", "near-overflow", "overflow",      "near-underflow"};
   constexpr std::array with_own_separation{"near-separation", "tied-separation",        "reached-separation",
                                            "slow-approach",   "starts-near-separation", "sized-separation"};
-  std::vector<Family> all = edge_families();
+  std::vector<Family> all;
+  for (const Family& each : edge_families()) all.push_back(without_other_vertices(each));
   for (const char* name : with_own_separation)
     all.push_back(of_vertices(find_family(name, separation_families())));
   for (const char* name : asking_for_contact) all.push_back(of_vertices(find_family(name, families())));

@@ -41,12 +41,12 @@ int significant_bits(double magnitude) {
 
 Complexity complexity(const Query& query) {
   Complexity sum;
-  constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
-  for (std::size_t i = 0; i < paths; ++i) {
+  for (std::size_t i = 0; i < coordinate_count(query.kind) / 2; ++i) {
     const double start = query.x[i];
-    const double end = query.x[paths + i];
+    const double end = query.x[12 + i];
     sum.moving += start == end ? 0 : 1;
     sum.numbers += (start == 0 ? 0 : 1) + (end == 0 || end == start ? 0 : 1);
+    sum.negative += (std::signbit(start) ? 1 : 0) + (std::signbit(end) ? 1 : 0);
   }
   sum.numbers += query.separation == 0 ? 0 : 1;
   for (const double m : magnitudes(numbers_of(query))) {
@@ -55,7 +55,6 @@ Complexity complexity(const Query& query) {
     sum.bits += significant_bits(m);
     sum.exponents += std::abs(std::ilogb(m));
   }
-  for (const double c : query.x) sum.negative += std::signbit(c) ? 1 : 0;
   return sum;
 }
 

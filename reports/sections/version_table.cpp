@@ -70,10 +70,11 @@ std::string not_compared(const Versions& versions, const Parts& parts, const Sta
   for (const auto& [part, counts] : parts) compared[part.second] += counts.queries();
   std::string text;
   for (const auto& [kind, queries] : compared) {
-    if (queries != 0) continue;
-    for (const std::string& each : {versions.first, versions.second})
-      if (!was_asked(each, kind, statistics))
-        text += fmt::format("; {} not compared, because {} was not asked about it", short_name(kind), each);
+    const bool before = was_asked(versions.first, kind, statistics);
+    const bool after = was_asked(versions.second, kind, statistics);
+    if (queries == 0 && before != after)
+      text += fmt::format("; {} not compared, because {} was not asked about it", short_name(kind),
+                          before ? versions.second : versions.first);
   }
   return text;
 }

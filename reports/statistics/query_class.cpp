@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace nearmiss {
 
@@ -17,11 +18,10 @@ std::array<Point, 8> points(const Query& query) {
   return all;
 }
 
-/// Whether two of four points are equal.
-template <class Iterator>
-bool coincide(Iterator first) {
-  for (auto point = first; point != first + 4; ++point)
-    if (std::find(first, point, *point) != point) return true;
+/// Whether two of some points are equal.
+bool coincide(std::span<const Point> all) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (std::ranges::find(all.first(i), all[i]) != all.first(i).end()) return true;
   return false;
 }
 
@@ -29,7 +29,9 @@ bool coincide(Iterator first) {
 
 int exoticness(const Query& query, QueryClass of) {
   const auto all = points(query);
-  const int of_coincident = coincide(all.begin()) || coincide(all.begin() + 4) ? 1 : 0;
+  const auto count = static_cast<std::size_t>(vertices(query.kind));
+  const auto at = [&](std::size_t time) { return std::span(all).subspan(4 * time, count); };
+  const int of_coincident = coincide(at(0)) || coincide(at(1)) ? 1 : 0;
   switch (of) {
     case QueryClass::ordinary:
       return 0;

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asking import KINDS
+from asking import KINDS, separation
 from enclosed import Enclosed
 from impact import Impact, compare, sort_of
 from query_class import query_classes
@@ -21,7 +21,7 @@ class Asked:
     stage: np.ndarray  # names of the accepting stages
     collision: np.ndarray  # bool: the truth of the query by which the subject is judged
     claims: bool  # whether the subject claims a bound
-    ratios: Enclosed  # distance / bound of a false positive; NaN elsewhere
+    ratios: Enclosed  # (distance - separation) / bound of a false positive; NaN elsewhere
     judged: list  # the queries by which the subject is judged, as lines
     impact: Impact
     claimed: typing.Callable  # query, as a line -> the bound that the subject claims
@@ -45,6 +45,7 @@ class Answers:
     number: dict  # kind -> numbers within the family
     queries: dict  # kind -> lines
     factors: dict  # kind -> (family, number) -> values, for families with factors
+    within: dict  # kind -> bool: a collision or a tie
     collision: dict  # kind -> bool
     asked: dict  # (subject, kind) -> Asked
     times: dict  # kind -> Known enclosures of t*
@@ -62,6 +63,10 @@ class Answers:
     @property
     def subjects(self):
         return sorted({subject for subject, _ in self.asked})
+
+    def kinds(self, subject):
+        """The kinds of queries that the subject was asked, in order."""
+        return tuple(kind for kind in KINDS if (subject, kind) in self.asked)
 
     def families(self, kind):
         return sorted(set(self.family[kind]))
@@ -81,21 +86,24 @@ class Answers:
         return self._place[kind].get((family, int(number)))
 
 
-def ask(nearmiss, seed, counts, subjects):
-    """Collects answers to queries number 0 to counts[family] - 1 of each family. Subjects are
-    names, or paths of shared objects that have one subject."""
+def ask(nearmiss, seed, counts, subjects, kinds_of):
+    """Collects answers to the first counts[kind][family] queries of each kind of each family.
+    Subjects are names, or paths of shared objects that have one subject; `kinds_of` says which
+    kinds each name was asked."""
     classify = functools.partial(query_classes, nearmiss)
-    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, classify)
+    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, {}, classify)
     for kind in KINDS:
+        answers.within[kind] = nearmiss.within(kind, answers.queries[kind])
         answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])
         distances = Known(functools.partial(nearmiss.distances, kind))
         times = answers.times[kind] = Known(functools.partial(nearmiss.times, kind))
         for subject in subjects:
             name, description = nearmiss.plugin(subject) if '/' in subject else (subject, '')
             sort = sort_of(name, description)
-            answers.asked[name, kind] = _ask_one(
-                nearmiss, answers, subject, kind, distances, times, sort
-            )
+            if kind in kinds_of.get(name, KINDS):
+                answers.asked[name, kind] = _ask_one(
+                    nearmiss, answers, subject, kind, distances, times, sort
+                )
     return answers
 
 
@@ -103,9 +111,9 @@ def _queries(nearmiss, seed, counts):
     family, number, queries = {}, {}, {}
     for kind in KINDS:
         family[kind], number[kind], queries[kind] = [], [], []
-        for name, count in sorted(counts.items()):
+        for name, count in sorted(counts[kind].items()):
             own = _numbers(kind, count)
-            lines = nearmiss.family(name, seed, kind, len(own)) if own else []
+            lines = nearmiss.family(name, seed, kind, count)
             if len(lines) != len(own):
                 raise RuntimeError(
                     f'nearmiss family {name}: found {len(lines)} queries, expected {len(own)}'
@@ -119,8 +127,9 @@ def _queries(nearmiss, seed, counts):
 
 
 def _numbers(kind, count):
-    """The numbers below `count` of the queries of this kind: even numbers are vt."""
-    return range(KINDS.index(kind), count, 2)
+    """The numbers of the first queries of this kind: even ones for vt and vv."""
+    first = KINDS.index(kind) % 2
+    return range(first, first + 2 * count, 2)
 
 
 def _factors(nearmiss, seed, counts):
@@ -132,7 +141,7 @@ def _factors(nearmiss, seed, counts):
                 nearmiss.factors(name, seed, kind, len(own)) if own else [],
             )
         )
-        for kind, own in ((kind, _numbers(kind, counts.get(name, 0))) for kind in KINDS)
+        for kind, own in ((kind, _numbers(kind, counts[kind].get(name, 0))) for kind in KINDS)
     }
 
 
@@ -141,10 +150,15 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
     rounds = verdicts.rounded != answers.queries[kind]
     judged = verdicts.rounded if rounds else answers.queries[kind]
     collision = nearmiss.collisions(kind, judged) if rounds else answers.collision[kind]
+    within = nearmiss.within(kind, judged) if rounds else answers.within[kind]
+    collision = collision | (within & verdicts.hit)  # both answers are right for a tie
     false = np.flatnonzero(verdicts.hit & ~collision)
-    lo, hi = distances.of([judged[i] for i in false])
+    h = np.array([separation(kind, judged[i]) for i in false])
+    lo, hi = (np.maximum(end - h, 0) for end in distances.of([judged[i] for i in false]))
     ratio_lo, ratio_hi = np.full((2, len(judged)), np.nan)
     ratio_lo[false], ratio_hi[false] = ratios(lo, hi, verdicts.bound[false])
+    unknown = false[verdicts.stage[false] == 'unknown']
+    ratio_lo[unknown] = ratio_hi[unknown] = 0  # no bound is claimed for them
     return Asked(
         verdicts.hit,
         verdicts.stage,

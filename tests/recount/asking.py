@@ -1,13 +1,31 @@
 """Runs the executable, for campaigns and reports, and for single queries."""
 
 import json
+import math
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-KINDS = ('vt', 'ee')  # of pairs of meshes; reports of other kinds are not recomputed
+VERTICES = {'vt': 4, 'ee': 4, 'vv': 2, 've': 3}  # of the two primitives of each kind
+KINDS = tuple(VERTICES)
+
+
+def coordinates(kind, line):
+    """The words of a query's coordinates."""
+    return line.split()[: 6 * VERTICES[kind]]
+
+
+def separation(kind, line):
+    """The separation of a query, 0 if it has none."""
+    words = line.split()[6 * VERTICES[kind] :]
+    return float.fromhex(words[0]) if words else 0.0
+
+
+def with_separation(kind, line, h):
+    """The query with another separation."""
+    return ' '.join([*coordinates(kind, line), float(h).hex()])
 
 
 @dataclass
@@ -48,9 +66,7 @@ class Nearmiss:
         """Runs a campaign and writes its report into folder/report. Exit code 1, for misses, is no
         error here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
-        command = (
-            f'fuzz --kind {",".join(KINDS)} --family {families} --cases {cases} --seed {seed} -q'
-        )
+        command = f'fuzz --family {families} --cases {cases} --seed {seed} -q'
         options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
         fuzz_text = self.run(*command.split(), *options, codes=(0, 1))
         report_text = self.run('report', store, '-o', folder / 'report', codes=(0, 1))
@@ -68,10 +84,25 @@ class Nearmiss:
             line.split() for line in self.run('family', name, '--factors', *options).splitlines()
         ]
 
-    def collisions(self, kind, queries):
-        """Whether each query is a collision."""
+    def within(self, kind, queries):
+        """Whether the primitives of each query come within its separation of each other."""
         lines = self._ask('oracle', kind, queries)
         return np.array([line == '1' for line in lines], dtype=bool)
+
+    def collisions(self, kind, queries):
+        """Whether each query is a collision. A tie is none: its smallest distance is exactly the
+        separation, as the certificate says, which is not strict or missing."""
+        found = self.within(kind, queries)
+        some = [i for i in np.flatnonzero(found) if separation(kind, queries[i]) > 0]
+        nearer = [
+            with_separation(kind, queries[i], math.nextafter(separation(kind, queries[i]), 0))
+            for i in some
+        ]
+        unsure = [i for i, is_nearer in zip(some, self.within(kind, nearer)) if not is_nearer]
+        lines = self._ask('certify', kind, [queries[i] for i in unsure], codes=(0, 1))
+        for i, certificate in zip(unsure, map(json.loads, lines)):
+            found[i] = certificate['claim'] == 'meets' and certificate.get('strict', False)
+        return found
 
     def distances(self, kind, queries):
         """Lower and upper ends of the smallest distances, in the queries' unit of length."""
@@ -99,11 +130,12 @@ class Nearmiss:
         )
         return Verdicts.parsed(lines)
 
-    def _ask(self, command, kind, queries, *options):
+    def _ask(self, command, kind, queries, *options, codes=(0,)):
         if not queries:
             return []
         text = '\n'.join(queries) + '\n'
-        lines = self.run(command, '--kind', kind, *options, '-', text=text).splitlines()
+        output = self.run(command, '--kind', kind, *options, '-', text=text, codes=codes)
+        lines = output.splitlines()
         if len(lines) != len(queries):
             raise RuntimeError(
                 f'nearmiss {command}: found {len(lines)} answers, expected {len(queries)}'

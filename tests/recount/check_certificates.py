@@ -4,6 +4,8 @@ import math
 import sys
 from pathlib import Path
 
+from asking import VERTICES
+
 sys.path.append(str(Path(__file__).resolve().parents[2] / 'tools' / 'certificates'))
 from check import Refused, Statement, check  # pylint: disable=wrong-import-position
 
@@ -31,7 +33,8 @@ def check_certificates(comparison, where, findings, answers):
 
 def _expected(found, proven):
     """What the certificate of a finding must prove."""
-    x, h = tuple(found['shrunk'][:24]), (*found['shrunk'], 0)[24]
+    count = 6 * VERTICES[found['kind']]
+    x, h = tuple(found['shrunk'][:count]), (*found['shrunk'], 0)[count]
     if found['what'] == 'refuted-bound':
         beyond = found['bound'] if h == 0 else math.nextafter(h + found['bound'], math.inf)
         return Statement(found['kind'], x, beyond, 'apart', 0, 1, False, True)

@@ -17,7 +17,10 @@ def check_statistics(comparison, where, json, answers):
     subjects = json['subjects']
     comparison.same('names', f'{where} subjects', sorted(subjects), answers.subjects)
     for subject in answers.subjects:
-        for kind in KINDS:
+        comparison.same(
+            'names', f'{where} {subject}', tuple(subjects[subject]), answers.kinds(subject)
+        )
+        for kind in answers.kinds(subject):
             place, found = f'{where} {subject} {kind}', subjects[subject][kind]
             families, classes = found['families'], found['classes']
             members = classes_of({name: own['class'] for name, own in families.items()})
@@ -109,20 +112,23 @@ def _check_oracle(comparison, where, found, answers):
     comparison.entries('oracle', where, found, none)
     sums = Counter()
     for kind in KINDS:
-        families = found['families'][kind]
+        families = found['families'].get(kind, {})
         comparison.same('names', f'{where} {kind}', sorted(families), answers.families(kind))
         for family in answers.families(kind):
             own = answers.family[kind] == family
-            collisions = int(answers.collision[kind][own].sum())
-            truth = Counter({'queries': int(own.sum()), 'collisions': collisions})
+            truth = Counter(
+                queries=int(own.sum()),
+                collisions=int(answers.collision[kind][own].sum()),
+                ties=int((answers.within[kind] & ~answers.collision[kind])[own].sum()),
+            )
             _check_truth(comparison, f'{where} {kind} {family}', families[family], truth)
             sums += truth
     _check_truth(comparison, f'{where} total', found['total'], sums)
 
 
 def _check_truth(comparison, where, found, truth):
-    counts = {name: truth[name] for name in ('queries', 'collisions')}
-    comparison.entries('oracle', where, found, {**counts, 'ties': 0})  # all ask for contact
+    counts = {name: truth[name] for name in ('queries', 'collisions', 'ties')}
+    comparison.entries('oracle', where, found, counts)
     decided = sum(found['decided_by'].values())
     comparison.same('oracle', f'{where} decided_by', decided, truth['queries'])
 

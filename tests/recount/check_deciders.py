@@ -5,14 +5,13 @@ The section adds up counts by accepting stage and by reason of rejection. Only a
 why a pair was rejected, so the expected sums come from the section "subjects", which other
 modules check."""
 
-from asking import KINDS
-
 
 def check_deciders(comparison, where, report, answers):
     """Checks the rows for all families together ("") and for each family."""
     expected = {}
     for subject in answers.subjects:
-        families = sorted({*answers.families('vt'), *answers.families('ee')})
+        kinds = answers.kinds(subject)
+        families = sorted({family for kind in kinds for family in answers.families(kind)})
         rows = {family: _row(report['subjects'][subject], family) for family in ['', *families]}
         if rows['']['algorithm'] and any(rows[''][name] for name in ('filter', 'finer', 'exact')):
             expected.update({(subject, family): row for family, row in rows.items()})
@@ -25,10 +24,10 @@ def check_deciders(comparison, where, report, answers):
 
 
 def _row(subject, family):
-    """For each decider, the number of queries of both kinds that it decided."""
+    """For each decider, the number of queries of all kinds that it decided."""
     deciders = {'algorithm': 0, 'filter': 0, 'finer': 0, 'exact': 0}
-    for kind in KINDS:
-        counts = subject[kind]['families'].get(family) if family else subject[kind]
+    for of_kind in subject.values():
+        counts = of_kind['families'].get(family) if family else of_kind
         if counts is None:
             continue
         names = ('true_positives_by_stage', 'false_positives_by_stage', 'rejected_by')

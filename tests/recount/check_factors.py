@@ -2,8 +2,6 @@
 
 import itertools
 
-from asking import KINDS
-
 
 def check_common_factors(comparison, where, report, answers):
     """Checks the section common_factors of report.json."""
@@ -11,7 +9,7 @@ def check_common_factors(comparison, where, report, answers):
     expected = [
         each
         for subject in answers.subjects
-        for kind in KINDS
+        for kind in answers.kinds(subject)
         for family in answers.families(kind)
         if (each := common_factors(answers, subject, kind, family))
     ]

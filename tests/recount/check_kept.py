@@ -1,6 +1,5 @@
 """Checks the kept extreme cases: the farthest false positives, the earliest and latest times."""
 
-from asking import KINDS
 from check_numbers import check_query
 from enclosed import PRECISION
 from tally import Tally
@@ -44,7 +43,7 @@ def check_extreme_times(comparison, where, report, answers):
     expected = [
         (subject, kind, side)
         for subject in answers.subjects
-        for kind in KINDS
+        for kind in answers.kinds(subject)
         for side in ('early', 'after')
         if (Tally.of(answers, subject, [kind]).enclosed[side].hi > 0).any()
     ]
@@ -70,7 +69,7 @@ def check_farthest(comparison, where, report, answers):
     expected = [
         (subject, kind, family)
         for subject in answers.subjects
-        for kind in KINDS
+        for kind in answers.kinds(subject)
         for family in answers.families(kind)
         if Tally.of(answers, subject, [kind], family).false_positives
     ]

@@ -8,7 +8,7 @@ from tally import ON_REQUEST, Tally, classes_of, failures_of
 
 
 def check_scorecard(comparison, where, report, answers):
-    """Checks the rates of each subject over both kinds, in total and class by class, and which
+    """Checks the rates of each subject over all kinds, in total and class by class, and which
     of its findings is the simplest."""
     rows = report['verdicts']
     comparison.same('names', where, [row['subject'] for row in rows], answers.subjects)
@@ -26,8 +26,8 @@ def check_scorecard(comparison, where, report, answers):
         check_rates(comparison, own, row['counts'], Tally.of(answers, subject, KINDS))
         families = {
             name: each['class']
-            for kind in KINDS
-            for name, each in report['subjects'][subject][kind]['families'].items()
+            for of_kind in report['subjects'][subject].values()
+            for name, each in of_kind['families'].items()
         }
         members = classes_of(families)
         comparison.same('names', f'{own} classes', list(row['classes']), list(members))
@@ -42,10 +42,10 @@ def _check_simplest(comparison, where, index, subject, findings):
     then misses before late times before other failures, then by simplicity."""
     ranks = {
         i: (
-            exoticness(each['class'], each['shrunk']),
+            exoticness(each['class'], each['kind'], each['shrunk']),
             each['what'] != 'false-negative',
             each['what'] != 'late',
-            complexity(each['shrunk']),
+            complexity(each['kind'], each['shrunk']),
         )
         for i, each in enumerate(findings)
         if each['subject'] == subject

@@ -14,6 +14,7 @@ from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
 from tally import ON_REQUEST, Tally, failures_of
 
 TIME = 'ns_per_query'  # the field with the run time, by which a front compares subjects
+MESHES = KINDS[:2]  # the kinds whose bounds are multiples of B
 COARSEST, FINEST = -23, -127  # range of binary exponents of epsilon in a fit
 
 
@@ -35,10 +36,13 @@ def slack(subject):
 
 
 def check_trade_offs(comparison, where, found, answers, units):
-    """Checks error against run time: sums over kinds and families, and their Pareto fronts."""
+    """Checks error against run time: sums over the kinds and families that all subjects were
+    asked, and their Pareto fronts."""
     comparison.same('names', where, sorted(found['subjects']), answers.subjects)
+    kinds_of = [set(answers.kinds(subject)) for subject in answers.subjects]
+    shared = tuple(kind for kind in KINDS if all(kind in kinds for kinds in kinds_of))
     for subject, each in found['subjects'].items():
-        tally = Tally.of(answers, subject, KINDS)
+        tally = Tally.of(answers, subject, shared)
         check_rates(comparison, f'{where} {subject}', each, tally)
         largest, unit = each['max_fp_distance_over_bound'], units.of_distances(subject)
         errors, most = tally.times.errors, each['max_time_error']
@@ -125,7 +129,7 @@ def check_ladder(comparison, where, report, answers, units):
     comparison.same('names', where, names, [rung[0] for rung in rungs])
     for rung in found['rungs']:
         subject = rung['subject']
-        check_rates(comparison, f'{where} {subject}', rung, Tally.of(answers, subject, KINDS))
+        check_rates(comparison, f'{where} {subject}', rung, Tally.of(answers, subject, MESHES))
         farthest = rung['claimed'] * rung['max_fp_distance_over_bound']
         expected = {
             **places(subject),
@@ -150,7 +154,7 @@ def fits(report):
         {
             name
             for each in report['subjects'].values()
-            for kind in KINDS
+            for kind in MESHES
             for name in each[kind]['families']
         }
     )
@@ -188,7 +192,7 @@ def _points(report, algorithm, origin):
         own = report['subjects'][rung['subject']]
         parts = [
             own[kind]['families'][origin] if origin else own[kind]
-            for kind in KINDS
+            for kind in MESHES
             if not origin or origin in own[kind]['families']
         ]
         part = max(part['max_fp_distance_over_bound'] for part in parts)

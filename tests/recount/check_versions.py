@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from asking import KINDS
 from tally import CLASSES
 
 
@@ -31,7 +30,7 @@ def check_versions(comparison, where, report, answers):
 def rows(before, after, report, answers):
     """A row for each class of families and each kind."""
     for of in CLASSES:
-        for kind in KINDS:
+        for kind in answers.kinds(after):
             families = report['subjects'][after][kind]['families']
             own = np.isin(
                 answers.family[kind], [f for f in families if families[f]['class'] == of]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asking import KINDS
+from asking import VERTICES, coordinates
 from enclosed import BORDERS, Enclosed, PRECISION
 from scalars import EPSILONS, paper_bound
 
@@ -18,7 +18,7 @@ SORTS = {  # the sort of time that each built-in subject gives, with any scalar
 }
 WORDS = {'an estimate of the time': 'estimate', 'a lower bound of the time': 'lower-bound'}
 ROUNDING = 1e-15  # more than the relative rounding error of one operation
-SPLIT = dict(zip(KINDS, (1, 2)))  # the first vertex of the second primitive
+SPLIT = {'vt': 1, 'ee': 2, 'vv': 1, 've': 1}  # the first vertex of the second primitive
 
 
 def sort_of(subject, description):
@@ -86,11 +86,12 @@ def _speeds(nearmiss, kind, queries):
     divided by the pair's B. The bound that wang claims is a multiple of B."""
     if not queries:
         return Enclosed(np.zeros(0), np.zeros(0))
-    bound = nearmiss.verdicts(kind, queries, 'wang').bound
-    x = np.array([[float.fromhex(word) for word in query.split()[:24]] for query in queries])
+    pairs = [coordinates(kind, query) for query in queries]
+    bound = nearmiss.verdicts(*_as_meshes(kind, pairs), 'wang').bound
+    x = np.array([[float.fromhex(word) for word in pair] for pair in pairs])
     with np.errstate(all='ignore'):
         B = bound / paper_bound(2.0 ** EPSILONS['double'])
-        place = x.reshape(-1, 2, 4, 3) / B[:, None, None, None]
+        place = x.reshape(-1, 2, VERTICES[kind], 3) / B[:, None, None, None]
         moved = place[:, 1] - place[:, 0]
         first, second = np.split(moved, [SPLIT[kind]], axis=1)
         relative = np.linalg.norm(first[:, :, None] - second[:, None, :], axis=-1)
@@ -103,6 +104,20 @@ def _speeds(nearmiss, kind, queries):
             1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf
         )
     return Enclosed(np.maximum(speed - slack, 0), speed + slack)
+
+
+def _as_meshes(kind, pairs):
+    """The kind vt or ee, and the queries of that kind with the same vertices."""
+    missing, count = 4 - VERTICES[kind], 3 * VERTICES[kind]
+    whole = [
+        ' '.join(
+            word
+            for at in (0, count)
+            for word in pair[at : at + count] + missing * pair[at + count - 3 : at + count]
+        )
+        for pair in pairs
+    ]
+    return 'ee' if kind == 'ee' else 'vt', whole
 
 
 @dataclass

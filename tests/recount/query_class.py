@@ -5,7 +5,15 @@ import math
 import sys
 from fractions import Fraction
 
-EDGES = {'vt': [(1, 2), (2, 3), (3, 1)], 'ee': [(0, 1), (2, 3)]}
+from asking import VERTICES, with_separation
+
+# Two vertices have no edges; there, the gap between them counts as one.
+EDGES = {
+    'vt': [(1, 2), (2, 3), (3, 1)],
+    'ee': [(0, 1), (2, 3)],
+    'vv': [(0, 1)],
+    've': [(1, 2)],
+}
 GAPS = {'vt': [(0, 1), (0, 2), (0, 3)], 'ee': [(0, 2), (0, 3), (1, 2), (1, 3)]}
 NEARLY = 1e-6  # as a part of the step, of the longest edge, or of h
 VERY_NEARLY = Fraction(1, 10**12)  # the square of NEARLY
@@ -35,12 +43,11 @@ class _Moving:
 
     def __init__(self, kind, numbers):
         self.kind = kind
-        self.numbers = numbers[:24]
-        self.h = numbers[24] if len(numbers) == 25 else 0.0
-        self.start, self.end = (
-            [[Fraction(x) for x in self.numbers[at + 3 * i : at + 3 * i + 3]] for i in range(4)]
-            for at in (0, 12)
-        )
+        count = VERTICES[kind]
+        self.numbers = numbers[: 6 * count]
+        self.h = (*numbers, 0.0)[6 * count]
+        points = [[Fraction(x) for x in self.numbers[i : i + 3]] for i in range(0, 6 * count, 3)]
+        self.start, self.end = points[:count], points[count:]
         self.speed = [_minus(end, start) for start, end in zip(self.start, self.end)]
         edges = [_size(_minus(x[a], x[b])) for x in (self.start, self.end) for a, b in EDGES[kind]]
         self.longest = max(edges)
@@ -83,6 +90,8 @@ def _is_extreme(query):
 def _is_flat_at_an_end(query):
     if query.longest == 0 or query.start == query.end:
         return True
+    if query.kind not in GAPS:
+        return False
     for x in query.start, query.end:
         first, second, gap = query.squares(x)
         if query.volume(x) ** 2 <= VERY_NEARLY * first * second * gap:
@@ -125,8 +134,8 @@ def _is_special_contact(query, lo, hi):
     """Whether contact is at an end of the step, on a border, or at a multiple root."""
     if hi <= NEARLY or lo >= 1 - NEARLY:
         return True
-    if query.h > 0:
-        return False
+    if query.h > 0 or query.kind not in GAPS:
+        return not query.h > 0
     x = query.at(_root(query, lo, hi))
     squared = Fraction(NEARLY * float(query.longest)) ** 2
     if query.kind == 'vt':
@@ -163,10 +172,10 @@ def query_classes(nearmiss, kind, lines):
     for line in left:
         query = queries[line]
         change = NEARLY * (query.h or float(query.longest))
-        nearer.append(_with_separation(line, max(query.h - change, 0.0)))
-        farther.append(_with_separation(line, min(query.h + change, sys.float_info.max)))
+        nearer.append(with_separation(kind, line, max(query.h - change, 0.0)))
+        farther.append(with_separation(kind, line, min(query.h + change, sys.float_info.max)))
     is_nearer = dict(zip(left, nearmiss.collisions(kind, nearer)))
-    is_farther = dict(zip(left, nearmiss.collisions(kind, farther)))
+    is_farther = dict(zip(left, nearmiss.within(kind, farther)))
     met = [line for line in left if is_nearer[line]]
     times = dict(zip(met, zip(*nearmiss.times(kind, met)))) if met else {}
     for line in left:
@@ -179,23 +188,20 @@ def query_classes(nearmiss, kind, lines):
     return [classes[line] for line in lines]
 
 
-def _with_separation(line, h):
-    return ' '.join([*line.split()[:24], h.hex()])
-
-
-def exoticness(of, numbers):
+def exoticness(of, kind, numbers):
     """The rank of a query when failures are sorted."""
-    if of != 'degenerate':
-        return {'ordinary': 0, 'extreme': 4, 'unclassified': 5}[of]
-    points = [tuple(numbers[i : i + 3]) for i in range(0, 24, 3)]
-    if len(set(points)) == 1:
-        return 3
-    return 2 if len(set(points[:4])) < 4 or len(set(points[4:])) < 4 else 1
+    count = VERTICES[kind]
+    points = [tuple(numbers[i : i + 3]) for i in range(0, 6 * count, 3)]
+    coincide = len(set(points[:count])) < count or len(set(points[count:])) < count
+    if of == 'degenerate':
+        return 3 if len(set(points)) == 1 else 1 + coincide
+    return {'ordinary': 0, 'extreme': 4 + coincide, 'unclassified': 6}[of]
 
 
-def complexity(numbers):
+def complexity(kind, numbers):
     """How simple a query is. The simpler of two queries has the smaller tuple."""
-    start, end, h = numbers[:12], numbers[12:24], (numbers[24:] or [0])[0]
+    paths = 3 * VERTICES[kind]
+    start, end, h = numbers[:paths], numbers[paths : 2 * paths], (*numbers, 0)[2 * paths]
     magnitudes = {abs(x) for x in numbers if x}
 
     def awkward(m):
@@ -214,5 +220,5 @@ def complexity(numbers):
         len(magnitudes),
         sum(map(bits, magnitudes)),
         sum(abs(math.frexp(m)[1] - 1) for m in magnitudes),
-        sum(math.copysign(1, x) < 0 for x in numbers[:24]),
+        sum(math.copysign(1, x) < 0 for x in numbers[: 2 * paths]),
     )

@@ -31,11 +31,11 @@ from tally import Tally
 
 
 def counts_of(report):
-    """The number of queries of each family, from the oracle's counters in the report."""
+    """The number of queries of each kind and family, from the oracle's counters in the report."""
     families = report['oracle']['families']
     return {
-        name: sum(families[kind].get(name, {'queries': 0})['queries'] for kind in KINDS)
-        for name in {*families['vt'], *families['ee']}
+        kind: {name: own['queries'] for name, own in families.get(kind, {}).items()}
+        for kind in KINDS
     }
 
 
@@ -87,7 +87,8 @@ def check_all(comparison, report, answers, units):
 
 def check_cases(comparison, found, cases, counts, seed):
     """Checks that the campaign has the requested cases and seed."""
-    comparison.same('cases', 'sum over families', sum(counts.values()), cases)
+    queries = sum(sum(of_kind.values()) for of_kind in counts.values())
+    comparison.same('cases', 'sum over families', queries, cases)
     comparison.same('cases', 'cases of the run', found['runs'][0]['cases_done'], cases)
     comparison.same('cases', 'seed of the run', found['runs'][0]['seed'], str(seed))
 
@@ -111,7 +112,8 @@ def recount(nearmiss, folder, cases, seed, subjects, families):
     report = nearmiss.report(folder, cases, seed, subjects, families)
     counts = counts_of(report.json())
     check_cases(comparison, report.json(), cases, counts, seed)
-    answers = ask(nearmiss, seed, counts, subjects)
+    kinds_of = {name: tuple(kinds) for name, kinds in report.json()['subjects'].items()}
+    answers = ask(nearmiss, seed, counts, subjects, kinds_of)
     units = Units(nearmiss, seed)
     check_all(comparison, report, answers, units)
     note_either_way(comparison, answers)

@@ -39,7 +39,7 @@ class Tally:
     def of(cls, answers, subject, kinds, family=None):
         """The tally over the queries of these kinds. `family` is one family, a tuple of
         families, or None for all. Each tally is computed only once."""
-        key = subject, tuple(kinds), family
+        key = subject, tuple(kind for kind in kinds if kind in answers.kinds(subject)), family
         if key not in answers.tallies:
             answers.tallies[key] = cls._of(answers, *key)
         return answers.tallies[key]

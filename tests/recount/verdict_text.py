@@ -1,6 +1,5 @@
 """The expected text of verdicts on subjects and on pairs of versions, and of the headline."""
 
-from asking import KINDS
 from enclosed import BORDERS, LARGEST
 from tally import CLASSES
 
@@ -33,7 +32,7 @@ def fraction(ratio):
 
 
 def versions(report):
-    """A line for each pair of versions that were asked both kinds."""
+    """A line for each pair of versions that were asked the same kinds."""
     rows = report.get('versions', [])
     names = {'fixed': 'fixed', 'broken': 'broken', 'both': 'both fail'}
     lines = []
@@ -109,7 +108,7 @@ def _by_class(kinds, failure):
     counter, total, *_ = failure
     classes = {}
     for name in CLASSES:
-        own = {kind: kinds[kind]['classes'].get(name) for kind in KINDS}
+        own = {kind: of['classes'].get(name) for kind, of in kinds.items()}
         some = {kind: (of[counter], of[total]) for kind, of in own.items() if of and of[total]}
         if some:
             classes[name] = some

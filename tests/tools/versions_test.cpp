@@ -6,6 +6,7 @@ namespace {
 
 using testing::CommandLine;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class VersionsOfACcd : public CommandLine {
  protected:
@@ -108,6 +109,7 @@ TEST_F(VersionsOfACcd, MergeAndResumeToTheSameComparison) {
 TEST_F(VersionsOfACcd, SayWhichKindIsNotCompared) {
   const Output output = run("fuzz --subject ./v1.so,old=" + plugin("v3") + " --family uniform --cases 100");
   EXPECT_THAT(output.out, HasSubstr("; ee not compared, because old was not asked about it\n"));
+  EXPECT_THAT(run("fuzz --subject ./v1.so,./v2.so,wang --cases 400").out, Not(HasSubstr("not compared")));
 }
 
 TEST_F(VersionsOfACcd, CanBeChosen) {
