@@ -133,8 +133,8 @@ function copyButton(content, title = "copy") {
 const command = (content) => made("div", [made("code", content), copyButton(content)]);
 
 /**
- * A button that copies a query as a line of 24 numbers, or 25 with the separation, for nearmiss oracle and
- * verdict.
+ * A button that copies a query as a line of its coordinates and, if there is one, the separation, for nearmiss
+ * oracle and verdict.
  */
 const copyQuery = (x) => copyButton(x.join(" "));
 
@@ -144,6 +144,7 @@ const copyQuery = (x) => copyButton(x.join(" "));
  */
 function queryText(x) {
   const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;
-  const vertex = (i) => `x${i} ${point(i)}` + (point(i) === point(4 + i) ? "" : ` → ${point(4 + i)}`);
-  return made("pre", [...[0, 1, 2, 3].map(vertex), ...(separationOf(x) > 0 ? [`h  ${separationOf(x)}`] : [])].join("\n"));
+  const vertices = Math.floor(x.length / 6);
+  const vertex = (_, i) => `x${i} ${point(i)}` + (point(i) === point(vertices + i) ? "" : ` → ${point(vertices + i)}`);
+  return made("pre", [...Array.from({ length: vertices }, vertex), ...(separationOf(x) > 0 ? [`h  ${separationOf(x)}`] : [])].join("\n"));
 }

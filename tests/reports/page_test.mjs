@@ -2,7 +2,7 @@
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
 import { hasNoBarriers, staysQuickWithManyFindings } from "./page/access.mjs";
 import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSubjectsWithTheNamesOfMembers, showsSweepsOfWhatIsNeverWrong, showsValuesOfOptions, showsWhatDecides, showsWhereCollisionsAreMissed } from "./page/charts.mjs";
-import { showsFindings, showsVersions, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
+import { showsFindings, showsVersions, showsVerticesAndEdges, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
 import { answersBeforeScrolling } from "./page/first_screen.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
@@ -19,6 +19,7 @@ const browser = await chromium.launch({
 });
 try {
   await showsFindings(browser);
+  await showsVerticesAndEdges(browser);
   await showsThatNothingWasFound(browser);
   await showsVersions(browser);
   await showsTheBaseline(browser);

@@ -211,6 +211,22 @@ export async function showsFindings(browser) {
   await page.close();
 }
 
+/** The text of a query of each kind says where its own vertices are, and how far away counts as contact. */
+export async function showsVerticesAndEdges(browser) {
+  const page = await open(browser, makeReport("vertices", ["--cases", "20000", "--subject", "basic", "--kind", "vv,ve"]));
+  const { findings } = jsonOf("vertices");
+  const vertices = { vv: 2, ve: 3 };
+  assert.deepEqual(new Set(findings.map(({ kind }) => kind)), new Set(Object.keys(vertices)));
+  for (const [index, { kind, shrunk }] of findings.entries()) {
+    const lines = (await page.locator(`#finding-${index} pre`).first().textContent()).split("\n");
+    const place = (half, i) => [0, 1, 2].map((k) => shrunk[3 * (half * vertices[kind] + i) + k] + 0); // no -0
+    const numbers = (line) => line.match(/-?[\d.]+(e[-+]?\d+)?/g).map(Number);
+    const expected = [...Array(vertices[kind]).keys()].map((i) => [i, ...place(0, i), ...(String(place(0, i)) === String(place(1, i)) ? [] : place(1, i))]);
+    assert.deepEqual(lines.map(numbers), [...expected, [shrunk.at(-1)]]);
+  }
+  await page.close();
+}
+
 export async function showsThatNothingWasFound(browser) {
   const page = await open(browser, makeReport("clean", ["--cases", "100", "--family", "uniform-slow"]));
   assert.equal(await count(page, ".verdict.bad"), 0);
