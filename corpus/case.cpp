@@ -10,6 +10,7 @@
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "ccd/query/printable.hpp"
 #include "corpus/file.hpp"
 #include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"
@@ -50,11 +51,11 @@ Line split_line(std::string_view text) {
 std::string to_text(const Case& each) {
   std::string text;
   std::istringstream why(each.why.empty() ? "" : each.why + '\n');  // the '\n' keeps an empty last line
-  for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", line);
+  for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", printable(line));
   text += fmt::format("kind {}\n", short_name(each.query.kind));
   if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);
   if (each.query.separation != 0) text += fmt::format("separation {}\n", to_exact(each.query.separation));
-  if (!each.provenance.empty()) text += fmt::format("provenance {}\n", each.provenance);
+  if (!each.provenance.empty()) text += fmt::format("provenance {}\n", printable(each.provenance));
   for (const std::size_t i : points_of(each.query.kind)) {
     const double* x = each.query.x.data() + 3 * i;
     text += fmt::format("{} {} {} {}\n", point_labels[i], to_exact(x[0]), to_exact(x[1]), to_exact(x[2]));

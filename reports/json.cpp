@@ -16,6 +16,7 @@
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
 #include "reports/text/json.hpp"
+#include "reports/text/shell.hpp"
 
 namespace nearmiss {
 
@@ -36,14 +37,13 @@ ordered_json extreme_json(const Extreme& extreme) {
 }
 
 /// The command that repeats the results; nothing if a time limit ended several shards, because no command
-/// does that.
+/// does that, or if a store says anything but one command of nearmiss.
 std::optional<std::string> command_to_repeat(const Run& run) {
-  const auto again = run.info.find("again");
-  if (again == run.info.end()) return std::nullopt;
-  const auto cases = run.info.find("cases");
-  if (cases == run.info.end() || cases->second != until_the_time_is_over) return again->second;
+  const std::string again = fact(run.info, "again");
+  if (!again.starts_with("nearmiss ") || !is_one_command(again)) return std::nullopt;
+  if (fact(run.info, "cases") != until_the_time_is_over) return again;
   if (run.shards.size() != 1 || run.shards.front().count != 1) return std::nullopt;
-  return fmt::format("{} --first {}", again->second, run.shards.front().cases);
+  return fmt::format("{} --first {}", again, run.shards.front().cases);
 }
 
 /// The sections that are left out if they are empty.

@@ -160,15 +160,19 @@ isolation::PluginLimits PluginLimitOptions::limits() const {
   return {.time = parse_duration(time, "--query-time"), .bytes = bytes};
 }
 
+void expect_printable(const std::string& subject) {
+  if (printable(subject) != subject)
+    throw Error(
+        fmt::format("--subject: found '{}', expected a path in UTF-8 without control characters, because "
+                    "reports name it",
+                    excerpt(subject)));
+}
+
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
   Subjects made;
   for (const std::string& text : texts) {
-    if (!has_printable_lines(text))
-      throw Error(
-          fmt::format("--subject: found '{}', expected a path in UTF-8 without control characters, because "
-                      "reports name it",
-                      excerpt(text)));
+    expect_printable(text);
     for (auto& subject : make_any_subjects(text, given_bound, limits)) made.push_back(std::move(subject));
   }
   tell_apart(made);

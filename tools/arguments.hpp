@@ -79,8 +79,11 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
+/// Throws Error if a subject's text is not printable().
+void expect_printable(const std::string& subject);
+
 /// Makes the subjects that these texts denote (fuzz/subjects/subjects.hpp), with distinct names; each plug-in
-/// runs in its own process. Throws Error, also for a text that a store cannot keep (has_printable_lines).
+/// runs in its own process. Throws Error, also for what expect_printable() refuses.
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 

@@ -164,7 +164,7 @@ RunInfo plugin_environment(const Subjects& made) {
     const std::string name = plugin_fact(subject->name());
     const std::string absolute = absolute_text(*subject);
     const bool is_divided = absolute.find(',') != std::string::npos;  // a comma separates subjects
-    environment[name] = is_divided || !has_printable_lines(absolute) ? text_of(*subject) : absolute;
+    environment[name] = is_divided || printable(absolute) != absolute ? text_of(*subject) : absolute;
     if (!plugin->build_id.empty()) environment[name + " build id"] = plugin->build_id;
   }
   return environment;

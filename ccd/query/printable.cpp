@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace nearmiss {
 
@@ -24,12 +25,28 @@ std::size_t printable_sequence(std::string_view text) {
   constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
   const bool is_control = code < 0xa0;
-  // These change the direction of the text around them.
-  const bool turns = (code >= 0x200e && code <= 0x200f) || (code >= 0x202a && code <= 0x202e) ||
-                     (code >= 0x2066 && code <= 0x2069);
-  const bool ends_line = code == 0x2028 || code == 0x2029;
-  const bool is_fine = code >= least[length] && code <= 0x10ffff && !is_surrogate && !is_control && !turns;
-  return is_fine && !ends_line ? length : 0;
+  // Characters without a shape of their own: they end a line, change the direction of the text around them, or
+  // make two texts look alike.
+  using Range = std::pair<std::uint32_t, std::uint32_t>;
+  constexpr std::array<Range, 13> unseen{{{0xad, 0xad},
+                                          {0x34f, 0x34f},
+                                          {0x61c, 0x61c},
+                                          {0x115f, 0x1160},
+                                          {0x180b, 0x180f},
+                                          {0x200b, 0x200f},
+                                          {0x2028, 0x202e},
+                                          {0x2060, 0x206f},
+                                          {0x3164, 0x3164},
+                                          {0xfeff, 0xfeff},
+                                          {0xffa0, 0xffa0},
+                                          {0xfff9, 0xfffb},
+                                          {0xe0000, 0xe0fff}}};
+  const bool is_unseen = std::any_of(unseen.begin(), unseen.end(), [&](const Range& range) {
+    return range.first <= code && code <= range.second;
+  });
+  const bool is_fine =
+      code >= least[length] && code <= 0x10ffff && !is_surrogate && !is_control && !is_unseen;
+  return is_fine ? length : 0;
 }
 
 }  // namespace
@@ -45,12 +62,6 @@ std::string printable(std::string_view text) {
     text.remove_prefix(length != 0 ? length : 1);
   }
   return result;
-}
-
-bool has_printable_lines(std::string text) {
-  const auto is_blank = [](char c) { return c == '\n' || c == '\t'; };
-  std::replace_if(text.begin(), text.end(), is_blank, ' ');
-  return printable(text) == text;
 }
 
 }  // namespace nearmiss

@@ -110,7 +110,9 @@ std::string fault_of_name(std::string_view name) {
   if (name.size() > longest_name)
     return "a name of " + std::to_string(name.size()) + " bytes, not " + std::to_string(longest_name) +
            " at most";
-  if (printable(name) != name) return "a name with a control character, or that is no UTF-8";
+  if (printable(name) != name) return "a name with characters that are not seen, or that is no UTF-8";
+  if (name.starts_with(' ') || name.ends_with(' ') || name.find("\u00a0") != std::string_view::npos)
+    return "a name that begins or ends with a blank, or has a no-break space";
   if (name.find_first_of(":=/,") != std::string_view::npos)
     return "the name '" + std::string(name) + "' with ':', '=', '/' or ','";
   if (name == "oracle") return "the name 'oracle', under which the oracle's own errors are reported";

@@ -33,6 +33,11 @@ constexpr std::array<Peer, 11> all{{
 
 std::span<const Peer> peers() { return all; }
 
+std::optional<Peer> peer_named(std::string_view name) {
+  const auto* const peer = std::ranges::find(all, name.substr(0, name.find(':')), &Peer::name);
+  return peer == all.end() ? std::nullopt : std::optional(*peer);
+}
+
 std::string path_of(const Peer& peer) { return fmt::format("{}/{}.so", path_beside("peers"), peer.object); }
 
 bool is_built(const Peer& peer) {
@@ -50,10 +55,8 @@ std::string how_to_build(const Peer& peer) {
 }
 
 std::optional<std::string> plugin_of_peer(std::string_view name) {
-  const std::string_view without_options = name.substr(0, name.find(':'));
-  const auto* const peer =
-      std::find_if(all.begin(), all.end(), [&](const Peer& each) { return each.name == without_options; });
-  if (peer == all.end()) return std::nullopt;
+  const auto peer = peer_named(name);
+  if (!peer) return std::nullopt;
   if (!is_built(*peer)) throw Error(fmt::format("'{}' is not built: {}", peer->name, how_to_build(*peer)));
   return fmt::format("{}:{}", path_of(*peer), name);
 }

@@ -18,6 +18,9 @@ struct Peer {
 /// All published CCDs that have an adapter, whether built or not.
 std::span<const Peer> peers();
 
+/// The published CCD with this name, apart from options.
+std::optional<Peer> peer_named(std::string_view name);
+
 /// The path of a published CCD's plug-in.
 std::string path_of(const Peer& peer);
 bool is_built(const Peer& peer);

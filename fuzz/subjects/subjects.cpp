@@ -35,11 +35,6 @@ std::unique_ptr<Subject> make_built_in_or_refuse(std::string_view name, std::opt
   refuse_subject(name, known);
 }
 
-/// Whether a name, without options or bound, is that of a built-in subject.
-bool is_built_in_name(std::string_view name) {
-  return try_make_built_in(name.substr(0, name.find_first_of(":@"))) != nullptr;
-}
-
 /// The file's name without its extension: "v2" for "lib/v2.py", "v2.so" and "v2.so.1".
 std::string stem_of(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
@@ -71,13 +66,23 @@ std::string name_of_file(const Subject& subject) {
   return "";
 }
 
-/// Whether a plug-in or a renamed subject has the name of a built-in subject, so that a merge would add up the
-/// results of both.
+/// Whether a plug-in or a renamed subject has the name of a built-in subject or a published CCD, so that a merge
+/// would add up the results of both.
 bool takes_built_in_name(const Subject& subject) {
-  return (plugin_identity(subject) || !given_name(subject).empty()) && is_built_in_name(subject.name());
+  const auto plugin = plugin_identity(subject);
+  const bool is_renamed = !given_name(subject).empty();
+  if ((!plugin && !is_renamed) || !is_built_in_name(subject.name())) return false;
+  const auto own = peer_named(subject.name());
+  std::error_code unknown;
+  return is_renamed || !own || !plugin || is_program(plugin->path) ||
+         !std::filesystem::equivalent(PluginName::parse(plugin->path).path, path_of(*own), unknown);
 }
 
 }  // namespace
+
+bool is_built_in_name(std::string_view name) {
+  return try_make_built_in(name.substr(0, name.find_first_of(":@"))) != nullptr || peer_named(name);
+}
 
 std::optional<std::string> plugin_named(std::string_view text) {
   return plugin_of(SubjectText::parse(text).subject);

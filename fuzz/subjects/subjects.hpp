@@ -33,8 +33,11 @@ std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
 
-/// Gives different names to plug-ins with equal names, such as versions of one CCD, or with the name of a
-/// built-in subject. Each that was not given a NAME gets the name of its file, "v1" for ./v1.so, or
+/// Whether a name, apart from options and a bound, is that of a built-in subject or a published CCD.
+bool is_built_in_name(std::string_view name);
+
+/// Gives different names to plug-ins with equal names, such as versions of one CCD, or with a built-in
+/// name. Each that was not given a NAME gets the name of its file, "v1" for ./v1.so, or
 /// "v1.DETECTOR" if the file has several detectors or the detector was chosen. Throws Error if a name is still
 /// that of another subject.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);

@@ -57,15 +57,16 @@ bool says_which_code(std::string_view fact) {
   return fact == "version" || fact == "commit" || fact.starts_with(about_plugin);
 }
 
+std::string fact(const RunInfo& info, const std::string& name) {
+  const auto found = info.find(name);
+  return found == info.end() ? "" : found->second;
+}
+
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other) {
-  const auto value = [](const RunInfo& info, const std::string& name) {
-    const auto fact = info.find(name);
-    return fact == info.end() ? std::string() : fact->second;
-  };
   for (const RunInfo* each : {&one, &other})
     for (const auto& [name, ignored] : *each)
-      if (name != "again" && value(one, name) != value(other, name))
-        return DifferentFact{name, value(one, name), value(other, name)};
+      if (name != "again" && fact(one, name) != fact(other, name))
+        return DifferentFact{name, fact(one, name), fact(other, name)};
   return std::nullopt;
 }
 
@@ -119,6 +120,7 @@ class RunMerger {
  public:
   void add(const Run& each, const std::string& name) {
     expect_same_code(each.info, name);
+    expect_known_names(each.info, name);
     Run& run = runs_[each.info];
     run.info = each.info;
     for (const Shard& shard : each.shards) add(shard, run, name);
@@ -145,6 +147,24 @@ class RunMerger {
                               fact->name, fact->other, fact->one, other_name, describe(task_of(info))));
   }
 
+  /// Throws Error if a name is that of a plug-in, or of a renamed subject, and of another one in another input.
+  /// Plug-ins may differ from night to night.
+  void expect_known_names(const RunInfo& info, const std::string& name) {
+    constexpr std::string_view digest = " sha256";
+    for (const auto& [fact, value] : info) {
+      const bool is_plugin = fact.starts_with(about_plugin) && fact.ends_with(digest);
+      if (!is_plugin && !fact.starts_with(about_subject)) continue;
+      const std::string subject =
+          is_plugin ? fact.substr(about_plugin.size(), fact.size() - about_plugin.size() - digest.size())
+                    : fact.substr(about_subject.size());
+      const std::string stands_for = is_plugin ? "a plug-in" : value;
+      const auto& [other, other_name] = by_subject_.try_emplace(subject, stands_for, name).first->second;
+      if (other != stands_for)
+        throw Error(fmt::format("{}: found the name '{}' for {}, but for {} in {}, expected different names",
+                                name, subject, stands_for, other, other_name));
+    }
+  }
+
   void add(const Shard& shard, Run& run, const std::string& name) {
     const RunInfo original = original_of(run.info);
     const auto [other, is_new] = from_.emplace(std::tuple(original, shard.index), name);
@@ -160,6 +180,8 @@ class RunMerger {
 
   std::map<RunInfo, Run> runs_;
   std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< the first run of each task, and its input
+  /// What each name of a plug-in or a renamed subject stands for, and the first input that has it.
+  std::map<std::string, std::pair<std::string, std::string>> by_subject_;
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };
 

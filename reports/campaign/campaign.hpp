@@ -25,6 +25,9 @@ inline auto least_exotic_first(const Finding& finding) {
 /// Facts by name.
 using RunInfo = std::map<std::string, std::string>;
 
+/// The value of a fact, "" if there is none.
+std::string fact(const RunInfo& info, const std::string& name);
+
 /// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256" and "plug-in NAME
 /// version". The environment of a shard has "plug-in NAME", which is how the command line names the plug-in
 /// in every folder, and "plug-in NAME build id".

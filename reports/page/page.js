@@ -262,30 +262,22 @@ function drawHow() {
   }
 }
 
-drawHead();
-drawScorecard();
-drawVersions();
-drawBaseline();
-drawUnits();
-drawCounts();
+/** Draws a part of the page. If that fails, the page says so, and the other parts are drawn nevertheless. */
+function drawPart(draw) {
+  try {
+    draw();
+  } catch (error) {
+    document.body.setAttribute("data-error", String(error));
+    element("headline").after(made("p", `A part of this page cannot be drawn (${draw.name}): ${error.message}`, { class: "bad" }));
+  }
+}
+for (const draw of [drawHead, drawScorecard, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawTimes, drawSlowest,
+  drawDeciders, drawOracle, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
+  drawPart(draw);
 for (const id of ["by-class", "by-family"]) element(id).addEventListener("change", drawCounts);
-drawScenes();
 element("by-step").addEventListener("change", drawScenes);
-drawScenePictures();
-drawTimes();
 element("times-by-family").addEventListener("change", drawTimes);
-drawSlowest();
-drawDeciders();
-drawOracle();
 element("oracle-by-family").addEventListener("change", drawOracle);
-drawAudit();
-drawPower();
-drawEnvironments();
-drawTightness();
-drawFindings();
-drawFarthest();
-drawExtremeTimes();
-drawHow();
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
   ["earliness", drawEarliness, earlinessRows().length > 0],

@@ -13,7 +13,11 @@ using nlohmann::ordered_json;
 ordered_json hunts_json(const std::vector<Hunt>& hunts) {
   ordered_json json = ordered_json::array();
   for (const Hunt& hunt : hunts) {
-    ordered_json each{{"subject", hunt.subject}, {"way", hunt.way}, {"failure", nullptr}};
+    ordered_json each{{"subject", hunt.subject},
+                      {"way", hunt.way},
+                      {"time", hunt.time},
+                      {"seed", hunt.seed},
+                      {"failure", nullptr}};
     if (hunt.failure) {
       each["failure"] = *hunt.failure;
       each["seconds"] = hunt.seconds;
@@ -29,7 +33,10 @@ std::vector<Hunt> load_hunts(const std::filesystem::path& file) {
   std::vector<Hunt> hunts;
   read_json_file(file, "what nearmiss power --json keeps", [&](const ordered_json& json) {
     for (const ordered_json& each : json) {
-      Hunt hunt{.subject = each.at("subject"), .way = each.at("way")};
+      Hunt hunt{.subject = each.at("subject"),
+                .way = each.at("way"),
+                .time = each.at("time"),
+                .seed = each.at("seed")};
       if (!each.at("failure").is_null()) {
         hunt.failure = each["failure"].get<std::string>();
         hunt.seconds = each.at("seconds");

@@ -14,6 +14,8 @@ namespace nearmiss {
 /// One way to hunt for one known defect, and how long it took to find it.
 struct Hunt {
   std::string subject, way;
+  std::string time = {};   ///< its limit: "60s"
+  std::uint64_t seed = 0;  ///< of the queries
   /// The failure that was found, if any; without a failure, the members below are meaningless.
   std::optional<std::string> failure = {};  ///< "false-negative", "refuted-bound" or "late"
   double seconds = 0;

@@ -117,7 +117,7 @@ std::string text_of(const Run& run, const std::string& subject) {
   const auto renamed = run.info.find(std::string(about_subject) + subject);
   std::string text = renamed == run.info.end() ? subject : renamed->second;
   if (text.ends_with(of_scene))
-    text.replace(text.rfind('@') + 1, std::string::npos, run.info.at("scene's bound"));
+    text.replace(text.rfind('@') + 1, std::string::npos, fact(run.info, "scene's bound"));
   return plugin_text(run, subject).value_or(text);
 }
 
@@ -138,7 +138,7 @@ std::string replay_command(const Campaign& campaign, const ShownFinding& shown) 
   for (const char* option : {"bound", "query-time", "query-memory"})
     if (const auto given = run->info.find(option);
         given != run->info.end() && (has_plugin || given->first == "bound"))
-      command += fmt::format(" --{} {}", option, given->second);
+      command += fmt::format(" --{} {}", option, shell_quoted(given->second));
   return command;
 }
 

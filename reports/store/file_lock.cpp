@@ -20,10 +20,14 @@ FileLock::FileLock(const std::filesystem::path& file) : lock_(true_path(file).st
     throw Error(
         fmt::format("{}: found a file with {} names (hard links), expected one", file.string(), names));
   while (true) {
-    descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (descriptor_ < 0)
       throw Error(fmt::format("{}: cannot be made: {}", lock_.string(), std::strerror(errno)));
     struct stat held {};
+    if (fstat(descriptor_, &held) != 0 || !S_ISREG(held.st_mode)) {
+      close(descriptor_);
+      throw Error(fmt::format("{}: found no regular file, expected one or none", lock_.string()));
+    }
     const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
     const bool is_in_place = locked && fstat(descriptor_, &held) == 0 && held.st_nlink > 0;
     if (is_in_place && held.st_size == 0) return;

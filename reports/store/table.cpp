@@ -10,8 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "ccd/query/excerpt.hpp"
-#include "ccd/query/printable.hpp"
 #include "reports/sha256.hpp"
 #include "reports/text/json_file.hpp"
 
@@ -61,21 +59,6 @@ bool is_plain(SQLite::Database& db, const std::string& table) {
         column.getColumn("hidden").getInt() != 0)
       return false;
   return !column.executeStep();
-}
-
-/// Throws Error for a text that is not printable, as none in a store of nearmiss is: it would change what a
-/// terminal, a page or a case shows beside it. Facts about runs may have several lines, as the command of a
-/// program may.
-void expect_printable(const json& value, bool are_facts) {
-  const auto expect = [&](const std::string& text) {
-    if (are_facts ? !has_printable_lines(text) : printable(text) != text)
-      throw Error("found '" + excerpt(text) + "', expected printable characters");
-  };
-  if (const auto* const text = value.get_ptr<const json::string_t*>()) expect(*text);
-  if (value.is_object())
-    for (const auto& [name, member] : value.items()) expect(name);
-  if (value.is_structured())
-    for (const json& member : value) expect_printable(member, are_facts);
 }
 
 constexpr int most_bytes = 1 << 26;  // limit for a key or a value
@@ -156,11 +139,7 @@ Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64
     if (sum != checksum(table, key, value)) continue;
     found.add(static_cast<std::uint64_t>(sum));
     try {
-      const json keys = parse_json<json>(key);
-      const json values = parse_json<json>(value);
-      const bool are_facts = table == "run" || table == "shard";
-      for (const json* each : {&keys, &values}) expect_printable(*each, are_facts);
-      take(keys, values);
+      take(parse_json<json>(key), parse_json<json>(value));
     } catch (const std::exception& error) {
       throw Error(fmt::format("table {}: {}", table, plain_message(error)));
     }

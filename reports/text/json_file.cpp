@@ -4,6 +4,7 @@
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "ccd/query/printable.hpp"
 #include "corpus/file.hpp"
 #include "reports/text/json.hpp"
 
@@ -13,8 +14,11 @@ template <class Json>
 Json parse_json(std::string_view text) {
   static constexpr int most_levels = 32;
   try {
-    return Json::parse(text, [](int level, typename Json::parse_event_t, const Json&) {
+    return Json::parse(text, [](int level, typename Json::parse_event_t, const Json& each) {
       if (level > most_levels) throw Error(fmt::format("JSON with more than {} levels", most_levels));
+      if (each.is_string() && printable(each.template get_ref<const std::string&>()) != each)
+        throw Error(
+            fmt::format("the text '{}' that is not printable", excerpt(each.template get<std::string>())));
       return true;
     });
   } catch (const typename Json::exception& error) {

@@ -10,8 +10,9 @@
 
 namespace nearmiss {
 
-/// Parses JSON into nlohmann::json or nlohmann::ordered_json. Throws Error for other text, and for more than
-/// 32 levels of brackets, because functions walk JSON recursively.
+/// Parses JSON into nlohmann::json or nlohmann::ordered_json. Throws Error for other text, for more than 32 levels
+/// of brackets, because functions walk JSON recursively, and for a string that is not printable, as none that
+/// nearmiss writes is: it would change what a terminal, a page or a case shows beside it.
 template <class Json>
 Json parse_json(std::string_view text);
 

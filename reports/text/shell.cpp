@@ -6,9 +6,13 @@
 
 namespace nearmiss {
 
+namespace {
+
+constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+
+}  // namespace
+
 std::string shell_quoted(const std::string& argument) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
   if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
   std::string quoted = "'";
   for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -23,6 +27,24 @@ std::string printable_argument(const std::string& argument) {
     quoted += is_plain ? std::string(1, c) : fmt::format("\\{:03o}", static_cast<unsigned char>(c));
   }
   return quoted + "'";
+}
+
+bool is_one_command(std::string_view text) {
+  while (!text.empty()) {
+    const bool is_escaped = text.starts_with("\\'");
+    const bool has_escapes = text.starts_with("$'");
+    if (!is_escaped && !has_escapes && text[0] != '\'' && text[0] != ' ' && plain.find(text[0]) == plain.npos)
+      return false;
+    std::size_t length = is_escaped || has_escapes ? 2 : 1;
+    if (has_escapes || text[0] == '\'') {
+      for (char before = '\0';
+           length < text.size() && (text[length] != '\'' || (has_escapes && before == '\\'));)
+        before = before == '\\' ? '\0' : text[length], ++length;
+      if (length++ >= text.size()) return false;  // the quote does not end
+    }
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 std::vector<std::string> shell_words(std::string_view command) {

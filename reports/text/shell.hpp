@@ -14,6 +14,9 @@ std::string shell_quoted(const std::string& argument);
 /// escaped in octal, as in $'M\344.case'.
 std::string printable_argument(const std::string& argument);
 
+/// Whether a text is one command whose arguments are quoted as above, so that a shell does nothing else.
+bool is_one_command(std::string_view text);
+
 /// The words into which a shell divides a simple command. Blanks divide words unless they are in quotes or
 /// follow a backslash. Quotes and backslashes are removed. Nothing is expanded.
 std::vector<std::string> shell_words(std::string_view command);

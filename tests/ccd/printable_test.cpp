@@ -18,6 +18,8 @@ TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable("a\u0085b"), "a??b");   // NEL, another line end
   EXPECT_EQ(printable("a\u202eb"), "a???b");  // reverses the text after it
   EXPECT_EQ(printable("a\u2028b"), "a???b");  // a line end in JavaScript
+  for (const char* unseen : {"\u200b", "\u2060", "\ufeff", "\u061c", "\u00ad", "\U000e0041"})
+    EXPECT_EQ(printable(unseen), std::string(std::string_view(unseen).size(), '?')) << unseen;
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
 }
 

@@ -279,14 +279,14 @@ isolation::PluginDescription honest() {
 }
 
 TEST(Isolation, WhatAWorkerWritesOfItsPluginIsPossible) {
-  EXPECT_EQ(isolation::info_of(honest()).name, "mine:tolerance=1");
+  EXPECT_EQ(isolation::info_of(honest(), "tolerance=1").name, "mine:tolerance=1");
   EXPECT_THAT(isolation::names_of(honest()), ::testing::ElementsAre("mine", "other"));
   isolation::PluginDescription odd = honest();
-  odd.name = {"+1\033[31m\xff"};
+  odd.name = {"+1\033[31m\xff:tolerance=1"};
   odd.kinds = odd.time_sort = -1;
   odd.batch = ~std::uint64_t{0};
-  const DetectorInfo info = isolation::info_of(odd);
-  EXPECT_EQ(info.name, "+1?[31m?");
+  const DetectorInfo info = isolation::info_of(odd, "tolerance=1");
+  EXPECT_EQ(info.name, "+1?[31m?:tolerance=1");
   EXPECT_EQ(info.kinds, bits_of_all_kinds);
   EXPECT_EQ(info.time_sort, TimeSort::none);
   EXPECT_EQ(info.batch, isolation::batch_size);
@@ -299,13 +299,15 @@ TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {
           &isolation::PluginDescription::shortest, &isolation::PluginDescription::longest}) {
       isolation::PluginDescription odd = honest();
       odd.*field = limit;
-      EXPECT_THROW(isolation::info_of(odd), Error) << limit;
+      EXPECT_THROW(isolation::info_of(odd, "tolerance=1"), Error) << limit;
     }
-  for (const char* name : {"", "a/b", "a=b:c", "wang (beyond contract)"}) {
+  EXPECT_THROW(isolation::info_of(honest(), ""), Error);
+  EXPECT_THROW(isolation::info_of(honest(), "tolerance=2"), Error);
+  for (const char* name : {"", "a/b", "a=b:c", "wang (beyond contract)", "defect:vv"}) {
     isolation::PluginDescription odd = honest();
     odd.name = {};
     std::copy_n(name, std::strlen(name), odd.name.begin());
-    EXPECT_THROW(isolation::info_of(odd), Error) << name;
+    EXPECT_THROW(isolation::info_of(odd, "tolerance=1"), Error) << name;
   }
   isolation::PluginDescription odd = honest();
   odd.names = {"a:b\n"};
@@ -317,7 +319,7 @@ TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {
 
 TEST(Isolation, ANameThatIsNoneIsRefused) {
   EXPECT_REFUSED(make_isolated_plugin(plugin("bad_name")),
-                 "found a name with a control character, or that is no UTF-8");
+                 "found a name with characters that are not seen, or that is no UTF-8");
 }
 
 }  // namespace

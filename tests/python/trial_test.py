@@ -239,6 +239,15 @@ asked.wait()
             run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
             self.assertEqual((run.returncode, run.stderr), (0, ''))
 
+    def test_a_function_that_python_calls_at_its_end_may_hold_one(self):
+        program = """
+import atexit
+atexit.register(lambda: print(nearmiss.trial('wang', 100).counts('wang').missed))
+import nearmiss
+"""
+        run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, '0\n', ''))
+
     def test_says_what_a_function_should_return(self):
         for answer, time, error, message in (
             (lambda n: np.zeros(n), 'none', TypeError, 'answers of type float64, expected bool'),
@@ -300,6 +309,7 @@ asked.wait()
             ('shrunk is 18446744073709551616, expected', [never, 10, 'uniform', 1, 2**64]),
             (r"found the name '\\ud800'", [nearmiss.Subject(never, '\ud800')]),
             ("found the name 'a:b'", [nearmiss.Subject(never, 'a:b')]),
+            ("found the name 'oracle', under which", [nearmiss.Subject(never, 'oracle')]),
         ):
             with self.assertRaisesRegex(ValueError, message):
                 nearmiss.trial(*arguments[:4], **dict(zip(['shrunk'], arguments[4:])))

@@ -153,6 +153,20 @@ TEST(Campaign, RunsThatDifferStandSideBySide) {
   EXPECT_EQ(both.runs[0].info.at("seed"), "0");
 }
 
+TEST(Campaign, ANameStandsForOneSubject) {
+  const std::vector<std::string> names{"a.db", "b.db"};
+  std::vector campaigns{shard_of_three(0), shard_of_three(0)};
+  campaigns[1].runs[0].info["seed"] = "0";
+  campaigns[0].runs[0].info["subject x"] = campaigns[1].runs[0].info["subject x"] = "x=wang";
+  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  campaigns[1].runs[0].info["subject x"] = "x=basic";
+  EXPECT_ERROR(merge_campaigns(campaigns, names),
+               "b.db: found the name 'x' for x=basic, but for x=wang in a.db, expected different names");
+  campaigns[1].runs[0].info.erase("subject x");
+  campaigns[1].runs[0].info["plug-in x sha256"] = "0";
+  EXPECT_REFUSED(merge_campaigns(campaigns, names), "for a plug-in, but for x=wang in a.db");
+}
+
 /// Shards 0 and 1 of a run, which have different values of this fact.
 std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};

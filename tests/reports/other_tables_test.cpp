@@ -24,10 +24,11 @@ class OtherTables : public testing::TemporaryFolder {
     std::filesystem::resize_file(write("sparse.json", ""), std::uintmax_t{1} << 31);
     EXPECT_REFUSED(load(file("sparse.json")),
                    "sparse.json: found 2147483648 bytes, expected at most 1073741824");
-    for (const char* text :
-         {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
-          "[{\"subject\": \"a\", \"flags\": \"b\"}]",
-          R"([{"subject": "a", "way": "b", "failure": "c", "seconds": 1, "cases": 1e308}])"}) {
+    for (
+        const char* text :
+        {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
+         "[{\"subject\": \"a\", \"flags\": \"b\"}]",
+         R"([{"subject": "a", "way": "b", "time": "1s", "seed": 1, "failure": "c", "seconds": 1, "cases": 1e308}])"}) {
       write("other.json", text);
       EXPECT_REFUSED(load(file("other.json")), "expected " + expected) << text;
     }
@@ -35,8 +36,8 @@ class OtherTables : public testing::TemporaryFolder {
 };
 
 TEST_F(OtherTables, HuntsAreReadAsTheyAreWritten) {
-  const std::vector<Hunt> hunts{{"defect:vv", "search", "refuted-bound", 1.5, 42, "f:1:0"},
-                                {"defect:mu", "uniform"}};
+  const std::vector<Hunt> hunts{{"defect:vv", "search", "60s", 7, "refuted-bound", 1.5, 42, "f:1:0"},
+                                {"defect:mu", "uniform", "60s", 7}};
   write("power.json", hunts_json(hunts).dump());
   EXPECT_EQ(hunts_json(load_hunts(file("power.json"))), hunts_json(hunts));
   expect_refusal(load_hunts, "what nearmiss power --json keeps");

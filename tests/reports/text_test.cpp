@@ -57,6 +57,15 @@ TEST(Shell, EscapesBytesThatAreNotPrintable) {
   EXPECT_EQ(printable_argument("it's M\xe4\\\n.case"), "$'it\\047s M\\344\\134\\012.case'");
 }
 
+TEST(Shell, KnowsOneCommand) {
+  for (const std::string word : {"a b", "it's", "\n;touch x\xff'", "$HOME", "\\'"})
+    for (const std::string& quoted : {shell_quoted(word), printable_argument(word)})
+      EXPECT_TRUE(is_one_command("nearmiss fuzz " + quoted + " --cases 3")) << quoted;
+  for (const char* more :
+       {"a; b", "a\nb", "a | b", "a 'b", "a $'b\\'", "a $(b)", "a `b`", "a > b", "a *", "a $b", "a\\", "a #"})
+    EXPECT_FALSE(is_one_command(more)) << more;
+}
+
 TEST(Text, ACommandIsDividedAsAShellDividesIt) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(shell_words("  python3 \t a.py  "), (Words{"python3", "a.py"}));

@@ -80,6 +80,8 @@ TEST_F(JsonToStdout, APluginWhoseNameIsNoUtf8IsRefused) {
   for (const std::string command : {"fuzz --cases 100 --db new.db", "bench --json new.json"})
     expect_refused(command + " --subject './" + no_utf8 + ".so'",
                    {"--subject: found './M?.so', expected a path in UTF-8"});
+  expect_refused("subjects --targets wang './p\nlate x/p.so'",
+                 {"--subject: found './p late x/p.so', expected"});
 }
 
 }  // namespace

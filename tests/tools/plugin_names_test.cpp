@@ -49,7 +49,7 @@ TEST_F(CommandLine, APluginMayBeInAnyFolder) {
   EXPECT_EQ(run(fuzz + "--resume", there).code, 1);
   EXPECT_EQ(run("report a.db -o report", there).code, 1);
   const std::string again = read_json(folder + "/report/report.json")["findings"][0]["again"];
-  EXPECT_EQ(run(again.substr(9), "cd '" + folder + "/report' &&").code, 1) << again;
+  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // a store has no line ends
 }
 
 TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {

@@ -54,7 +54,7 @@ TEST_F(CommandLine, PowerResumesWhereItStopped) {
 TEST_F(CommandLine, AnInterruptEndsPowersHuntWithLibFuzzer) {
   write("fuzzer",
         "test $2 = late || { echo nothing in 2 s, 100 executions; exit; }\n"
-        "trap '' TERM\ntouch late\nsleep 100000\n");
+        "trap '' TERM\ntouch late\nsetsid sleep 30 &\nsleep 100000\n");
   Background power(file(""),
                    "power --time 24h --way libfuzzer --libfuzzer 'sh fuzzer' --json new.json "
                    "--subject defect:vv,defect:later-root");
@@ -62,6 +62,29 @@ TEST_F(CommandLine, AnInterruptEndsPowersHuntWithLibFuzzer) {
   power.stop(SIGTERM);
   EXPECT_EQ(power.code(), 130) << read("error.txt");
   EXPECT_EQ(read_json("new.json").size(), 1);
+}
+
+TEST_F(CommandLine, PowerTakesWhateverItsCommandPrints) {
+  std::filesystem::copy(plugin("never"), file("it's.so"));
+  const std::string power =
+      "power --time 2s --json new.json --subject \"./it's.so\" --way libfuzzer --libfuzzer ";
+  write("long", "echo found after $(head -c 1000000 /dev/zero | tr '\\0' 1) s\n");
+  expect_refused(power + "'sh long'", {"expected 'found after ...' or 'nothing in ...'"});
+  write("odd", "printf 'found after 1 s, 2 executions: \\033[31ma\\n'; echo \"$*\" >odd.txt\n");
+  expect_code(0, power + "'sh odd'");
+  EXPECT_EQ(read_json("new.json")[0]["provenance"], "?[31ma");
+  EXPECT_THAT(read("odd.txt"), HasSubstr("s ./it's.so\n"));
+  std::filesystem::remove(file("new.json"));
+  expect_refused(power + "'yes | head -c 100000000'", {"printed 'y', expected"});
+}
+
+TEST_F(CommandLine, PowerDoesNotMixSettings) {
+  const std::string power = "power --subject defect:vertex-edge --way uniform --json a.json ";
+  expect_code(0, power + "--time 1s");
+  const Output other = expect_code(2, power + "--time 2s");
+  EXPECT_THAT(other.error, HasSubstr("a.json: found hunts with --time 1s --seed 1, expected 2s and 1"));
+  expect_code(2, power + "--time 1s --seed 2");
+  expect_code(0, power + "--time 1s");
 }
 
 TEST_F(CommandLine, PowerHuntsWithATargetOfLibFuzzerForEachPromise) {

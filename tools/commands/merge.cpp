@@ -47,7 +47,7 @@ void add_merge(CLI::App& app, int& exit_code) {
     fmt::print("{}", summary_table(merged.statistics, options->fail_on.failures()));
     for (const Run& run : merged.runs)
       if (const std::string missing = missing_shards(run); !missing.empty())
-        fmt::print("{}: {}\n", run.info.at("command"), missing);
+        fmt::print("{}: {}\n", fact(run.info, "command"), missing);
     exit_code = options->fail_on.exit_code(merged.statistics);
   });
 }

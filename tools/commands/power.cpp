@@ -7,12 +7,17 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <regex>
+#include <sstream>
+#include <string_view>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/query/printable.hpp"
 #include "fuzz/libfuzzer/targets.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/studies/power.hpp"
@@ -21,6 +26,7 @@
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/sections/other_tables.hpp"
 #include "reports/text/json.hpp"
+#include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -77,9 +83,10 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Runs a command in the shell, and returns its output. A signal to nearmiss ends the command, too, after a
-/// second by a kill.
+/// Runs a command in the shell, and returns the end of its output. A signal to nearmiss ends the command, too,
+/// after a second by a kill.
 std::string output_of(const std::string& command) {
+  constexpr std::size_t most_bytes = 1 << 16;
   std::array<int, 2> pipe{};
   const pid_t process = pipe2(pipe.data(), O_CLOEXEC) == 0 ? fork() : -1;
   if (process < 0) throw Error(fmt::format("'{}': cannot be run", command));
@@ -92,40 +99,66 @@ std::string output_of(const std::string& command) {
   setpgid(process, process);  // whoever is first
   close(pipe[1]);
   std::string text;
-  std::array<char, 4096> buffer;
-  int asked_to_end = 0;
-  for (ssize_t n = 1; n != 0;) {
+  std::vector<char> buffer(most_bytes);
+  bool has_ended = false;
+  bool is_open = true;
+  auto kill_at = std::chrono::steady_clock::time_point::max();
+  while (!has_ended || is_open) {
     constexpr int patience_ms = 100;
-    constexpr int most_asked = 10;
-    pollfd readable{.fd = pipe[0], .events = POLLIN, .revents = 0};
-    if (interrupted()) kill(-process, ++asked_to_end > most_asked ? SIGKILL : SIGTERM);
-    if (poll(&readable, 1, patience_ms) <= 0) continue;
-    n = read(pipe[0], buffer.data(), buffer.size());
-    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+    pollfd readable{.fd = is_open ? pipe[0] : -1, .events = POLLIN, .revents = 0};
+    const bool has_more = poll(&readable, 1, patience_ms) > 0;
+    if (interrupted()) {
+      const auto now = std::chrono::steady_clock::now();
+      kill_at = std::min(kill_at, now + std::chrono::seconds(1));
+      kill(-process, now < kill_at ? SIGTERM : SIGKILL);
+    }
+    if (has_more) {
+      const ssize_t n = read(pipe[0], buffer.data(), buffer.size());
+      if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+      if (text.size() > 2 * most_bytes) text.erase(0, text.size() - most_bytes);
+      is_open = n != 0;
+    }
+    if (!has_ended) has_ended = waitpid(process, nullptr, WNOHANG) == process;
+    if (has_ended && !has_more) break;  // a process that the command left behind may keep the pipe open
   }
   close(pipe[0]);
-  waitpid(process, nullptr, 0);
   return text;
 }
 
-/// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for
+/// Reads a number and what follows it. Returns false if there is neither.
+template <class Number>
+bool take(std::string_view& text, Number& number, std::string_view then) {
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+  if (error != std::errc() || !text.starts_with(then)) return false;
+  text.remove_prefix(then.size());
+  return true;
+}
+
+/// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for a line
 /// "found after S s, N executions: PATH" or "nothing in ...".
 Hunt hunt_with_target(const Options& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
-  const std::string command =
-      fmt::format("{} --first {} {}s '{}'", options.libfuzzer, target.name, seconds, subject);
-  const std::string text = output_of(command);
+  const std::string command = fmt::format("{} --first {} {}s {}", options.libfuzzer, target.name, seconds,
+                                          printable_argument(subject));
+  std::istringstream output(output_of(command));
   Hunt result{.subject = subject, .way = std::string(coverage_guided)};
-  static const std::regex found("found after ([0-9.]+) s, ([0-9]+) executions: (.*)");
-  if (std::smatch match; std::regex_search(text, match, found)) {
+  bool is_known = interrupted();
+  std::string last;
+  for (std::string line; std::getline(output, line); last = line) {
+    constexpr std::string_view found = "found after ";
+    std::string_view rest = line;
+    if (line.starts_with("nothing in")) is_known = true;
+    if (!line.starts_with(found)) continue;
+    rest.remove_prefix(found.size());
+    if (!take(rest, result.seconds, " s, ") || !take(rest, result.cases, " executions: ")) continue;
     result.failure = name(target.finds);
-    result.seconds = std::stod(match[1]);
-    result.cases = std::stoull(match[2]);
-    result.provenance = match[3].str();
-  } else if (text.find("nothing in") == std::string::npos && !interrupted()) {
-    throw Error(
-        fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command, text));
+    result.provenance = printable(rest);
+    return result;
   }
+  if (!is_known)
+    throw Error(fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command,
+                            excerpt(last, 200)));
   return result;
 }
 
@@ -192,6 +225,10 @@ int run(const Options& options) {
     ways = {std::string(uniform), std::string(all_families), std::string(search)};
     if (!options.libfuzzer.empty()) ways.emplace_back(coverage_guided);
   }
+  for (const Hunt& each : results)
+    if (each.time != options.time || each.seed != options.seed)
+      throw Error(fmt::format("{}: found hunts with --time {} --seed {}, expected {} and {}, or another file",
+                              stored.string(), each.time, each.seed, options.time, options.seed));
   const auto is_done = [&](const std::string& subject, const std::string& way) {
     return std::any_of(results.begin(), results.end(),
                        [&](const Hunt& each) { return each.subject == subject && each.way == way; });
@@ -205,6 +242,8 @@ int run(const Options& options) {
       auto result =
           way == coverage_guided ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
       if (interrupted()) continue;
+      result.time = options.time;
+      result.seed = options.seed;
       results.push_back(std::move(result));
       if (!stored.empty()) options.json.write(hunts_json(results));
     }

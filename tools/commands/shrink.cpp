@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
 #include "corpus/file.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/contract.hpp"
@@ -49,7 +50,7 @@ Finding find_failure(const Case& each, const Subject& subject) {
             .subject = subject.name(),
             .family = {},
             .query = each.query,
-            .provenance = each.name,
+            .provenance = printable(each.name),
             .signature = failure->signature};
   throw Error(
       fmt::format("{}: {} does not fail, expected a missed collision, a late time, a report beyond its "

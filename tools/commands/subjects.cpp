@@ -17,6 +17,7 @@
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/subjects/peers.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -58,7 +59,10 @@ void describe(const std::string& name) {
 /// coverage of another process. Throws Error if two subjects have the same name.
 void print_targets(const std::vector<std::string>& texts) {
   std::vector<std::unique_ptr<Subject>> subjects;
-  for (const std::string& text : texts) subjects.push_back(make_any_subject(text));
+  for (const std::string& text : texts) {
+    expect_printable(text);
+    subjects.push_back(make_any_subject(text));
+  }
   tell_apart(subjects);
   for (const auto& subject : subjects) {
     const std::string text = text_of(*subject);

@@ -27,6 +27,13 @@ inline bool must_end() { return is_ending && std::this_thread::get_id() != endin
   throw pybind11::error_already_set();
 }
 
+/// Whether calls in this thread must end, as an object that changes when they must. Calls that Python makes at
+/// its exit are not to end.
+inline const std::atomic<bool>& ending() {
+  static constinit const std::atomic<bool> never = false;
+  return is_ending && !must_end() ? never : is_ending;
+}
+
 /// Notes that a call is under way. It is made and destroyed while this thread has Python's lock.
 struct Running {
   Running() {
@@ -38,13 +45,13 @@ struct Running {
   ~Running() { --running; }
 };
 
-/// Ends all calls; the package calls it when the interpreter exits. Waits a few seconds at most, because a
-/// Python function under trial may not return.
+/// Ends all calls; the package calls it when the interpreter exits. Waits a second at most, because a Python
+/// function under trial may not return.
 inline void end_calls() {
   ending_thread = std::this_thread::get_id();
   is_ending = true;
   const pybind11::gil_scoped_release others_run;
-  constexpr std::chrono::milliseconds pause(1), patience(3000);
+  constexpr std::chrono::milliseconds pause(1), patience(1000);
   for (auto waited = pause; running > 0 && waited < patience; waited += pause)
     std::this_thread::sleep_for(pause);
 }

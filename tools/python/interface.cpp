@@ -1,5 +1,6 @@
 // nearmiss._interface: the functions of the C interface over NumPy arrays, whose shapes and types the
 // package's Python code has checked (src/nearmiss/_queries.py).
+#include <pthread.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -251,4 +252,5 @@ PYBIND11_MODULE(_interface, module) {
   module.def("wang", &wang);
   module.def("wang_bound", &wang_bound);
   module.def("end_calls", &end_calls);
+  pthread_atfork(nullptr, nullptr, [] { running = 0; });  // a child has none of its parent's threads
 }

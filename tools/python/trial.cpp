@@ -1,4 +1,5 @@
 // nearmiss._trial: trials of Python functions. src/nearmiss/_trials.py gives the results their form.
+#include <pthread.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -23,6 +24,7 @@
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/built_in.hpp"
 #include "fuzz/subjects/exact.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/case_order.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
@@ -51,6 +53,7 @@ std::unique_ptr<Subject> subject_of(const py::object& each) {
 Subjects subjects_of(const py::list& of) {
   Subjects subjects;
   for (const auto& each : of) subjects.push_back(subject_of(py::reinterpret_borrow<py::object>(each)));
+  tell_apart(subjects);
   return subjects;
 }
 
@@ -189,7 +192,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   TrialResult result;
   try {
     const Running this_one;
-    const Stop stop(is_ending);
+    const Stop stop(ending());
     const py::gil_scoped_release others_run;
     result = decide_all(plan, subjects, stop);
     shrink(result.findings, subjects, shrunk_of_each_signature, stop);
@@ -233,4 +236,5 @@ PYBIND11_MODULE(_trial, module) {
   module.def("families", &known_families);
   module.def("queries", &make);
   module.def("end_calls", &end_calls);
+  pthread_atfork(nullptr, nullptr, [] { running = 0; });  // a child has none of its parent's threads
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ccd/query/printable.hpp"
+#include "ccd/subjects/plugin.hpp"
 
 namespace nearmiss::isolation {
 
@@ -54,7 +55,7 @@ double calls_per_query(Request request) {
 
 }  // namespace
 
-DetectorInfo info_of(const PluginDescription& about) {
+DetectorInfo info_of(const PluginDescription& about, const std::string& options) {
   DetectorInfo info;
   info.name = text(about.name);
   info.version = text(about.version);
@@ -72,8 +73,10 @@ DetectorInfo info_of(const PluginDescription& about) {
                    .grid = about.grid,
                    .shortest = about.shortest,
                    .longest = about.longest};
-  expect_no(
-      fault_of_name(std::string_view(info.name).substr(0, info.name.find(':'))));  // without its options
+  const std::string own = info.name.substr(0, info.name.find(':'));
+  expect_no(fault_of_name(own));
+  if (info.name != own + (options.empty() ? "" : ":" + options))
+    expect_no("the name '" + info.name + "', which has other options than were given");
   expect_no(fault_of(info.contract));
   return info;
 }
@@ -186,7 +189,7 @@ void WorkerProcess::load(const std::string& plugin) {
   look_at_others();
   others_compute_ = false;  // what they computed until now does not count
   try {
-    info_ = info_of(answers_->about);
+    info_ = info_of(answers_->about, is_program(plugin) ? "" : PluginName::parse(plugin).options);
     names_ = names_of(answers_->about);
   } catch (const Error& fault) {
     throw Error(plugin + ": " + fault.what());

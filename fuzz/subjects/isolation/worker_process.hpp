@@ -47,9 +47,9 @@ struct WorkerFailure {
   bool goes_on = false;   ///< the worker can be used for other queries
 };
 
-/// Checks a worker's description of its plug-in, and returns it with printable texts. Throws Error if no
-/// detector can have such a description.
-DetectorInfo info_of(const PluginDescription& about);
+/// Checks a worker's description of its plug-in, which was given these options, and returns it with printable
+/// texts. Throws Error if no detector can have such a description.
+DetectorInfo info_of(const PluginDescription& about, const std::string& options);
 /// The names of all detectors in the shared object. Throws Error.
 std::vector<std::string> names_of(const PluginDescription& about);
 
