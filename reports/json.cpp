@@ -37,10 +37,14 @@ ordered_json extreme_json(const Extreme& extreme) {
 }
 
 /// The command that repeats the results; nothing if a time limit ended several shards, because no command
-/// does that, or if a store says anything but one command of nearmiss.
+/// does that, or if a store says anything but one command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");
-  if (!again.starts_with("nearmiss ") || !is_one_command(again)) return std::nullopt;
+  constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "tightness "};
+  const bool repeats_a_run = std::ranges::any_of(that_store_runs, [&](const std::string& subcommand) {
+    return again.starts_with("nearmiss " + subcommand);
+  });
+  if (!repeats_a_run || !is_one_command(again)) return std::nullopt;
   if (fact(run.info, "cases") != until_the_time_is_over) return again;
   if (run.shards.size() != 1 || run.shards.front().count != 1) return std::nullopt;
   return fmt::format("{} --first {}", again, run.shards.front().cases);

@@ -163,8 +163,8 @@ isolation::PluginLimits PluginLimitOptions::limits() const {
 void expect_printable(const std::string& subject) {
   if (printable(subject) != subject)
     throw Error(
-        fmt::format("--subject: found '{}', expected a path in UTF-8 without control characters, because "
-                    "reports name it",
+        fmt::format("--subject: found '{}', expected a path in UTF-8 without control characters or "
+                    "others that are not seen, because reports name it",
                     excerpt(subject)));
 }
 

@@ -28,19 +28,12 @@ std::size_t printable_sequence(std::string_view text) {
   // Characters without a shape of their own: they end a line, change the direction of the text around them, or
   // make two texts look alike.
   using Range = std::pair<std::uint32_t, std::uint32_t>;
-  constexpr std::array<Range, 13> unseen{{{0xad, 0xad},
-                                          {0x34f, 0x34f},
-                                          {0x61c, 0x61c},
-                                          {0x115f, 0x1160},
-                                          {0x180b, 0x180f},
-                                          {0x200b, 0x200f},
-                                          {0x2028, 0x202e},
-                                          {0x2060, 0x206f},
-                                          {0x3164, 0x3164},
-                                          {0xfeff, 0xfeff},
-                                          {0xffa0, 0xffa0},
-                                          {0xfff9, 0xfffb},
-                                          {0xe0000, 0xe0fff}}};
+  constexpr std::array<Range, 23> unseen{
+      {{0xad, 0xad},       {0x34f, 0x34f},     {0x61c, 0x61c},    {0x115f, 0x1160}, {0x180b, 0x180f},
+       {0x17b4, 0x17b5},   {0x200b, 0x200b},   {0x200e, 0x200f},  {0x2028, 0x202e}, {0x2060, 0x206f},
+       {0x2800, 0x2800},   {0x3164, 0x3164},   {0xe000, 0xf8ff},  {0xfdd0, 0xfdef}, {0xfe00, 0xfe0f},
+       {0xfeff, 0xfeff},   {0xffa0, 0xffa0},   {0xfff0, 0xfffb},  {0xfffe, 0xffff}, {0x13430, 0x1343f},
+       {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a}, {0xe0000, 0xe0fff}}};
   const bool is_unseen = std::any_of(unseen.begin(), unseen.end(), [&](const Range& range) {
     return range.first <= code && code <= range.second;
   });

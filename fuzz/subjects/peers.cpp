@@ -34,7 +34,7 @@ constexpr std::array<Peer, 11> all{{
 std::span<const Peer> peers() { return all; }
 
 std::optional<Peer> peer_named(std::string_view name) {
-  const auto* const peer = std::ranges::find(all, name.substr(0, name.find(':')), &Peer::name);
+  const auto* const peer = std::ranges::find(all, name.substr(0, name.find_first_of(":@")), &Peer::name);
   return peer == all.end() ? std::nullopt : std::optional(*peer);
 }
 

@@ -30,21 +30,27 @@ std::string printable_argument(const std::string& argument) {
 }
 
 bool is_one_command(std::string_view text) {
-  while (!text.empty()) {
-    const bool is_escaped = text.starts_with("\\'");
-    const bool has_escapes = text.starts_with("$'");
-    if (!is_escaped && !has_escapes && text[0] != '\'' && text[0] != ' ' && plain.find(text[0]) == plain.npos)
+  const auto is_octal = [](std::string_view digits) {
+    return digits.size() == 3 && digits.find_first_not_of("01234567") == digits.npos;
+  };
+  bool in_quotes = false;
+  bool has_escapes = false;  // in $'...'
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\'') {
+      in_quotes = !in_quotes;
+      has_escapes = in_quotes && i > 0 && text[i - 1] == '$';
+    } else if (c == '\\' && has_escapes) {
+      if (!is_octal(text.substr(i + 1, 3))) return false;
+    } else if (in_quotes) {
+      continue;
+    } else if (text.substr(i, 2) == "\\'") {
+      ++i;
+    } else if (text.substr(i, 2) != "$'" && c != ' ' && plain.find(c) == plain.npos) {
       return false;
-    std::size_t length = is_escaped || has_escapes ? 2 : 1;
-    if (has_escapes || text[0] == '\'') {
-      for (char before = '\0';
-           length < text.size() && (text[length] != '\'' || (has_escapes && before == '\\'));)
-        before = before == '\\' ? '\0' : text[length], ++length;
-      if (length++ >= text.size()) return false;  // the quote does not end
     }
-    text.remove_prefix(length);
   }
-  return true;
+  return !in_quotes;
 }
 
 std::vector<std::string> shell_words(std::string_view command) {

@@ -7,8 +7,8 @@ namespace nearmiss {
 namespace {
 
 TEST(Printable, LeavesTextAsItIs) {
-  for (const char* text :
-       {"", "wang-tight:p24", "naïve CCD", "ψ ≤ 41 B ε^¼", "水", "a\u00a0b", "\ud7fb", "\ue000", "𝕏"})
+  for (const char* text : {"", "wang-tight:p24", "naïve CCD", "ψ ≤ 41 B ε^¼", "水", "a\u00a0b", "\ud7fb",
+                           "نیم\u200cفاصله", "a\u3000b", "𝕏"})
     EXPECT_EQ(printable(text), text);
 }
 
@@ -18,7 +18,8 @@ TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable("a\u0085b"), "a??b");   // NEL, another line end
   EXPECT_EQ(printable("a\u202eb"), "a???b");  // reverses the text after it
   EXPECT_EQ(printable("a\u2028b"), "a???b");  // a line end in JavaScript
-  for (const char* unseen : {"\u200b", "\u2060", "\ufeff", "\u061c", "\u00ad", "\U000e0041"})
+  for (const char* unseen : {"\u200b", "\u2060", "\ufeff", "\u061c", "\u00ad", "\U000e0041", "\ufe0f",
+                             "\ue000", "\uffff", "\u2800"})
     EXPECT_EQ(printable(unseen), std::string(std::string_view(unseen).size(), '?')) << unseen;
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
 }

@@ -227,17 +227,24 @@ class Trial(unittest.TestCase):
     def test_the_end_of_the_interpreter_ends_it(self):
         program = """
 import threading, time, nearmiss
+import sys
 asked = threading.Event()
 def slow(kind, x, separation):
     asked.set()
     time.sleep(0.01)
     return nearmiss.collides(kind, x)
-threading.Thread(target=nearmiss.trial, args=(slow, 10**9), daemon=True).start()
+def endless(kind, x, separation):
+    asked.set()
+    while True:
+        pass
+function = globals()[sys.argv[1]]
+threading.Thread(target=nearmiss.trial, args=(function, 10**9), daemon=True).start()
 asked.wait()
 """
-        for _ in range(5):
-            run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
-            self.assertEqual((run.returncode, run.stderr), (0, ''))
+        for function in ['slow', 'endless'] * 3:
+            command = [sys.executable, '-c', program, function]
+            run = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual((run.returncode, run.stderr), (0, ''), function)
 
     def test_a_function_that_python_calls_at_its_end_may_hold_one(self):
         program = """

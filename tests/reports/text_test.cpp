@@ -61,8 +61,8 @@ TEST(Shell, KnowsOneCommand) {
   for (const std::string word : {"a b", "it's", "\n;touch x\xff'", "$HOME", "\\'"})
     for (const std::string& quoted : {shell_quoted(word), printable_argument(word)})
       EXPECT_TRUE(is_one_command("nearmiss fuzz " + quoted + " --cases 3")) << quoted;
-  for (const char* more :
-       {"a; b", "a\nb", "a | b", "a 'b", "a $'b\\'", "a $(b)", "a `b`", "a > b", "a *", "a $b", "a\\", "a #"})
+  for (const char* more : {"a; b", "a\nb", "a | b", "a 'b", "a $'b\\'", "a $'\\'; b; #'", "a $(b)", "a `b`",
+                           "a > b", "a *", "a $b", "a\\", "a #"})
     EXPECT_FALSE(is_one_command(more)) << more;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <map>
@@ -102,6 +103,9 @@ std::string output_of(const std::string& command) {
   std::vector<char> buffer(most_bytes);
   bool has_ended = false;
   bool is_open = true;
+  // A process that the command left behind may keep the pipe open, and write.
+  constexpr int most_reads_after_the_end = 64;
+  int reads_after_the_end = 0;
   auto kill_at = std::chrono::steady_clock::time_point::max();
   while (!has_ended || is_open) {
     constexpr int patience_ms = 100;
@@ -110,7 +114,9 @@ std::string output_of(const std::string& command) {
     if (interrupted()) {
       const auto now = std::chrono::steady_clock::now();
       kill_at = std::min(kill_at, now + std::chrono::seconds(1));
-      kill(-process, now < kill_at ? SIGTERM : SIGKILL);
+      for (const pid_t each : {-process, process})  // it may have left its group
+        if (!has_ended) kill(each, now < kill_at ? SIGTERM : SIGKILL);
+      if (now > kill_at + std::chrono::milliseconds(500)) break;
     }
     if (has_more) {
       const ssize_t n = read(pipe[0], buffer.data(), buffer.size());
@@ -118,8 +124,8 @@ std::string output_of(const std::string& command) {
       if (text.size() > 2 * most_bytes) text.erase(0, text.size() - most_bytes);
       is_open = n != 0;
     }
+    if (has_ended && (!has_more || ++reads_after_the_end > most_reads_after_the_end)) break;
     if (!has_ended) has_ended = waitpid(process, nullptr, WNOHANG) == process;
-    if (has_ended && !has_more) break;  // a process that the command left behind may keep the pipe open
   }
   close(pipe[0]);
   return text;
@@ -152,6 +158,7 @@ Hunt hunt_with_target(const Options& options, const std::string& subject,
     if (!line.starts_with(found)) continue;
     rest.remove_prefix(found.size());
     if (!take(rest, result.seconds, " s, ") || !take(rest, result.cases, " executions: ")) continue;
+    if (!std::isfinite(result.seconds) || result.seconds < 0) continue;
     result.failure = name(target.finds);
     result.provenance = printable(rest);
     return result;

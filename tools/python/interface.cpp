@@ -252,5 +252,5 @@ PYBIND11_MODULE(_interface, module) {
   module.def("wang", &wang);
   module.def("wang_bound", &wang_bound);
   module.def("end_calls", &end_calls);
-  pthread_atfork(nullptr, nullptr, [] { running = 0; });  // a child has none of its parent's threads
+  pthread_atfork(nullptr, nullptr, forget_other_threads);
 }

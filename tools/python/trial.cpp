@@ -236,5 +236,5 @@ PYBIND11_MODULE(_trial, module) {
   module.def("families", &known_families);
   module.def("queries", &make);
   module.def("end_calls", &end_calls);
-  pthread_atfork(nullptr, nullptr, [] { running = 0; });  // a child has none of its parent's threads
+  pthread_atfork(nullptr, nullptr, forget_other_threads);
 }
