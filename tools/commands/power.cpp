@@ -127,6 +127,7 @@ std::string output_of(const std::string& command) {
     if (has_ended && (!has_more || ++reads_after_the_end > most_reads_after_the_end)) break;
     if (!has_ended) has_ended = waitpid(process, nullptr, WNOHANG) == process;
   }
+  if (interrupted()) kill(-process, SIGKILL);  // what ignored the first signals
   close(pipe[0]);
   return text;
 }
