@@ -111,9 +111,9 @@ std::string fault_of_name(std::string_view name) {
     return "a name of " + std::to_string(name.size()) + " bytes, not " + std::to_string(longest_name) +
            " at most";
   if (printable(name) != name) return "a name with characters that are not seen, or that is no UTF-8";
-  constexpr std::array<std::string_view, 19> like_a_blank{
-      "\u00a0", "\u1680", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006", "\u2007",
-      "\u2008", "\u2009", "\u200a", "\u200c", "\u200d", "\u202f", "\u205f", "\u3000", "\t"};
+  constexpr std::array<std::string_view, 18> like_a_blank{
+      "\u00a0", "\u1680", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006",
+      "\u2007", "\u2008", "\u2009", "\u200a", "\u200c", "\u200d", "\u202f", "\u205f", "\u3000"};
   const auto is_in_name = [&](std::string_view blank) { return name.find(blank) != std::string_view::npos; };
   if (name.starts_with(' ') || name.ends_with(' ') || std::ranges::any_of(like_a_blank, is_in_name))
     return "a name that begins or ends with a blank, or has another one than U+0020";

@@ -180,7 +180,7 @@ class RunMerger {
 
   std::map<RunInfo, Run> runs_;
   std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< the first run of each task, and its input
-  /// What each name of a plug-in or a renamed subject stands for, and the first input that has it.
+  /// For each name of a plug-in or of a renamed subject: what it stands for, and the first input with it.
   std::map<std::string, std::pair<std::string, std::string>> by_subject_;
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };

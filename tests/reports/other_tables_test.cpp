@@ -24,11 +24,10 @@ class OtherTables : public testing::TemporaryFolder {
     std::filesystem::resize_file(write("sparse.json", ""), std::uintmax_t{1} << 31);
     EXPECT_REFUSED(load(file("sparse.json")),
                    "sparse.json: found 2147483648 bytes, expected at most 1073741824");
-    for (
-        const char* text :
-        {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
-         "[{\"subject\": \"a\", \"flags\": \"b\"}]",
-         R"([{"subject": "a", "way": "b", "time": "1s", "seed": 1, "failure": "c", "seconds": 1, "cases": 1e308}])"}) {
+    for (const char* text : {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
+                             "[{\"subject\": \"a\", \"flags\": \"b\"}]",
+                             R"([{"subject": "a", "way": "b", "time": "1s", "seed": 1, )"
+                             R"("failure": "c", "seconds": 1, "cases": 1e308}])"}) {
       write("other.json", text);
       EXPECT_REFUSED(load(file("other.json")), "expected " + expected) << text;
     }

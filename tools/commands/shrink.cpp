@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "ccd/query/error.hpp"
-#include "ccd/query/printable.hpp"
 #include "corpus/file.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/contract.hpp"
@@ -50,7 +49,7 @@ Finding find_failure(const Case& each, const Subject& subject) {
             .subject = subject.name(),
             .family = {},
             .query = each.query,
-            .provenance = printable(each.name),
+            .provenance = each.name,
             .signature = failure->signature};
   throw Error(
       fmt::format("{}: {} does not fail, expected a missed collision, a late time, a report beyond its "
