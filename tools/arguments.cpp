@@ -181,6 +181,13 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
 
 namespace {
 
+/// The families that a word stands for; nothing for another name.
+std::optional<std::span<const Family>> group_of_families(std::string_view name, std::span<const Family> all) {
+  if (name == "all") return all;
+  if (name == "vertices") return vertex_families();
+  return std::nullopt;
+}
+
 std::vector<Family> different(std::vector<Family> found, std::string_view option) {
   std::set<std::string> names;
   for (const Family& family : found)
@@ -195,22 +202,27 @@ std::vector<Family> different(std::vector<Family> found, std::string_view option
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all) {
   std::vector<Family> found;
-  for (const std::string& name : names) {
-    if (name == "all")
-      found.insert(found.end(), all.begin(), all.end());
-    else if (name == "vertices")
-      found.insert(found.end(), vertex_families().begin(), vertex_families().end());
+  for (const std::string& name : names)
+    if (const auto group = group_of_families(name, all))
+      found.insert(found.end(), group->begin(), group->end());
     else
       found.push_back(find_family(name, known));
-  }
   return different(std::move(found), "--family");
 }
 
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
-                                std::span<const Family> known) {
+                                std::span<const Family> known, std::span<const Family> all) {
   std::vector<Family> found;
+  const auto add = [&](const Family& family) {
+    for (Family& step : sweep(family, steps)) found.push_back(std::move(step));
+  };
   for (const std::string& name : names)
-    for (Family& step : sweep(find_family(name, known), steps)) found.push_back(std::move(step));
+    if (const auto group = group_of_families(name, all))
+      std::for_each(group->begin(), group->end(), [&](const Family& each) {
+        if (each.parameter) add(each);
+      });
+    else
+      add(find_family(name, known));
   return different(std::move(found), "--sweep");
 }
 

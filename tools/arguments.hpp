@@ -87,13 +87,15 @@ void expect_printable(const std::string& subject);
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
-/// Finds the families NAME, NAME@VALUE and so on; "all" stands for those in `all`. Throws Error.
+/// Finds the families NAME, NAME@VALUE and so on; "all" stands for those in `all`, "vertices" for those of
+/// vertices and edges. Throws Error.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all);
 
-/// Makes the families NAME@VALUE of the named sweeps. Throws Error.
+/// Makes the families NAME@VALUE of the sweeps of these families; "all" and "vertices" stand for those that have a
+/// parameter. Throws Error.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
-                                std::span<const Family> known);
+                                std::span<const Family> known, std::span<const Family> all);
 
 /// Parses "0/4" .. "3/4" into the shard and the number of shards. Throws Error.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);

@@ -117,7 +117,7 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     return !of_kinds(family, asked) || (asks_for_contact && family.has_separation);
   });
   auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
-                                       : find_sweeps(options.sweeps, options.steps, known);
+                                       : find_sweeps(options.sweeps, options.steps, known, all);
   const bool are_named = !options.sweeps.empty() || options.families != CampaignOptions().families;
   for (Family& family : chosen) {
     if (!separation.empty() && !family.has_separation) family = with_separation(family, separation);

@@ -108,8 +108,10 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
     if (const auto plugin = plugin_identity(*subject); !plugin) {
       if (!given_name(*subject).empty()) info[subject_fact(subject->name())] = text_of(*subject);
     } else {
-      info[plugin_fact(subject->name()) + " sha256"] = plugin->sha256;
+      info[plugin_fact(subject->name()) + std::string(its_digest)] = plugin->sha256;
       info[plugin_fact(subject->name()) + " version"] = plugin->version;
+      if (!given_name(*subject).empty())
+        info[plugin_fact(subject->name()) + std::string(its_detector)] = own_name(*subject);
       if (const std::string contract = in_words(subject->contract()); !contract.empty())
         info[plugin_fact(subject->name()) + " contract"] = contract;
     }

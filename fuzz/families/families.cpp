@@ -58,9 +58,10 @@ Family with_collisions(Family family) {
 
 Family at_value(const Family& family, double value) {
   const Parameter& parameter = parameter_of(family);
-  const FamilyName of(family.name);
-  const std::string name =
-      fmt::format("{}@{}{}{}", of.base, value, of.separation.empty() ? "" : "~", of.separation);
+  const std::string shown = fmt::format("{}", value);
+  FamilyName of(family.name);
+  of.value = shown;
+  const std::string name = of.text();
   if (!(parameter.lo <= value && value <= parameter.hi) || (parameter.whole && value != std::round(value)))
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
@@ -98,7 +99,7 @@ ChooseSeparation parse_family_separation(std::string_view text, std::string_view
 }
 
 Family with_separation(const Family& family, std::string_view separation) {
-  const std::string name = fmt::format("{}~{}", family.name, separation);
+  const std::string name = name_with_separation(family.name, separation);
   const std::string where = fmt::format("family '{}'", excerpt(name));
   if (family.has_separation)
     throw Error(fmt::format("{}: found a separation, expected none: the family has its own", where));
@@ -209,11 +210,10 @@ Family find_family(std::string_view name, std::span<const Family> known) {
     for (const Family& family : known) names += ", " + family.name;
     throw Error(fmt::format("unknown family '{}', expected one of {}", excerpt(of.base), names.substr(2)));
   }
-  const bool has_value = name.substr(of.base.size()).starts_with('@');
   const Family family =
-      has_value ? at_value(*found, parse_number(of.value, fmt::format("family '{}'", excerpt(name))))
-                : *found;
-  return name.find('~') == std::string_view::npos ? family : with_separation(family, of.separation);
+      of.value ? at_value(*found, parse_number(*of.value, fmt::format("family '{}'", excerpt(name))))
+               : *found;
+  return of.separation ? with_separation(family, *of.separation) : family;
 }
 
 namespace {

@@ -13,6 +13,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
 #include "fuzz/meshes/formats.hpp"
+#include "reports/statistics/family_name.hpp"
 
 namespace nearmiss {
 
@@ -140,7 +141,7 @@ void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
 
 Scene with_separation(Scene scene, double separation) {
   scene.separation = separation;
-  scene.name += fmt::format("~{}", separation);
+  scene.name = name_with_separation(scene.name, fmt::format("{}", separation));
   return scene;
 }
 

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "reports/statistics/family_name.hpp"
+
 namespace nearmiss {
 
 double Searched::separation(Random& random, Kind kind) const {
@@ -28,7 +30,7 @@ Family search_family(std::string_view prefix, std::string_view about, SearchOne 
   ChooseSeparation choose;
   if (!separation.empty()) choose = parse_family_separation(separation, name);
   const auto searched = std::make_shared<Searched>(subject, stop, choose);
-  return {.name = separation.empty() ? name : name + "~" + std::string(separation),
+  return {.name = separation.empty() ? name : name_with_separation(name, separation),
           .about = std::string(about),
           .make = [searched, search_one](Random& random,
                                          Kind kind) { return search_one(*searched, random, kind); },

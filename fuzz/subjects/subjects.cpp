@@ -57,8 +57,7 @@ std::string name_of_file(const Subject& subject) {
   const PluginName parsed =
       of_program ? PluginName{file_of_program(plugin->path), "", ""} : PluginName::parse(plugin->path);
   const std::string stem = stem_of(parsed.path);
-  const std::string own = innermost(subject).name();
-  const std::string detector = own.substr(0, own.find(':'));
+  const std::string detector = own_name(subject);
   const std::string chosen = parsed.subject.empty() ? "" : "." + detector;
   if (!stem.empty())
     for (const std::string& name : {stem + chosen, detector + "-" + stem})
@@ -124,6 +123,11 @@ void tell_apart(Subjects& subjects) {
       throw Error(fmt::format("found two subjects named '{}', expected different names, such as {}", names[i],
                               another));
   }
+}
+
+std::string own_name(const Subject& subject) {
+  const std::string name = innermost(subject).name();
+  return name.substr(0, name.find(':'));
 }
 
 std::string text_of(const Subject& subject) {

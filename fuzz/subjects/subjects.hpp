@@ -42,6 +42,9 @@ bool is_built_in_name(std::string_view name);
 /// that of another subject.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
+/// The name that a subject has without a given NAME, and without options: what a plug-in calls itself.
+std::string own_name(const Subject& subject);
+
 /// The text that makes a subject under its name, whatever other subjects there are: "v1=./v1.so"; without
 /// NAME= if it has its own name.
 std::string text_of(const Subject& subject);

@@ -148,16 +148,17 @@ class RunMerger {
   }
 
   /// Throws Error if a name is that of a plug-in, or of a renamed subject, and of another one in another input.
-  /// Plug-ins may differ from night to night.
+  /// A plug-in's bytes and version may differ from night to night.
   void expect_known_names(const RunInfo& info, const std::string& name) {
-    constexpr std::string_view digest = " sha256";
-    for (const auto& [fact, value] : info) {
-      const bool is_plugin = fact.starts_with(about_plugin) && fact.ends_with(digest);
-      if (!is_plugin && !fact.starts_with(about_subject)) continue;
+    for (const auto& [about, value] : info) {
+      const bool is_plugin = about.starts_with(about_plugin) && about.ends_with(its_digest);
+      if (!is_plugin && !about.starts_with(about_subject)) continue;
+      const std::string of_plugin = about.substr(0, about.size() - its_digest.size());
       const std::string subject =
-          is_plugin ? fact.substr(about_plugin.size(), fact.size() - about_plugin.size() - digest.size())
-                    : fact.substr(about_subject.size());
-      const std::string stands_for = is_plugin ? "a plug-in" : value;
+          is_plugin ? of_plugin.substr(about_plugin.size()) : about.substr(about_subject.size());
+      const std::string detector = fact(info, of_plugin + std::string(its_detector));
+      const std::string stands_for =
+          is_plugin ? "the plug-in " + (detector.empty() ? subject : detector) : value;
       const auto& [other, other_name] = by_subject_.try_emplace(subject, stands_for, name).first->second;
       if (other != stands_for)
         throw Error(fmt::format("{}: found the name '{}' for {}, but for {} in {}, expected different names",

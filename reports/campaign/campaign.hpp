@@ -28,10 +28,12 @@ using RunInfo = std::map<std::string, std::string>;
 /// The value of a fact, "" if there is none.
 std::string fact(const RunInfo& info, const std::string& name);
 
-/// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256" and "plug-in NAME
-/// version". The environment of a shard has "plug-in NAME", which is how the command line names the plug-in
-/// in every folder, and "plug-in NAME build id".
+/// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256", "plug-in NAME version", and
+/// "plug-in NAME detector" if the plug-in calls itself otherwise. The environment of a shard has "plug-in NAME",
+/// which is how the command line names the plug-in in every folder, and "plug-in NAME build id".
 inline constexpr std::string_view about_plugin = "plug-in ";
+inline constexpr std::string_view its_digest = " sha256";
+inline constexpr std::string_view its_detector = " detector";
 /// Beginning of the name of a run's fact about a renamed built-in subject: "subject NAME" is "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";
 

@@ -85,7 +85,10 @@ function logAxis(values, written = "digits(datum.value, 3)") {
 const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
 /** Whether a family is a step of a sweep; sweeps have charts of their own. */
-const isSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
+const isSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => {
+  const [base, separation] = name.split("~");
+  return family.startsWith(`${base}@`) && (separation === undefined || family.endsWith(`~${separation}`));
+});
 
 /** Rates of random families except sweeps; cases and scenes are not random samples. */
 function rateRows() {
@@ -137,7 +140,7 @@ function drawRates() {
 /** The subjects' misses in each family with collisions, except sweeps. */
 const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row.family));
 
-/** The misses of both kinds together, by subject and family, with a text for each kind. */
+/** The misses of all kinds together, by subject and family, with a text for each kind. */
 function missedByFamily() {
   const cells = new Map();
   for (const row of missRows()) {

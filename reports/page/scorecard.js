@@ -8,7 +8,7 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
 
 /** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */
 const missedCell = ({ counts, classes, subject, failures }) => {
-  if (failures.includes("not-asked")) return [made("strong", "not asked", { class: "bad" })];
+  if (failures.includes("unjudged")) return [made("strong", "not asked", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
   const [first, ...others] = Object.entries(classes).filter(([, each]) => each.collisions > 0);
   const rateOf = ([name, each]) => `${name} ${each.false_negatives === 0 ? "0" : percent(each.false_negative_rate)}`;

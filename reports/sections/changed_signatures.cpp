@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reports/statistics/confidence.hpp"
+#include "reports/statistics/failure.hpp"
 #include "reports/statistics/family.hpp"
 
 namespace nearmiss {
@@ -90,10 +91,11 @@ std::uint64_t chances(const Counts& counts, What what) {
 
 /// The number of failures of a sort; 0 for failures of the oracle.
 std::uint64_t failures(const Counts& counts, What what) {
-  if (what == What::false_negative) return counts.false_negatives;
-  if (what == What::refuted_bound) return counts.refuted_bounds;
-  if (what == What::late) return counts.late;
-  return what == What::fault ? counts.faults_total() - unasked(counts) : 0;
+  if (what == What::fault) return counts.faults_total() - unasked(counts);
+  std::uint64_t sum = 0;
+  for (const FailureKind each : all_failures())
+    if (finding_of(each) == what) sum += failure_info(each).count(counts);
+  return sum;
 }
 
 /// How many queries could have shown a sort of failure now, compared with before. The counters do not say in
@@ -301,7 +303,7 @@ SubjectCode code_of(const Campaign& campaign, const std::string& subject) {
     return fmt::format("{}", fmt::join(texts, " | "));
   };
   const std::string plugin = std::string(about_plugin) + subject;
-  const std::set<std::string> digests = values(plugin + " sha256");
+  const std::set<std::string> digests = values(plugin + std::string(its_digest));
   std::set<std::string> builds;
   for (const std::string& digest : digests) builds.insert("sha256 " + digest.substr(0, shown_digits));
   if (!digests.empty()) return {joined(values(plugin + " version")), joined(builds)};

@@ -22,7 +22,7 @@ inline constexpr std::size_t decider_count = 4;
 inline constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer",
                                                                            "exact"};
 
-/// The queries of a family, of both kinds together, by what decided them.
+/// The queries of a family, of all kinds together, by what decided them.
 struct DeciderRow {
   std::string subject;
   std::string family;  ///< "" for all families; a scene is one family with all its steps

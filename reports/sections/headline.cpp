@@ -66,18 +66,18 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
                      has_class ? fmt::format(" {} queries", name(first.least_exotic)) : "");
 }
 
-bool is_not_asked(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::not_asked); }
+bool is_unjudged(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::unjudged); }
 
 /// Says which subjects failed, which were asked nothing, and which did not fail. If only one subject failed,
 /// it says how. If several failed, it says in which class of queries, the least exotic class first.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
-  std::vector<std::string> not_asked;
+  std::vector<std::string> unjudged;
   std::vector<std::string> clean;
   std::vector<std::string> parts;
   for (const SubjectVerdict& each : verdicts) {
-    if (is_not_asked(each))
-      not_asked.push_back(each.subject);
+    if (is_unjudged(each))
+      unjudged.push_back(each.subject);
     else if (each.clean)
       clean.push_back(each.subject);
     else
@@ -89,9 +89,9 @@ std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   } else {
     for (const auto& [in, group] : failed) parts.push_back(group_text(group));
   }
-  if (!not_asked.empty())
+  if (!unjudged.empty())
     parts.push_back(
-        fmt::format("{} {} asked nothing", subjects(not_asked), not_asked.size() == 1 ? "was" : "were"));
+        fmt::format("{} {} asked nothing", subjects(unjudged), unjudged.size() == 1 ? "was" : "were"));
   if (!clean.empty()) parts.push_back(fmt::format("{} did not fail", subjects(clean)));
   return fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -13,7 +13,7 @@
 namespace nearmiss {
 
 /// An object for each subject, in the order of their names. It has the subject's verdict; its failures, the
-/// gravest first; its place on the ladder of precisions; its rates over both kinds, as a whole and class by
+/// gravest first; its place on the ladder of precisions; its rates over all kinds, as a whole and class by
 /// class; its run times; the number of changes since the baseline; and the index of its simplest failure
 /// among the findings that are shown (null without findings).
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,

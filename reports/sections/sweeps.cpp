@@ -22,11 +22,19 @@ struct Step {
   double value;
 };
 
-/// The step of a family "NAME@VALUE"; nothing for other families.
+/// The step of a family "NAME@VALUE" or "NAME@VALUE~SEPARATION"; nothing for other families.
 std::optional<Step> step_of_family(std::string_view name) {
-  const FamilyName of(name);
-  const auto value = of.separation.empty() ? number_in(of.value) : std::nullopt;
-  return value ? std::optional(Step{std::string(of.base), *value}) : std::nullopt;
+  FamilyName of(name);
+  const auto value = of.value ? number_in(*of.value) : std::nullopt;
+  of.value.reset();
+  return value ? std::optional(Step{of.text(), *value}) : std::nullopt;
+}
+
+/// "NAME@x" or "NAME@x~SEPARATION"
+std::string title_of_sweep(std::string_view family) {
+  FamilyName of(family);
+  of.value = "x";
+  return of.text();
 }
 
 /// A step for each option of the subject that is a number.
@@ -78,7 +86,7 @@ std::string sweep_tables(const Statistics& statistics) {
   };
   std::string text;
   for (const auto& [key, sweep] : sweeps(statistics))
-    text += fmt::format("\n{} along {}@x\n{}", key.second, key.first,
+    text += fmt::format("\n{} along {}\n{}", key.second, title_of_sweep(key.first),
                         table(sweep, {"x"}, cells,
                               {"queries", "collisions", "false_negatives", "false_positives",
                                "false_positive_rate", "max_fp_distance_over_bound", "ns_per_query"},

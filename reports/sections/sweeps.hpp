@@ -11,13 +11,14 @@
 
 namespace nearmiss {
 
-/// Sums of counters over both kinds, by the value of the parameter.
+/// Sums of counters over all kinds, by the value of the parameter.
 using Sweep = std::map<double, CountsSum>;
 
-/// The sweeps in a campaign by family and subject: families NAME@VALUE with at least two values.
+/// The sweeps in a campaign by family, NAME or NAME~SEPARATION, and by subject: families NAME@VALUE and
+/// NAME@VALUE~SEPARATION with at least two values.
 std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& statistics);
 
-/// Sums of counters over both kinds, by class of families and value of the option.
+/// Sums of counters over all kinds, by class of families and value of the option.
 using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
 /// The sweeps of options in a campaign by pattern: subjects NAME:KEY=NUMBER with at least two different

@@ -149,7 +149,7 @@ void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerd
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
     const FailureInfo& failure = failure_info(kind);
-    if (kind == FailureKind::not_asked) {
+    if (kind == FailureKind::unjudged) {
       verdict.said[kind] = verdict.first = failure.verb;
       continue;
     }
@@ -196,7 +196,7 @@ std::string false_positive_text(const Counts& counts) {
 }
 
 /// Why nothing is known of a subject.
-std::string not_asked_text(const Counts& counts) {
+std::string unjudged_text(const Counts& counts) {
   if (counts.queries == 0) return "NOT ASKED: it decides no query of this sort";
   if (failure_info(FailureKind::slow).count(counts) == 0)
     return fmt::format("NOT ASKED: {} beyond its contract", counted(counts.queries, "query", "queries"));
@@ -258,8 +258,8 @@ std::string answered_text(const Failures& failures, const OfSubject& subject) {
 SubjectVerdict verdict_on(const std::string& name, const OfSubject& subject, const Failures& failing) {
   SubjectVerdict verdict{.subject = name, .failures = failures_of(name, subject.all), .text = {}, .said = {}};
   say_failures(subject, failing, verdict);
-  verdict.text = verdict.failures.contains(FailureKind::not_asked) ? not_asked_text(subject.all)
-                                                                   : answered_text(verdict.failures, subject);
+  verdict.text = verdict.failures.contains(FailureKind::unjudged) ? unjudged_text(subject.all)
+                                                                  : answered_text(verdict.failures, subject);
   return verdict;
 }
 

@@ -20,7 +20,7 @@ std::uint64_t beyond(const Counts& counts) { return counts.without_answer(Fault:
 std::uint64_t faulty(const Counts& counts) { return counts.faults_total() - slow(counts) - beyond(counts); }
 
 /// 1 if nothing is known of the subject: it was asked nothing, or answered nothing in time.
-std::uint64_t not_asked(const Counts& counts) {
+std::uint64_t unjudged(const Counts& counts) {
   return counts.queries == slow(counts) + beyond(counts) ? 1 : 0;
 }
 
@@ -42,7 +42,7 @@ constexpr std::array<FailureInfo, 10> infos{{
      [](const Counts& counts) { return counts.false_positives; }, &Counts::refuted_by_class},
     {FailureKind::fault, "fault", false, "failed to answer", "query", "queries", faulty, queries,
      &Counts::faults_by_class},
-    {FailureKind::not_asked, "not-asked", false, "was asked nothing", "", "", not_asked, queries},
+    {FailureKind::unjudged, "unjudged", false, "was asked nothing", "", "", unjudged, queries},
     {FailureKind::unknown, "unknown", true, "could not tell in", "query", "queries",
      [](const Counts& counts) { return counts.unknown(); }, queries},
     {FailureKind::contract, "contract", true, "was not asked, by its contract,", "query", "queries", beyond,
@@ -153,7 +153,7 @@ Failures failures_of(const std::string& subject, const Counts& counts) {
   Failures found;
   for (const FailureInfo& each : infos)
     if (each.count(counts) > 0) found.insert(each.kind);
-  if (subject.ends_with(beyond_contract)) found.erase(FailureKind::not_asked);
+  if (subject.ends_with(beyond_contract)) found.erase(FailureKind::unjudged);
   return found;
 }
 

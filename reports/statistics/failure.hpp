@@ -22,7 +22,7 @@ enum class FailureKind : std::uint8_t {
   late,                 ///< contact, or a distance below h, before a promised lower bound
   beyond_bound,         ///< a false positive is farther away than claimed
   fault,                ///< there is no answer, for a reason other than time or a contract
-  not_asked,            ///< the subject was not asked any query, or did not answer any in time
+  unjudged,             ///< the subject was not asked any query, or did not answer any in time
   unknown,              ///< the subject could not tell
   contract,             ///< a query was not asked, because it breaks the subject's contract
   slow,                 ///< a query took longer than the time limit, or was not asked after several that did

@@ -9,10 +9,11 @@ namespace nearmiss {
 bool is_random(std::string_view family) { return !family.ends_with('/') && !family.starts_with("scene:"); }
 
 std::string shown_family(std::string_view family) {
-  const FamilyName name(family);
+  FamilyName name(family);
   if (name.search.empty()) return std::string(family);
-  std::string shown(name.search);
-  return name.separation.empty() ? shown : shown.append("~").append(name.separation);
+  name.base = name.search;
+  name.value.reset();
+  return name.text();
 }
 
 std::string_view origin(std::string_view family) {
@@ -20,10 +21,9 @@ std::string_view origin(std::string_view family) {
 }
 
 std::string draws_of(std::string_view family) {
-  const FamilyName name(family);
-  if (name.value.empty()) return std::string(family);
-  std::string draws = std::string(name.base) + "@";
-  return name.separation.empty() ? draws : draws.append("~").append(name.separation);
+  FamilyName name(family);
+  if (name.value) name.value = "";
+  return name.text();
 }
 
 std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject) {

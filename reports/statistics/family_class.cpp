@@ -75,13 +75,13 @@ bool contains(const std::array<std::string_view, size>& names, std::string_view 
 }  // namespace
 
 QueryClass class_of(std::string_view family) {
-  const std::string_view base = FamilyName(family).base;
+  const FamilyName name(family);
+  const std::string_view base = name.base;
   if (family.starts_with("scene:") || contains(ordinary, base)) return QueryClass::ordinary;
   if (contains(degenerate, base)) return QueryClass::degenerate;
   if (contains(extreme, base)) return QueryClass::extreme;
   // The vertices and edges of a family have its class, unless a table names them.
-  return base.starts_with(vertices_prefix) ? class_of(base.substr(vertices_prefix.size()))
-                                           : QueryClass::unclassified;
+  return name.root == base ? QueryClass::unclassified : class_of(name.root);
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {

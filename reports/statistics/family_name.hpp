@@ -1,6 +1,8 @@
 // Names of families.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace nearmiss {
@@ -18,12 +20,19 @@ inline constexpr std::string_view vertices_prefix = "v-";
 /// The name of a family, taken apart: NAME, or NAME@VALUE with a fixed parameter, either followed by
 /// ~SEPARATION. Only this struct knows the form of names. The name must outlive its parts.
 struct FamilyName {
-  std::string_view base;        ///< NAME; for a directed search, it includes the name of its subject
-  std::string_view value;       ///< VALUE, or ""
-  std::string_view separation;  ///< SEPARATION, or ""
-  std::string_view search;      ///< "search-miss", "v-search-miss" and so on for a directed search; else ""
+  std::string_view base;  ///< NAME; for a directed search, it includes the name of its subject
+  std::string_view root;  ///< NAME without "v-"
+  std::optional<std::string_view> value;
+  std::optional<std::string_view> separation;
+  std::string_view search;  ///< "search-miss", "v-search-miss" and so on for a directed search; else ""
 
   explicit FamilyName(std::string_view name);
+
+  /// The name that has these parts.
+  [[nodiscard]] std::string text() const;
 };
+
+/// NAME~SEPARATION, for a name without a separation.
+std::string name_with_separation(std::string_view name, std::string_view separation);
 
 }  // namespace nearmiss

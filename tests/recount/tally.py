@@ -139,7 +139,7 @@ def failures_of(counts, faults):
         'late': counts['late'],
         'beyond-bound': counts['refuted_bounds'],
         'fault': sum(faults.values()) - slow - beyond,
-        'not-asked': counts['queries'] == slow + beyond,
+        'unjudged': counts['queries'] == slow + beyond,
         'unknown': counts['unknown'],
         'contract': beyond,
         'slow': slow,

@@ -164,7 +164,12 @@ TEST(Campaign, ANameStandsForOneSubject) {
                "b.db: found the name 'x' for x=basic, but for x=wang in a.db, expected different names");
   campaigns[1].runs[0].info.erase("subject x");
   campaigns[1].runs[0].info["plug-in x sha256"] = "0";
-  EXPECT_REFUSED(merge_campaigns(campaigns, names), "for a plug-in, but for x=wang in a.db");
+  EXPECT_REFUSED(merge_campaigns(campaigns, names), "for the plug-in x, but for x=wang in a.db");
+  campaigns[0].runs[0].info.erase("subject x");
+  campaigns[0].runs[0].info["plug-in x sha256"] = "1";  // another version
+  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  campaigns[0].runs[0].info["plug-in x detector"] = "boxes";
+  EXPECT_REFUSED(merge_campaigns(campaigns, names), "for the plug-in x, but for the plug-in boxes in a.db");
 }
 
 /// Shards 0 and 1 of a run, which have different values of this fact.

@@ -48,6 +48,15 @@ TEST(Sweeps, AreInTheOrderOfTheValuesWithBothKindsTogether) {
   EXPECT_EQ(sweep.at(8).counts.false_negatives, 1);
 }
 
+TEST(Sweeps, WithASeparationAreSweepsOfTheirOwn) {
+  Statistics statistics = sweep_of_family();
+  for (const char* family : {"aspect@8~drawn", "aspect@-0.5~drawn", "aspect@-0.5~0.25"})
+    statistics.counts[{"wang", Kind::vertex_triangle, family}] = some_counts(10, 0);
+  EXPECT_THAT(sweeps(statistics), ElementsAre(Pair(Pair("aspect", "wang"), ::testing::SizeIs(2)),
+                                              Pair(Pair("aspect~drawn", "wang"), ::testing::SizeIs(2))));
+  EXPECT_THAT(sweep_tables(statistics), HasSubstr("wang along aspect@x~drawn\n"));
+}
+
 TEST(Sweeps, OneValueIsNone) {
   Statistics statistics;
   for (const char* family : {"uniform", "aspect@8", "a@b", "needle@1", "@"})

@@ -138,6 +138,25 @@ TEST_F(CommandLine, FuzzSweepsParameters) {
   EXPECT_EQ(report_of("a.db")["sweeps"]["end-contact"]["exact"].size(), 3);
 }
 
+TEST_F(CommandLine, FuzzSweepsAllFamiliesOfTheKindsThatASubjectDecides) {
+  const auto swept = [&](const std::string& options) {
+    EXPECT_EQ(run("fuzz --steps 2 --cases 2000 --no-shrink --json new.json " + options).code, 0);
+    std::set<std::string> names;
+    const json sweeps = read_json("new.json")["sweeps"];
+    for (const auto& [name, ignored] : sweeps.items()) names.insert(name);
+    return names;
+  };
+  const auto of_wang = swept("--sweep all --subject wang");
+  EXPECT_THAT(of_wang, ::testing::IsSupersetOf({"stiff", "needle", "v-drifting", "v-stiff~drawn"}));
+  EXPECT_THAT(of_wang, ::testing::Not(::testing::Contains("uniform")));  // it has no parameter
+  const auto of_vertices = swept("--sweep vertices --subject wang");
+  EXPECT_THAT(of_vertices, ::testing::Each(::testing::StartsWith("v-")));
+  EXPECT_THAT(of_wang, ::testing::IsSupersetOf(of_vertices));
+  EXPECT_THAT(swept("--sweep all --subject wang-plain"), ::testing::IsSupersetOf(of_vertices));
+  EXPECT_THAT(swept("--sweep all --subject exact"),
+              ::testing::Not(::testing::Contains(::testing::StartsWith("v-"))));
+}
+
 TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
   write_falling_triangle();
   const std::string mesh = "--mesh start.obj end.obj --json new.json ";

@@ -141,7 +141,7 @@ double median_ratio(const RunTimes& times, const RunTimes& first) {
   return median(ratios);
 }
 
-/// Times of both kinds together, each kind weighted by its number of queries.
+/// Times of all kinds together, each kind weighted by its number of queries.
 std::vector<RunTimes> together(const std::vector<std::vector<RunTimes>>& by_kind,
                                const std::vector<double>& weights) {
   std::vector<RunTimes> sum(by_kind.front().size(), RunTimes(by_kind.front().front().size(), 0));

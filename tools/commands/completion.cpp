@@ -70,8 +70,8 @@ std::string bash_script(const CLI::App& app) {
   fi
   case $before in
     --subject) words='{}' ;;
-    --family) words='all {}' ;;
-    --sweep) words='{}' ;;
+    --family) words='all vertices {}' ;;
+    --sweep) words='all vertices {}' ;;
   esac
   if [[ -n $words ]]; then
     local first= action=

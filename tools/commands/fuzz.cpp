@@ -83,10 +83,11 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       command
           ->add_option(
               "--sweep", options->sweeps,
-              "Families whose parameter runs from its lowest to its highest value, instead of --family")
+              "Families whose parameter runs from its lowest to its highest value, instead of --family; "
+              "or all that have a parameter, or vertices")
           ->delimiter(',')
           ->excludes(family)
-          ->type_name("A,B,...");
+          ->type_name("all|A,B,...");
   add_count_option(*command, "--steps", options->steps, 2, 10'000,
                    "Number of values of each parameter in a sweep")
       ->needs(sweep);

@@ -211,10 +211,15 @@ export async function showsFindings(browser) {
   await page.close();
 }
 
-/** The text of a query of each kind says where its own vertices are, and how far away counts as contact. */
+/**
+ * Two vertices, and a vertex and an edge: the text of a query says where its own vertices are, and how far away
+ * counts as contact; its picture has them; its command fails again; its certificate is that of its kind. Tables
+ * and charts have both kinds.
+ */
 export async function showsVerticesAndEdges(browser) {
   const page = await open(browser, makeReport("vertices", ["--cases", "20000", "--subject", "basic", "--kind", "vv,ve"]));
   const { findings } = jsonOf("vertices");
+  const captions = { vv: "Two vertices", ve: "A vertex and an edge" };
   const vertices = { vv: 2, ve: 3 };
   assert.deepEqual(new Set(findings.map(({ kind }) => kind)), new Set(Object.keys(vertices)));
   for (const [index, { kind, shrunk }] of findings.entries()) {
@@ -223,7 +228,20 @@ export async function showsVerticesAndEdges(browser) {
     const numbers = (line) => line.match(/-?[\d.]+(e[-+]?\d+)?/g).map(Number);
     const expected = [...Array(vertices[kind]).keys()].map((i) => [i, ...place(0, i), ...(String(place(0, i)) === String(place(1, i)) ? [] : place(1, i))]);
     assert.deepEqual(lines.map(numbers), [...expected, [shrunk.at(-1)]]);
+    const picture = page.locator(`#finding-${index} svg.picture`);
+    assert.ok((await picture.getAttribute("aria-label")).startsWith(captions[kind]));
+    assert.equal(await picture.locator("circle").count(), 3 * vertices[kind]); // at t = 0, t = 1, and between
+    assert.equal(await picture.locator("line.path").count(), vertices[kind]);
   }
+  for (const kind of Object.keys(vertices)) {
+    const { again, certificate, shrunk } = findings.find((each) => each.kind === kind);
+    assert.equal(JSON.parse(certificate).kind, kind);
+    assert.equal(shrunk.length, 6 * vertices[kind] + 1);
+    assert.throws(() => execFileSync(nearmiss, again.split(" ").slice(1), { cwd: join(folder, "vertices"), stdio: "pipe" }), { status: 1 });
+  }
+  assert.deepEqual(await page.locator("#counts tbody td:nth-child(2)").allTextContents(), ["vv", "ve"]);
+  const titles = await page.locator("#distances svg text").allTextContents();
+  for (const title of ["vertex-vertex", "vertex-edge"]) assert.ok(titles.some((text) => text.startsWith(title)), title);
   await page.close();
 }
 
