@@ -115,7 +115,9 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 template <class T>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
   const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };
-  const auto found = [](Stage stage, T t) { return Verdict::accepted(stage, static_cast<double>(t)); };
+  const auto found = [](Stage stage, T t) {
+    return Verdict::accepted(stage, static_cast<double>(t) + 0.0);  // no -0
+  };
 
   if (is_near(T(0))) return found(Stage::ve_end, T(0));
   if (is_near(T(1))) return found(Stage::ve_end, T(1));

@@ -241,20 +241,22 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span)
   return certify_first_contact(query, span, meeting, crossing);
 }
 
+/// The widths of intervals that contain a time, at which a search for a proof gives up, are 2^-5000 or less.
+constexpr unsigned most_bits = 5'000;
+
 /// The proof that the distance is h at the first such time, if that is rational, or soon after it, if the
 /// distance stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
-  constexpr int most_refinements = 60;
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
-  for (int i = 0; i < most_refinements; ++i, time.refine())
+  for (const Number least = exact::power_of_half(most_bits);; time.refine()) {
     if (auto text = meeting.at(mpq_class(CGAL::Gmpq(time.hi()).mpq()))) return text;
-  return std::nullopt;
+    if (time.hi() - time.lo() < least) return std::nullopt;
+  }
 }
 
 /// The proof that the distance is below h right after a time: at the first, second or third next multiple of
 /// 2^-bits.
 std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
-  constexpr unsigned most_bits = 5'000;
   for (unsigned bits = 4; bits < most_bits; bits *= 2) {
     while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();
     const mpq_class scaled = mpq_class(CGAL::Gmpq(after.lo()).mpq()) << bits;
