@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,8 @@ class CopiedPlugin {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       std::ifstream file(entry.path() / "cmdline", std::ios::binary);
-      const std::string arguments(std::istreambuf_iterator<char>(file), {});
+      std::string arguments;
+      std::getline(file, arguments, '\n');  // nothing if the process has just ended
       count += arguments.find(path_) != std::string::npos ? 1 : 0;
     }
     return count;

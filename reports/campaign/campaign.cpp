@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ccd/query/error.hpp"
+#include "reports/campaign/asked_queries.hpp"
 #include "reports/campaign/complexity.hpp"
 #include "reports/statistics/failure.hpp"
 #include "reports/text/text.hpp"
@@ -44,14 +45,13 @@ RunInfo original_of(RunInfo info) {
   return info;
 }
 
-/// The facts of a run that say what it was asked to do.
+}  // namespace
+
 RunInfo task_of(const RunInfo& info) {
   RunInfo task = original_of(info);
   std::erase_if(task, [](const auto& fact) { return says_which_code(fact.first); });
   return task;
 }
-
-}  // namespace
 
 bool says_which_code(std::string_view fact) {
   return fact == "version" || fact == "commit" || fact.starts_with(about_plugin);
@@ -151,14 +151,16 @@ class RunMerger {
   /// A plug-in's bytes and version may differ from night to night.
   void expect_known_names(const RunInfo& info, const std::string& name) {
     for (const auto& [about, value] : info) {
-      const bool is_plugin = about.starts_with(about_plugin) && about.ends_with(its_digest);
+      const bool is_plugin = about.starts_with(about_plugin) && about.ends_with(its_digest) &&
+                             about.size() > about_plugin.size() + its_digest.size();
       if (!is_plugin && !about.starts_with(about_subject)) continue;
       const std::string of_plugin = about.substr(0, about.size() - its_digest.size());
       const std::string subject =
           is_plugin ? of_plugin.substr(about_plugin.size()) : about.substr(about_subject.size());
       const std::string detector = fact(info, of_plugin + std::string(its_detector));
       const std::string stands_for =
-          is_plugin ? "the plug-in " + (detector.empty() ? subject : detector) : value;
+          is_plugin ? "the plug-in " + (detector.empty() ? subject.substr(0, subject.find(':')) : detector)
+                    : value;
       const auto& [other, other_name] = by_subject_.try_emplace(subject, stands_for, name).first->second;
       if (other != stands_for)
         throw Error(fmt::format("{}: found the name '{}' for {}, but for {} in {}, expected different names",
@@ -191,10 +193,12 @@ class RunMerger {
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names) {
   Statistics statistics;
   RunMerger runs;
+  AskedQueries asked;
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
     if (campaigns.size() > 1) expect_known_runs(campaigns[i], names[i]);
-    statistics.merge(campaigns[i].statistics);
     for (const Run& each : campaigns[i].runs) runs.add(each, names[i]);
+    asked.add(campaigns[i], names[i]);
+    statistics.merge(campaigns[i].statistics);
   }
   return {std::move(runs).merged(), std::move(statistics)};
 }

@@ -41,6 +41,9 @@ inline constexpr std::string_view about_subject = "subject ";
 /// and the commit of nearmiss, and the bytes and the version of each plug-in.
 bool says_which_code(std::string_view fact);
 
+/// The facts of a run that say what it was asked to do, not which code ran, or what was lost since.
+RunInfo task_of(const RunInfo& info);
+
 /// A fact that differs between two runs, and its two values; "" if a run does not have it. The command to
 /// repeat a run is not compared, because it repeats other facts.
 struct DifferentFact {

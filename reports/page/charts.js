@@ -84,15 +84,15 @@ function logAxis(values, written = "digits(datum.value, 3)") {
 /** The classes of families in the order of charts. */
 const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
-/** Whether a family is a step of a sweep; sweeps have charts of their own. */
-const isSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => {
-  const [base, separation] = name.split("~");
-  return family.startsWith(`${base}@`) && (separation === undefined || family.endsWith(`~${separation}`));
-});
+/** Whether a row is a step of a sweep of its subject; sweeps have charts of their own. */
+function isSweep({ subject, family }) {
+  const swept = family.replace(/@[^~]*/, "");
+  return swept !== family && Object.hasOwn(report.sweeps ?? {}, swept) && Object.hasOwn(report.sweeps[swept], subject);
+}
 
 /** Rates of random families except sweeps; cases and scenes are not random samples. */
 function rateRows() {
-  return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row.family))
+  return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row))
     .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],
       median: row.median_fp_distance_over_bound[1] }));
 }
@@ -138,7 +138,7 @@ function drawRates() {
 }
 
 /** The subjects' misses in each family with collisions, except sweeps. */
-const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row.family));
+const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row));
 
 /** The misses of all kinds together, by subject and family, with a text for each kind. */
 function missedByFamily() {

@@ -4,12 +4,15 @@
 // from counters.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <tuple>
 #include <utility>
+
+#include "ccd/query/error.hpp"
 
 namespace nearmiss {
 
@@ -55,7 +58,15 @@ constexpr bool declares_all_members() {
   return declared == sizeof(Owner);
 }
 
-inline void add_up(std::uint64_t& own, std::uint64_t other) { own += other; }
+/// The largest count that every reader of JSON reads exactly, among them the report's page.
+inline constexpr std::uint64_t most_counted = std::uint64_t{1} << 53U;
+
+/// Throws Error if the sum is greater than most_counted.
+inline void add_up(std::uint64_t& own, std::uint64_t other) {
+  if (other > most_counted - std::min(own, most_counted))
+    throw Error("found counts that add up to more than 2^53, expected fewer queries");
+  own += other;
+}
 
 template <std::size_t size>
 void add_up(std::array<std::uint64_t, size>& own, const std::array<std::uint64_t, size>& other) {

@@ -90,4 +90,11 @@ std::uint64_t Counts::faults_total() const {
   return std::accumulate(faults.begin(), faults.end(), std::uint64_t{0});
 }
 
+bool Counts::is_possible() const {
+  return collisions <= queries && faults_total() <= queries - collisions && positives <= queries &&
+         false_negatives <= collisions && false_positives <= positives && refuted_bounds <= false_positives &&
+         measured_by_wang <= false_positives && times_given <= collisions && times_promised <= times_given &&
+         late <= times_promised && stuck <= times_given;
+}
+
 }  // namespace nearmiss

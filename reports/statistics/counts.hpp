@@ -98,6 +98,9 @@ struct Counts {
   std::vector<FarCase> earliest;  ///< the times that are the earliest before t*, at most far_cases
   std::vector<FarCase> latest;    ///< the times that are the latest after t*, at most far_cases
 
+  /// Whether no counter exceeds the one of which it counts a part.
+  [[nodiscard]] bool is_possible() const;
+
   /// Lists every counter. To add a counter, declare it here and count it in add().
   static constexpr auto counters() {
     return std::tuple{

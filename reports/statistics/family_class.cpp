@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "reports/statistics/family_name.hpp"
 #include "reports/statistics/sums.hpp"
@@ -72,16 +73,21 @@ bool contains(const std::array<std::string_view, size>& names, std::string_view 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::optional<QueryClass> class_in_tables(std::string_view name) {
+  if (contains(ordinary, name)) return QueryClass::ordinary;
+  if (contains(degenerate, name)) return QueryClass::degenerate;
+  if (contains(extreme, name)) return QueryClass::extreme;
+  return std::nullopt;
+}
+
 }  // namespace
 
 QueryClass class_of(std::string_view family) {
+  if (family.starts_with("scene:")) return QueryClass::ordinary;
   const FamilyName name(family);
-  const std::string_view base = name.base;
-  if (family.starts_with("scene:") || contains(ordinary, base)) return QueryClass::ordinary;
-  if (contains(degenerate, base)) return QueryClass::degenerate;
-  if (contains(extreme, base)) return QueryClass::extreme;
   // The vertices and edges of a family have its class, unless a table names them.
-  return name.root == base ? QueryClass::unclassified : class_of(name.root);
+  const auto own = class_in_tables(name.base);
+  return own ? *own : class_in_tables(name.root).value_or(QueryClass::unclassified);
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {

@@ -8,8 +8,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
@@ -78,6 +81,17 @@ inline void from_json(const nlohmann::json& json, Extreme& extreme) {
   json.at("queries").get_to(extreme.queries);
 }
 
+/// Throws Error for a count that is too large to be one.
+template <class Counted>
+void expect_counted(const Counted& counted) {
+  if constexpr (std::is_same_v<Counted, std::uint64_t>) {
+    if (counted > most_counted)
+      throw Error(fmt::format("found the count {}, expected at most 2^53", counted));
+  } else if constexpr (requires { std::tuple_size<Counted>::value; }) {
+    for (const auto& each : counted) expect_counted(each);
+  }
+}
+
 /// Counters become an object with their names as keys.
 template <class Owner>
 requires requires { Owner::counters(); }
@@ -87,7 +101,12 @@ void to_json(nlohmann::json& json, const Owner& owner) {
 template <class Owner>
 requires requires { Owner::counters(); }
 void from_json(const nlohmann::json& json, Owner& owner) {
-  for_each_counter<Owner>([&](const auto& counter) { json.at(counter.name).get_to(owner.*counter.member); });
+  for_each_counter<Owner>([&](const auto& counter) {
+    json.at(counter.name).get_to(owner.*counter.member);
+    expect_counted(owner.*counter.member);
+  });
+  if constexpr (requires { owner.is_possible(); })
+    if (!owner.is_possible()) throw Error("found a counter that exceeds the one of which it counts a part");
 }
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Histogram, bins)

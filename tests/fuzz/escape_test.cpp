@@ -1,12 +1,16 @@
 // A plug-in that acts on the processes around it reaches none of them, with or without its own PID namespace.
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <sched.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -147,6 +151,32 @@ TEST_P(Containment, NoProcessCanBeTraced) {
   setenv("NEARMISS_ADDRESS", std::to_string(reinterpret_cast<std::uintptr_t>(&memory)).c_str(), 1);
   EXPECT_TRUE(refuses("escaping_trace"));
   EXPECT_EQ(memory, 0);
+}
+
+/// Whether the kernel has Landlock.
+bool has_landlock() { return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1) > 0; }
+
+TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
+  if (!GetParam() && !has_landlock()) GTEST_SKIP() << "found no Landlock";
+  const pid_t victim = fork();  // without privileges, it is a process as any other of an ordinary user
+  if (victim == 0) {
+    __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+    std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> none{};
+    syscall(SYS_capset, &header, none.data());
+    prctl(PR_SET_DUMPABLE, 1);
+    while (true) pause();
+  }
+  setenv("NEARMISS_PROCESS", std::to_string(victim).c_str(), 1);
+  setenv("NEARMISS_ADDRESS", "0", 1);
+  EXPECT_TRUE(refuses("escaping_trace"));
+  EXPECT_TRUE(refuses("escaping_schedule"));
+  kill(victim, SIGKILL);
+  waitpid(victim, nullptr, 0);
+}
+
+// The end of the group is the end of all, also of those that start others faster than they can be found.
+TEST_P(Containment, NoProcessLeavesTheGroupThatEndsWithThePlugin) {
+  EXPECT_TRUE(refuses("escaping_leave") || GetParam());  // all in a namespace end with it
 }
 
 TEST_P(Containment, APluginHasNoPrivilegesExceptOnFiles) { EXPECT_TRUE(refuses("escaping_privileges")); }

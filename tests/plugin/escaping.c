@@ -18,6 +18,7 @@
 #include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/plugin/one_by_one.h"
@@ -68,13 +69,21 @@ static int attempt(void) {
   done += setpriority(PRIO_PGRP, (id_t)getpgid(victim), 19) == 0;
   done += syscall(SYS_ioprio_set, 1, victim, 3 << 13) == 0;
   setpriority(PRIO_USER, 0, 19); /* of the processes that it sees */
+  for (int i = 0; i < 2; ++i) {
+    char path[64];
+    snprintf(path, sizeof path, "/proc/%d/%s", victim, i == 0 ? "autogroup" : "oom_score_adj");
+    done += open(path, O_WRONLY) >= 0;
+  }
   return done == 0;
 }
 #elif defined(TRACE)
 static int may_trace(pid_t victim) {
-  char path[64];
-  snprintf(path, sizeof path, "/proc/%d/mem", victim);
-  int done = open(path, O_RDWR) >= 0;
+  int done = 0;
+  for (int i = 0; i < 2; ++i) {
+    char path[64];
+    snprintf(path, sizeof path, "/proc/%d/%s", victim, i == 0 ? "mem" : "environ");
+    done += open(path, i == 0 ? O_RDWR : O_RDONLY) >= 0;
+  }
   char* const address = (char*)strtoul(getenv("NEARMISS_ADDRESS"), NULL, 0);
   char changed = 1;
   const struct iovec ours = {&changed, 1}, theirs = {address, 1};
@@ -105,6 +114,13 @@ static int attempt(void) {
   if (shmget(IPC_PRIVATE, 1 << 20, IPC_CREAT | 0600) < 0 || statvfs("/dev/shm", &all) != 0) return 0;
   const int file = shm_open("/nearmiss-left", O_CREAT | O_RDWR, 0600);
   return file >= 0 && posix_fallocate(file, 0, 1L << 31) == EFBIG && all.f_blocks * all.f_frsize == 1 << 30;
+}
+#elif defined(LEAVE)
+static int attempt(void) {
+  int status = 0;
+  const pid_t child = fork();
+  if (child == 0) _exit(setpgid(0, 0) == 0 || setsid() >= 0);
+  return waitpid(child, &status, 0) == child && status == 0;
 }
 #elif defined(NAMESPACE)
 static int attempt(void) {

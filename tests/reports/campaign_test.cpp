@@ -170,6 +170,66 @@ TEST(Campaign, ANameStandsForOneSubject) {
   EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
   campaigns[0].runs[0].info["plug-in x detector"] = "boxes";
   EXPECT_REFUSED(merge_campaigns(campaigns, names), "for the plug-in x, but for the plug-in boxes in a.db");
+  for (Campaign& each : campaigns) each.runs[0].info["plug-in boxes:t=0 sha256"] = "1";
+  campaigns[0].runs[0].info["plug-in boxes:t=0 detector"] = "boxes";  // was given as boxes=
+  campaigns[1].runs[0].info["plug-in x detector"] = "boxes";
+  campaigns[1].runs[0].info["plug-in sha256"] = "1";  // names none
+  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+}
+
+/// A run of seed 3 with families and a number of cases, which asked a subject queries of a family.
+Campaign asked(const std::string& families, const std::string& cases, const CountsKey& key) {
+  const RunInfo facts{{"command", "fuzz"}, {"seed", "3"}, {"families", families}, {"cases", cases}};
+  Campaign campaign{{{facts, {{.index = 0, .complete = true}}, {}}}, {}};
+  campaign.statistics.counts[key].queries = 10;
+  return campaign;
+}
+
+TEST(Campaign, TheSameQueriesDoNotCountTwice) {
+  const CountsKey uniform{"wang", Kind::edge_edge, "uniform"};
+  const std::vector<std::string> names{"a.db", "b.db"};
+  const auto merge = [&](const Campaign& one, const Campaign& other) {
+    return merge_campaigns(std::vector{one, other}, names);
+  };
+  const Campaign some = asked("uniform", "300", uniform);
+  for (const char* families : {"uniform", "all", "needle,uniform", "uniform, search"})
+    EXPECT_ERROR(
+        merge(some, asked(families, "301", uniform)),
+        "b.db: found queries of uniform with seed 3 that wang was asked in a.db, too, expected another seed");
+  const CountsKey searched{"wang", Kind::edge_edge, "search-miss-wang"};
+  EXPECT_REFUSED(merge(asked("uniform, search", "1", searched), asked("needle, search", "1", searched)),
+                 "queries of search-miss-wang with seed 3");
+  for (const CountsKey& other :
+       {CountsKey{"basic", Kind::edge_edge, "uniform"}, CountsKey{"wang", Kind::vertex_triangle, "uniform"},
+        CountsKey{"wang", Kind::edge_edge, "uniform~0.5"}, CountsKey{"wang", Kind::edge_edge, "uniform@1"}})
+    EXPECT_EQ(merge(some, asked("uniform", "301", other)).runs.size(), 2) << other.family;
+  EXPECT_EQ(merge(some, asked("needle", "301", uniform)).runs.size(), 2);  // the queries are of another run
+  Campaign other_seed = asked("uniform", "301", uniform);
+  other_seed.runs[0].info["seed"] = "4";
+  EXPECT_EQ(merge(some, other_seed).runs.size(), 2);
+  Campaign shard = some;
+  shard.runs[0].shards = {{.index = 1, .count = 2}};
+  Campaign first = some;
+  first.runs[0].shards[0].count = 2;
+  EXPECT_EQ(merge(first, shard).runs.size(), 1);
+}
+
+TEST(Campaign, TheSameMeshIsTheSameQueries) {
+  const CountsKey mesh{"wang", Kind::edge_edge, "mesh"};
+  std::vector campaigns{asked("mesh", "1", mesh), asked("mesh", "2", mesh)};
+  const std::vector<std::string> names{"a.db", "b.db"};
+  EXPECT_REFUSED(merge_campaigns(campaigns, names), "queries of mesh");
+  campaigns[0].runs[0].info["scene"] = "start.obj end.obj";
+  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+}
+
+TEST(Campaign, CountsThatDoNotFitAreRefused) {
+  const CountsKey key{"wang", Kind::edge_edge, "cases/"};
+  std::vector campaigns{asked("uniform", "1", key), asked("uniform", "2", key)};
+  for (Campaign& each : campaigns) each.statistics.counts[key].queries = most_counted / 2 + 1;
+  const std::vector<std::string> names{"a.db", "b.db"};
+  EXPECT_ERROR(merge_campaigns(campaigns, names),
+               "found counts that add up to more than 2^53, expected fewer queries");
 }
 
 /// Shards 0 and 1 of a run, which have different values of this fact.

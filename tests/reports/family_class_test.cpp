@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/summary.hpp"
@@ -21,6 +23,14 @@ TEST(FamilyClass, IsThatOfTheNameWithoutItsParameter) {
   EXPECT_EQ(class_of("grazing"), QueryClass::degenerate);
   EXPECT_EQ(class_of("scale"), QueryClass::extreme);
   EXPECT_EQ(class_of("scale@-1074"), QueryClass::extreme);
+}
+
+TEST(FamilyClass, OfVerticesAndEdgesIsThatOfTheirFamily) {
+  EXPECT_EQ(class_of("v-scale@3~drawn"), QueryClass::extreme);
+  EXPECT_EQ(class_of("v-one-point"), QueryClass::extreme);  // unlike that of "one-point"
+  std::string name;                                         // a forged store may have any
+  for (int i = 0; i < 300'000; ++i) name += "v-";
+  EXPECT_EQ(class_of(name + "scale"), QueryClass::unclassified);
 }
 
 TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {

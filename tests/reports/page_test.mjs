@@ -1,7 +1,7 @@
 // Opens reports in Chromium as a user does, and checks what is drawn. Usage: page_test.mjs NEARMISS
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
 import { hasNoBarriers, staysQuickWithManyFindings } from "./page/access.mjs";
-import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSubjectsWithTheNamesOfMembers, showsSweepsOfWhatIsNeverWrong, showsValuesOfOptions, showsWhatDecides, showsWhereCollisionsAreMissed } from "./page/charts.mjs";
+import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSubjectsWithTheNamesOfMembers, showsASingleValueBesideASweep, showsSweepsOfWhatIsNeverWrong, showsValuesOfOptions, showsWhatDecides, showsWhereCollisionsAreMissed } from "./page/charts.mjs";
 import { showsFindings, showsVersions, showsVerticesAndEdges, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
 import { answersBeforeScrolling } from "./page/first_screen.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
@@ -28,6 +28,7 @@ try {
   await showsSeparations(browser);
   await showsWhichTimesAreLate(browser);
   await showsSweeps(browser);
+  await showsASingleValueBesideASweep(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);
   await showsSubjectsWithTheNamesOfMembers(browser);
   await showsValuesOfOptions(browser);

@@ -10,7 +10,7 @@ void close_files();
 void forbid_core_dumps();
 
 /// When the system or a cgroup is out of memory, it ends the process or one of its descendants first. They can
-/// undo that where /proc can be written to, that is, without namespaces of their own.
+/// undo that only where neither a namespace nor Landlock keeps them from writing to /proc.
 void be_ended_first_for_want_of_memory();
 
 /// Limits the processes and threads of the user to `more` above their present number. The limit binds this

@@ -1,10 +1,12 @@
 #include "fuzz/subjects/isolation/worker/privileges.hpp"
 
 #include <asm/ioctls.h>
+#include <dirent.h>
 #include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/capability.h>
 #include <linux/filter.h>
+#include <linux/landlock.h>
 #include <linux/seccomp.h>
 #include <linux/sockios.h>
 #include <sys/prctl.h>
@@ -16,6 +18,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <initializer_list>
+#include <string_view>
 #include <vector>
 
 namespace nearmiss::isolation {
@@ -134,7 +137,28 @@ void confine_to_itself() {
   // The owner of an open file gets signals, which the process that sets the owner can choose.
   for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
   for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
+  // One signal to the process group reaches all that it has started.
+  for (const int call : {SYS_setsid, SYS_setpgid}) filter.forbid(call);
   filter.apply();
+}
+
+void keep_out_of_other_processes() {
+  const landlock_ruleset_attr wanted{.handled_access_fs = LANDLOCK_ACCESS_FS_WRITE_FILE};
+  const auto rules = static_cast<int>(syscall(SYS_landlock_create_ruleset, &wanted, sizeof wanted, 0));
+  if (rules < 0) return;
+  DIR* const root = opendir("/");
+  while (const dirent* entry = root == nullptr ? nullptr : readdir(root)) {
+    const std::string_view name = entry->d_name;
+    if (name == "." || name == ".." || name == "proc") continue;
+    const int parent = openat(dirfd(root), entry->d_name, O_PATH | O_CLOEXEC);
+    const landlock_path_beneath_attr rule{.allowed_access = LANDLOCK_ACCESS_FS_WRITE_FILE,
+                                          .parent_fd = parent};
+    syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+    close(parent);
+  }
+  if (root != nullptr) closedir(root);
+  syscall(SYS_landlock_restrict_self, rules, 0);
+  close(rules);
 }
 
 }  // namespace nearmiss::isolation

@@ -9,9 +9,14 @@ namespace nearmiss::isolation {
 void drop_privileges();
 
 /// Limits this process, and all that it starts: they can send signals only to this process, cannot change the
-/// priority, processors or limits of any other process, and cannot trace any. Meant for a process without a
-/// PID namespace of its own. Call drop_privileges() first; no privilege is needed. Does nothing if the kernel
-/// has no such filters, or on other machines than x86-64 and AArch64.
+/// priority, processors or limits of any other process, cannot trace any, and cannot leave their process group.
+/// Meant for a process without a PID namespace of its own. Call drop_privileges() first; no privilege is
+/// needed. Does nothing if the kernel has no such filters, or on other machines than x86-64 and AArch64.
 void confine_to_itself();
+
+/// Keeps this process, and all that it starts, from the memory, environment and files of every other process,
+/// which /proc shows to processes of the same user, and from writing to /proc. New files directly in / cannot
+/// be written to, either. Call drop_privileges() first; does nothing if the kernel has no Landlock.
+void keep_out_of_other_processes();
 
 }  // namespace nearmiss::isolation

@@ -53,12 +53,17 @@ sigset_t end_of_child() {
   return signals;
 }
 
-/// Reaps all children that have ended, also adopted orphans. Returns how `process` ended, if it did.
+/// Reaps all children that have ended, also adopted orphans. Returns how `process` ended, if it did; then ends
+/// its process group, too.
 std::optional<siginfo_t> end_of(pid_t process) {
   std::optional<siginfo_t> end;
   siginfo_t how{};
-  while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG) == 0 && how.si_pid != 0) {
-    if (how.si_pid == process) end = how;
+  while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0) {
+    if (how.si_pid == process) {
+      end = how;
+      kill(-process, SIGKILL);  // before it is reaped: until then, no other group can have its number
+    }
+    waitpid(how.si_pid, nullptr, 0);
     how.si_pid = 0;
   }
   return end;
@@ -89,6 +94,7 @@ int run_plugin(const Assignment& work) {
   tell({.code = 0, .status = 0, .is_in_namespace = work.own_namespace ? 1 : 0});
   close(status_socket);
   drop_privileges();
+  keep_out_of_other_processes();
   if (!work.own_namespace) confine_to_itself();
   prctl(PR_SET_DUMPABLE, 1);
   return answer_requests(work.plugin, work.bytes);
@@ -110,7 +116,7 @@ int supervise(const Assignment& work) {
   const auto end = watch(process);
   if (end) tell({.code = end->si_code, .status = end->si_status, .is_in_namespace = 0});
   if (!work.own_namespace) {
-    if (!end) kill(process, SIGKILL);
+    if (!end && kill(-process, SIGKILL) != 0) kill(process, SIGKILL);  // it has no group of its own yet
     end_descendants();
   }
   _exit(0);

@@ -256,7 +256,7 @@ def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
     if len(set(names)) != len(names):
         raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
     for name in names:
-        if not name.isprintable():  # this also refuses a lone surrogate, which cannot be written
+        if not str.isprintable(name):  # this also refuses a lone surrogate, which cannot be written
             raise ValueError(f'found the name {name!r}, expected printable characters')
     return chosen
 
@@ -274,7 +274,7 @@ def _family(name: Any) -> str:
     """The name of a family, which the extension knows or refuses."""
     if not isinstance(name, str):
         raise TypeError(f'found the family {name!r}, expected a name')
-    if not name.isprintable():
+    if not str.isprintable(name):
         raise ValueError(f'found the family {name!r}, expected printable characters')
     return name
 

@@ -1,0 +1,30 @@
+// Whether campaigns that are added up asked a subject the same random queries, which would count twice.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "reports/campaign/campaign.hpp"
+
+namespace nearmiss {
+
+class AskedQueries {
+ public:
+  /// Adds a campaign, whose store has this name. Throws Error if a run of a campaign that was added before had
+  /// the same seed and asked the same subject queries of the same family. Shards of one run ask different ones.
+  void add(const Campaign& campaign, const std::string& name);
+
+ private:
+  /// What runs of one task asked.
+  struct Asked {
+    RunInfo task;
+    std::string mesh;  ///< the files of the family "mesh", if it was asked
+    std::string name;
+    std::set<CountsKey> keys;
+  };
+  std::map<std::string, std::vector<Asked>> by_seed_;
+};
+
+}  // namespace nearmiss
