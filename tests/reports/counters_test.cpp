@@ -56,10 +56,15 @@ Owner filled(std::uint64_t last = 0) {
   return owner;
 }
 
-/// Counters with distinct values, and with more queries than faults and collisions.
-Counts filled_counts() {
-  auto counts = filled<Counts>();
+/// Counters with distinct values, none of which exceeds the one of which it counts a part.
+Counts filled_counts(std::uint64_t last = 0) {
+  auto counts = filled<Counts>(last);
   counts.queries = 1000000;
+  counts.collisions = 100000;
+  counts.positives = 100001;
+  counts.false_positives = 50000;
+  counts.times_given = 40000;
+  counts.times_promised = 30000;
   return counts;
 }
 
@@ -118,8 +123,8 @@ class CountersTest : public testing::TemporaryFolder {};
 
 TEST_F(CountersTest, EachComesBackFromTheStore) {
   auto statistics = filled<Statistics>();
-  statistics.counts[{"wang", Kind::vertex_triangle, "f"}] = filled<Counts>();
-  statistics.counts[{"wang", Kind::edge_edge, "f"}] = filled<Counts>(5000);
+  statistics.counts[{"wang", Kind::vertex_triangle, "f"}] = filled_counts();
+  statistics.counts[{"wang", Kind::edge_edge, "f"}] = filled_counts(5000);
   statistics.oracle[{Kind::edge_edge, "f"}] = filled<OracleCounts>();
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = filled<Funnel>();
   write_campaign({{}, statistics}, file("a.db"));

@@ -30,6 +30,7 @@ inline Statistics some_statistics(const std::string& subject) {
   oracle.by_stage[2] = 2;
   oracle.near_bounds = 2;
   counts.faults = {0, 1, 2, 3, 4};
+  counts.queries += counts.faults_total();
   for (const std::uint64_t time : {100U, 3U, 7000U})
     counts.times.add(time, stored_query, [] { return "slow"; });
   oracle.compared = 1;
