@@ -256,9 +256,8 @@ def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
     if len(set(names)) != len(names):
         raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
     for name in names:
-        if not str.isprintable(
-            name
-        ):  # this also refuses a lone surrogate, which cannot be written
+        # This also refuses a lone surrogate, which cannot be written.
+        if not str.isprintable(name):
             raise ValueError(f'found the name {name!r}, expected printable characters')
     return chosen
 
