@@ -14,9 +14,9 @@ function drawErrorTime() {
   return ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach();
 }
 
-/** The position of a value on a logarithmic axis: 0 at one end, 1 at the other. */
-const partOfAxis = (value, [from, to]) => Math.log(value / from) / Math.log(to / from);
-const atPartOfAxis = (part, [from, to]) => from * (to / from) ** part;
+/** The position of a value on a logarithmic axis: 0 at one end, 1 at the other. The ratio of the ends may overflow. */
+const partOfAxis = (value, [from, to]) => (Math.log(value) - Math.log(from)) / (Math.log(to) - Math.log(from));
+const atPartOfAxis = (part, [from, to]) => Math.exp((1 - part) * Math.log(from) + part * Math.log(to));
 
 /**
  * Layers with the names of points in a chart with logarithmic axes. A line joins a point to its name unless
