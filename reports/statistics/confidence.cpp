@@ -5,6 +5,7 @@
 #include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <utility>
 
 namespace nearmiss {
 
@@ -12,15 +13,26 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<>;
 
+/// Boost's functions do not converge for many more trials. Fewer trials with the same rate have wider intervals,
+/// and larger p-values.
+constexpr double most_trials = 0x1p40;
+
+/// Trials and successes, scaled down to at most `most_trials`.
+std::pair<double, double> scaled(std::uint64_t total, std::uint64_t count) {
+  const double factor = std::min(1.0, most_trials / static_cast<double>(total));
+  return {factor * static_cast<double>(total), factor * static_cast<double>(count)};
+}
+
 double upper(std::uint64_t count, std::uint64_t total, double risk) {
   if (count >= total) return 1;
-  return Binomial::find_upper_bound_on_p(static_cast<double>(total), static_cast<double>(count), risk);
+  const auto [trials, successes] = scaled(total, count);
+  return Binomial::find_upper_bound_on_p(trials, successes, risk);
 }
 
 double lower(std::uint64_t count, std::uint64_t total, double risk) {
   if (count == 0 || total == 0) return 0;
-  return Binomial::find_lower_bound_on_p(static_cast<double>(total),
-                                         static_cast<double>(std::min(count, total)), risk);
+  const auto [trials, successes] = scaled(total, std::min(count, total));
+  return Binomial::find_lower_bound_on_p(trials, successes, risk);
 }
 
 }  // namespace
@@ -51,10 +63,11 @@ ExactTest fisher_test(const Proportion& now, const Proportion& before) {
   if (counted == 0 || counted == total || now.total == 0 || before.total == 0) return {};
   constexpr std::uint64_t largest_total = 1ULL << 31;
   constexpr std::uint64_t most_counted = 1000000;
-  if (total > largest_total || counted > most_counted)
-    return tails(
-        Binomial(static_cast<double>(counted), static_cast<double>(now.total) / static_cast<double>(total)),
-        static_cast<double>(now.count), 0.0);
+  if (total > largest_total || counted > most_counted) {
+    const auto [trials, successes] = scaled(counted, now.count);
+    return tails(Binomial(trials, static_cast<double>(now.total) / static_cast<double>(total)),
+                 std::round(successes), 0.0);
+  }
   const auto number = [](std::uint64_t n) { return static_cast<unsigned>(n); };
   const boost::math::hypergeometric_distribution<> drawn(number(counted), number(now.total), number(total));
   const std::uint64_t least = counted > before.total ? counted - before.total : 0;
@@ -72,7 +85,8 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     seen += static_cast<double>(now.count);
   }
   if (std::abs(seen - expected) < 1) return {};  // too near for the theorem, so both p-values are 1
-  return tails(Binomial(trials, expected / trials), seen, 0.0);
+  const double factor = std::min(1.0, most_trials / trials);
+  return tails(Binomial(factor * trials, expected / trials), std::round(factor * seen), 0.0);
 }
 
 }  // namespace nearmiss

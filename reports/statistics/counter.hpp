@@ -58,19 +58,19 @@ constexpr bool declares_all_members() {
   return declared == sizeof(Owner);
 }
 
-/// The largest count that every reader of JSON reads exactly, among them the report's page.
-inline constexpr std::uint64_t most_counted = std::uint64_t{1} << 53U;
+/// The largest sum of counts or of nanoseconds (36 years). A few such sums add up without overflow.
+inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
-/// Throws Error if the sum is greater than most_counted.
+/// Throws Error if the sum is greater than largest_count.
 inline void add_up(std::uint64_t& own, std::uint64_t other) {
-  if (other > most_counted - std::min(own, most_counted))
-    throw Error("found counts that add up to more than 2^53, expected fewer queries");
+  if (other > largest_count - std::min(own, largest_count))
+    throw Error("found counts that add up to more than 2^60, expected fewer queries");
   own += other;
 }
 
 template <std::size_t size>
 void add_up(std::array<std::uint64_t, size>& own, const std::array<std::uint64_t, size>& other) {
-  for (std::size_t i = 0; i < size; ++i) own[i] += other[i];
+  for (std::size_t i = 0; i < size; ++i) add_up(own[i], other[i]);
 }
 
 template <class Merges>

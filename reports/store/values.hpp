@@ -85,8 +85,8 @@ inline void from_json(const nlohmann::json& json, Extreme& extreme) {
 template <class Counted>
 void expect_counted(const Counted& counted) {
   if constexpr (std::is_same_v<Counted, std::uint64_t>) {
-    if (counted > most_counted)
-      throw Error(fmt::format("found the count {}, expected at most 2^53", counted));
+    if (counted > largest_count)
+      throw Error(fmt::format("found the count {}, expected at most 2^60", counted));
   } else if constexpr (requires { std::tuple_size<Counted>::value; }) {
     for (const auto& each : counted) expect_counted(each);
   }

@@ -215,21 +215,59 @@ TEST(Campaign, TheSameQueriesDoNotCountTwice) {
 }
 
 TEST(Campaign, TheSameMeshIsTheSameQueries) {
-  const CountsKey mesh{"wang", Kind::edge_edge, "mesh"};
-  std::vector campaigns{asked("mesh", "1", mesh), asked("mesh", "2", mesh)};
   const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_REFUSED(merge_campaigns(campaigns, names), "queries of mesh");
-  campaigns[0].runs[0].info["scene"] = "start.obj end.obj";
-  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  for (const std::string family : {"mesh", "mesh~0.5"}) {
+    const CountsKey mesh{"wang", Kind::edge_edge, family};
+    std::vector campaigns{asked("mesh", "1", mesh), asked("mesh", "2", mesh)};
+    EXPECT_REFUSED(merge_campaigns(campaigns, names), "queries of mesh");
+    campaigns[0].runs[0].info["scene"] = "start.obj end.obj";
+    EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  }
+}
+
+// The facts of its runs say what each run of a merged store asked.
+TEST(Campaign, AMergedStoreIsMergedAgain) {
+  const auto run = [](const std::string& subject, const std::string& given, const std::string& seed,
+                      Kind kind) {
+    Campaign made = asked("uniform", "1", {subject, kind, "uniform"});
+    made.runs[0].info["seed"] = seed;
+    made.runs[0].info["subjects"] = given;
+    made.runs[0].info["kinds"] = short_name(kind);
+    return made;
+  };
+  const std::vector<std::string> names{"a.db", "b.db"};
+  const auto merge = [&](const Campaign& one, const Campaign& other) {
+    return merge_campaigns(std::vector{one, other}, names);
+  };
+  const Campaign one = run("wang", "wang", "1", Kind::edge_edge);
+  const Campaign other = run("x", "exact,x=basic", "1", Kind::edge_edge);
+  EXPECT_EQ(merge(merge(one, run("x", "x=basic", "2", Kind::edge_edge)), other).runs.size(), 3);
+  EXPECT_EQ(merge(merge(one, run("wang", "wang", "2", Kind::vertex_edge)),
+                  run("wang", "wang", "1", Kind::vertex_edge))
+                .runs.size(),
+            3);
+  EXPECT_REFUSED(merge(merge(one, other), run("x", "x=basic", "1", Kind::edge_edge)), "seed 1 that x was");
+  EXPECT_REFUSED(merge(run("boxes", "./boxes.so", "1", Kind::edge_edge),
+                       run("boxes", "y=/a=b.so,./boxes.so", "1", Kind::edge_edge)),
+                 "seed 1 that boxes was");
+}
+
+TEST(Campaign, TheSameSeparationMayBeWrittenDifferently) {
+  const auto with = [](const std::string& cases, const std::string& separation) {
+    return asked("uniform", cases, {"wang", Kind::edge_edge, "uniform~" + separation});
+  };
+  const std::vector<std::string> names{"a.db", "b.db"};
+  EXPECT_REFUSED(merge_campaigns(std::vector{with("1", "0.1"), with("2", "0.10")}, names), "of uniform~0.1");
+  EXPECT_EQ(merge_campaigns(std::vector{with("1", "0.1"), with("2", "drawn")}, names).runs.size(), 2);
 }
 
 TEST(Campaign, CountsThatDoNotFitAreRefused) {
   const CountsKey key{"wang", Kind::edge_edge, "cases/"};
   std::vector campaigns{asked("uniform", "1", key), asked("uniform", "2", key)};
-  for (Campaign& each : campaigns) each.statistics.counts[key].queries = most_counted / 2 + 1;
+  for (Campaign& each : campaigns) each.statistics.counts[key].queries = largest_count / 2 + 1;
   const std::vector<std::string> names{"a.db", "b.db"};
   EXPECT_ERROR(merge_campaigns(campaigns, names),
-               "found counts that add up to more than 2^53, expected fewer queries");
+               "found counts that add up to more than 2^60, expected fewer queries");
 }
 
 /// Shards 0 and 1 of a run, which have different values of this fact.
