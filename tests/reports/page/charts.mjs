@@ -27,9 +27,9 @@ export async function showsSweeps(browser) {
 /** A subject that was asked one value of a parameter, or one with a separation, has no sweep: its misses are among the others. */
 export async function showsASingleValueBesideASweep(browser) {
   const family = "end-contact@1";
-  run("fuzz", "--subject", "basic", "--cases", "200", "--no-shrink", "--family", family, "--db", "one.db");
-  run("fuzz", "--subject", "wang", "--cases", "200", "--no-shrink", "--seed", "2", "--family", `${family},end-contact@3,v-stiff@1`, "--db", "two.db");
-  run("report", "one.db", "two.db", "-o", "single");
+  run("fuzz", "--subject", "basic", "--cases", "200", "--no-shrink", "--family", family, "--db", "single-basic.db");
+  run("fuzz", "--subject", "wang", "--cases", "200", "--no-shrink", "--seed", "2", "--family", `${family},end-contact@3,v-stiff@1`, "--db", "single-wang.db");
+  run("report", "single-basic.db", "single-wang.db", "-o", "single");
   assert.ok(jsonOf("single").subjects.basic.vt.families[family].false_negatives > 0);
   const page = await open(browser, pageOf("single"));
   const rows = await page.evaluate(() => countRows(true).filter((row) => !isSweep(row)).map(({ subject, family: of }) => `${subject} ${of}`));
