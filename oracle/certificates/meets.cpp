@@ -241,7 +241,7 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span)
   return certify_first_contact(query, span, meeting, crossing);
 }
 
-/// The widths of intervals that contain a time, at which a search for a proof gives up, are 2^-5000 or less.
+/// A search for a proof gives up when its time is known to about this many bits.
 constexpr unsigned most_bits = 5'000;
 
 /// The proof that the distance is h at the first such time, if that is rational, or soon after it, if the

@@ -17,7 +17,7 @@ class AskedQueries {
   void add(const Campaign& campaign, const std::string& name);
 
  private:
-  /// What runs of one task asked.
+  /// The queries that the runs of one task asked.
   struct Asked {
     RunInfo task;
     std::string mesh;  ///< the files of the family "mesh", if it was asked

@@ -18,9 +18,12 @@ using Binomial = boost::math::binomial_distribution<>;
 constexpr double most_trials = 0x1p40;
 
 /// Trials and successes, scaled down to at most `most_trials`.
+std::pair<double, double> scaled(double trials, double successes) {
+  const double factor = std::min(1.0, most_trials / trials);
+  return {factor * trials, factor * successes};
+}
 std::pair<double, double> scaled(std::uint64_t total, std::uint64_t count) {
-  const double factor = std::min(1.0, most_trials / static_cast<double>(total));
-  return {factor * static_cast<double>(total), factor * static_cast<double>(count)};
+  return scaled(static_cast<double>(total), static_cast<double>(count));
 }
 
 double upper(std::uint64_t count, std::uint64_t total, double risk) {
@@ -85,8 +88,8 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     seen += static_cast<double>(now.count);
   }
   if (std::abs(seen - expected) < 1) return {};  // too near for the theorem, so both p-values are 1
-  const double factor = std::min(1.0, most_trials / trials);
-  return tails(Binomial(factor * trials, expected / trials), std::round(factor * seen), 0.0);
+  const auto [of, successes] = scaled(trials, seen);
+  return tails(Binomial(of, expected / trials), std::round(successes), 0.0);
 }
 
 }  // namespace nearmiss

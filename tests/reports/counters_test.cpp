@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "reports/store/store.hpp"
 #include "reports/text/json.hpp"
 #include "tests/queries.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
@@ -129,6 +131,21 @@ TEST_F(CountersTest, EachComesBackFromTheStore) {
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = filled<Funnel>();
   write_campaign({{}, statistics}, file("a.db"));
   EXPECT_EQ(load_campaign(file("a.db")).statistics, statistics);
+}
+
+TEST_F(CountersTest, ACounterIsNotMoreThanWhatItIsAPartOf) {
+  const auto refused = [&](std::uint64_t Counts::*counter, std::uint64_t value, const std::string& words) {
+    Campaign one{{{}}, {}};
+    one.statistics.counts[{"wang", Kind::edge_edge, "uniform"}].*counter = value;
+    const std::string name = file(std::to_string(value) + ".db");
+    write_campaign(one, name);
+    EXPECT_REFUSED(load_campaign(name), words);
+    std::filesystem::remove(name);
+  };
+  for (const auto counter : {&Counts::collisions, &Counts::positives, &Counts::false_negatives, &Counts::late,
+                             &Counts::false_positives, &Counts::refuted_bounds, &Counts::stuck})
+    refused(counter, 1, "found a counter that exceeds the one of which it counts a part");
+  refused(&Counts::queries, largest_count + 1, "found the count 1152921504606846977, expected at most 2^60");
 }
 
 template <class Owner>
