@@ -45,14 +45,12 @@ class BuiltInSubject final : public Subject {
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     const PlainArithmetic guard;
     if constexpr (is_batched) {
-      if (!given_) {
-        wang_in_lanes(QueryRows(queries), verdicts);
-        for (std::size_t i = 0; i < queries.size(); ++i)
-          if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
-        return;
-      }
+      wang_in_lanes(QueryRows(queries), verdicts, given_);
+      for (std::size_t i = 0; i < queries.size(); ++i)
+        if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
+    } else {
+      for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide_plainly(queries[i]);
     }
-    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide_plainly(queries[i]);
   }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {

@@ -65,6 +65,26 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
+// Forms the pair's own B, and puts a given B in its place. Returns whether `wang_tests` can decide the pair
+// as it is. If not, `wang_careful` decides it, or throws Error because the given B is too small.
+//
+// Both bounds must be in range, the given one at least as large as the pair's own, and all vectors within B.
+// Then `wang_careful` would give the same verdict, since it would change neither the frame nor the order of
+// end points. It would keep the frame only if all vectors are finite, but they are: the pair's own B is not
+// in range if an edge or a velocity is infinite, p is within B, and a velocity is NaN only if a position is
+// infinite.
+template <Kind kind, class T>
+auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
+  form_bound(pair);
+  auto is_plain = in_range(pair.B);
+  if (given) {
+    const T own = pair.B;
+    pair.B = static_cast<T>(*given);
+    is_plain = is_plain & in_range(pair.B) & (own <= pair.B);
+  }
+  return is_plain & within_reach(pair);
+}
+
 // The sum of the squared components of p, q and r, in a fixed order, as in `dot`.
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
@@ -75,8 +95,9 @@ T sum_of_squares(const Pair<kind, T>& pair) {
   return ((squares(0) + squares(1)) + (squares(2) + squares(3))) + (squares(4) + squares(5));
 }
 
-// Whether |F| provably stays above μ, without knowing B. If so, solve_cubic finds no root, and no further
-// test is needed.
+// Whether |F| provably stays above μ, without knowing the pair's own B. If so, solve_cubic finds no root, and
+// no further test is needed. This is not for a given B: its μ may be larger, and the pair's own B is needed
+// to check that the given one is not smaller. solve_cubic then compares the clearance with the given B's μ.
 //
 // Let s be the sum of all squared components of p, q and r, with the part s_x of the positions and s_v of the
 // velocities. The bounds in motion.hpp satisfy E <= √2 √s_x, since an edge is the difference of at most two
@@ -123,7 +144,8 @@ template <Kind kind, class T, WangOptions options, class Rule>
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
 }
 
-// Algorithms 3 and 4 for a pair that has a given B (§5), or needs another frame or order of end points.
+// Algorithms 3 and 4 for a pair that may need another frame or order of end points. A given B (§5) that is
+// smaller than the pair's own throws Error.
 template <Kind kind, class T, WangOptions options, class Rule>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
                                        const Rule& tolerances) {
@@ -148,8 +170,7 @@ Verdict wang(const Query& query, const std::optional<double>& given = std::nullo
   const Cubic<T> F = coplanarity(pair);
   if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, tolerances))
     return Verdict::rejected(Rejection::no_root);
-  detail::form_bound(pair);
-  if (given || !in_range(pair.B) || !within_reach(pair))
+  if (!detail::take_bound(pair, given))
     return detail::wang_careful<kind, T, options>(query, given, tolerances);
   return detail::wang_tests<kind, T, options>(query, pair, F, tolerances);
 }

@@ -2,8 +2,9 @@
 
 namespace nearmiss {
 
-[[gnu::flatten]] void wang_with_avx2(const QueryRows& queries, Verdict* verdicts) {
-  decide_batch<4>(queries, verdicts);
+[[gnu::flatten]] void wang_with_avx2(const QueryRows& queries, Verdict* verdicts,
+                                     const std::optional<double>& given) {
+  decide_batch<4>(queries, verdicts, given);
 }
 
 }  // namespace nearmiss

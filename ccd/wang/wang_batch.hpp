@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "ccd/query/instructions.hpp"
@@ -16,17 +17,19 @@ constexpr bool is_decided(const Verdict& verdict) {
   return verdict.hit || verdict.rejection != Rejection::untold;
 }
 
-/// Gives the verdicts of `wang` (wang.hpp), with each pair's own bound, on those queries that need no
-/// vertex-edge tests, no other frame and no other order of end points. All others, those without a triangle or
-/// two edges, and queries with a coordinate that is not finite, are left undecided.
+/// Gives the verdicts of `wang` (wang.hpp), with each pair's own bound or a given one, on those queries that
+/// need no vertex-edge tests, no other frame and no other order of end points. All others, those without a
+/// triangle or two edges, those whose own bound exceeds the given one, and queries with a coordinate that is
+/// not finite, are left undecided.
 void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
+                   const std::optional<double>& given = std::nullopt,
                    Instructions instructions = chosen_instructions());
 
 /// The largest number of queries in a batch, whose intermediate results fit into the nearest caches.
 inline constexpr std::size_t wang_batch_size = 128;
 
 /// Decides a batch as wang_in_lanes does, with one instruction set.
-using WangBatch = void(const QueryRows& queries, Verdict* verdicts);
+using WangBatch = void(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given);
 
 WangBatch wang_with_sse2;
 WangBatch wang_with_avx2;    ///< requires has(Instructions::avx2)

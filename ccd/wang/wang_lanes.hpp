@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "ccd/query/lanes.hpp"
 #include "ccd/wang/cubic.hpp"
@@ -28,7 +29,8 @@ namespace nearmiss {
 template <int n, Kind kind>
 class WangLanes {
  public:
-  WangLanes(const QueryRows& queries, Verdict* verdicts) : queries_(queries), verdicts_(verdicts) {}
+  WangLanes(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given)
+      : queries_(queries), verdicts_(verdicts), given_(given) {}
 
   /// Decides the queries of kind `kind` in a batch of at most `wang_batch_size`, and returns their number.
   std::size_t run() {
@@ -131,18 +133,19 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose F stays clear of 0. Keeps F, W and B of those other pairs that need no other
-  /// frame or order.
+  /// Rejects the pairs whose F stays clear of 0, as keeps_clear and solve_cubic do. Keeps F, W and B of those
+  /// other pairs that need no other frame or order.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;
       form_vectors(points([&](std::size_t lane) { return rows[i + lane]; }), pair);
       const Cubic<Real> F = coplanarity(pair);
-      const auto is_clear = each(detail::keeps_clear(pair, F, PaperTolerances{}));
-      detail::form_bound(pair);
       // If the sum of squares is in range, all vectors are finite.
-      const auto is_plain =
-          each(Mask(in_range(detail::sum_of_squares(pair)) & in_range(pair.B) & within_reach(pair)));
+      const Mask plain = in_range(detail::sum_of_squares(pair)) & detail::take_bound(pair, given_);
+      Mask clear = plain & (clearance(F) > paper_tolerances(pair.B).mu);
+      if (!given_) clear = clear | detail::keeps_clear(pair, F, PaperTolerances{});
+      const auto is_plain = each(plain);
+      const auto is_clear = each(clear);
       const std::array columns{each(F.a), each(F.b), each(F.c), each(F.d), each(pair.W), each(pair.B)};
       for_lanes(i, rows.size(), [&](std::size_t lane) {
         const std::size_t row = rows[i + lane];
@@ -181,13 +184,12 @@ class WangLanes {
       const auto critical = detail::critical_times(F);
       const std::array<Real, 4> time{Real(0), critical.first, critical.second, Real(1)};
       const std::array<Real, 4> value{F.d, F(time[1]), F(time[2]), F(time[3])};
-      const Mask may_vanish = !(clearance(F) > mu);
-      const std::array<Mask, 3> exists{may_vanish, may_vanish & critical.any, may_vanish & critical.two};
+      const std::array<Mask, 3> exists{Mask(true), critical.any, critical.two};
       std::array<std::array<double, n>, 3> contributions;
       for (std::size_t k = 0; k < 3; ++k)
         contributions[k] =
             each(detail::contribution<Real>({time[k], time[k + 1], value[k], value[k + 1]}, exists[k], mu));
-      const auto at_end = each(Mask(may_vanish & (abs(value[3]) <= mu)));
+      const auto at_end = each(Mask(abs(value[3]) <= mu));
       const std::array times{each(time[0]), each(time[1]), each(time[2]), each(time[3])};
       const std::array values{each(value[0]), each(value[1]), each(value[2]), each(value[3])};
       for_lanes(i, left_.size(), [&](std::size_t lane) {
@@ -308,6 +310,7 @@ class WangLanes {
 
   QueryRows queries_;
   Verdict* verdicts_;
+  std::optional<double> given_;
   Rows left_;  ///< queries whose F may have a root; a place is an index in this list
   std::array<Column<double, wang_batch_size>, 6> columns_;  ///< a, b, c, d of F, then W and B, by place
   std::array<Column<double, most_brackets>, 4> brackets_;
@@ -321,9 +324,10 @@ class WangLanes {
 };
 
 template <int n>
-void decide_batch(const QueryRows& queries, Verdict* verdicts) {
+void decide_batch(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given) {
   std::size_t looked_at = 0;
-  for_each_kind_of_meshes([&]<Kind kind>() { looked_at += WangLanes<n, kind>(queries, verdicts).run(); });
+  for_each_kind_of_meshes(
+      [&]<Kind kind>() { looked_at += WangLanes<n, kind>(queries, verdicts, given).run(); });
   if (looked_at == queries.size()) return;
   for (std::size_t i = 0; i < queries.size(); ++i)
     if (!is_of_meshes(queries.kind(i))) verdicts[i] = undecided_verdict;
