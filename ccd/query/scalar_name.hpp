@@ -8,14 +8,14 @@
 namespace nearmiss {
 
 /// A subject's name split into the algorithm and the scalar; a suffix "@B" is dropped. If the name has no
-/// scalar, `scalar` is "", which means double.
+/// scalar, `scalar` is "", which means double. Options belong to the algorithm: "wang-eps:h=0.001".
 struct ScaledName {
   std::string_view algorithm, scalar;
 };
 constexpr ScaledName split_scalar(std::string_view name) {
   name = name.substr(0, name.rfind('@'));
   const auto colon = name.find(':');
-  if (colon == std::string_view::npos) return {name, ""};
+  if (colon == std::string_view::npos || name.find('=') != std::string_view::npos) return {name, ""};
   return {name.substr(0, colon), name.substr(colon + 1)};
 }
 

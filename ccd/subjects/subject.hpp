@@ -160,7 +160,7 @@ inline constexpr std::string_view of_scene = "@scene";
 /// Makes a built-in subject from its name, or a plug-in from its path (any name with a '/'). A bound may be
 /// given as NAME@B, or as `given_bound` for NAME and NAME@scene, in the queries' unit of length. It replaces
 /// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B ignore it.
-/// Throws Error for an unknown name or an unusable plug-in.
+/// NAME may end in options, :KEY=NUMBER. Throws Error for an unknown name or option or an unusable plug-in.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 

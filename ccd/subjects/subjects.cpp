@@ -7,12 +7,14 @@
 #include "ccd/query/arithmetic.hpp"
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "ccd/subjects/number_options.hpp"
 #include "ccd/subjects/plugin.hpp"
 #include "ccd/subjects/stopwatch.hpp"
 #include "ccd/subjects/subject.hpp"
 #include "ccd/wang/advance.hpp"
 #include "ccd/wang/basic.hpp"
 #include "ccd/wang/bounds/tight_tolerances.hpp"
+#include "ccd/wang/bridson.hpp"
 #include "ccd/wang/closest_approach.hpp"
 #include "ccd/wang/loosened.hpp"
 #include "ccd/wang/pair_bound.hpp"
@@ -25,15 +27,16 @@ namespace nearmiss {
 
 namespace {
 
-/// A policy has `template <Kind> static Verdict decide(query, given)` for the pairs of triangle meshes, with
-/// separations if `takes_separation`, and `static Verdict decide_within(query, given)` for two vertices, and
-/// for a vertex and an edge, always with separations. It also has static functions `distance_bound(query,
-/// given)` and `needed_tolerance(query, given)` that return double, and the constants `claims_bound` and
-/// `time_sort`.
+/// A policy has `template <Kind> Verdict decide(query, given)` for the pairs of triangle meshes, with
+/// separations if `takes_separation`, and `Verdict decide_within(query, given)` for two vertices, and for a
+/// vertex and an edge, always with separations. It also has functions `distance_bound(query, given)` and
+/// `needed_tolerance(query, given)` that return double, and the constants `claims_bound` and `time_sort`. Its
+/// members are the values of its options.
 template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:
-  BuiltInSubject(std::string_view name, std::optional<double> given) : name_(name), given_(given) {}
+  BuiltInSubject(std::string_view name, std::optional<double> given, const Policy& policy = {})
+      : name_(name), given_(given), policy_(policy) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
 
@@ -55,12 +58,12 @@ class BuiltInSubject final : public Subject {
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     const PlainArithmetic guard;
-    return Policy::distance_bound(query, given_);
+    return policy_.distance_bound(query, given_);
   }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
     const PlainArithmetic guard;
-    return Policy::needed_tolerance(query, given_);
+    return policy_.needed_tolerance(query, given_);
   }
 
   [[nodiscard]] bool claims_bound() const override { return Policy::claims_bound; }
@@ -73,12 +76,13 @@ class BuiltInSubject final : public Subject {
  private:
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
     if (!is_finite(query)) refuse_coordinates(name_);
-    if (!is_of_meshes(query.kind)) return Policy::decide_within(query, given_);
-    return with_kind(query.kind, [&]<Kind kind>() { return Policy::template decide<kind>(query, given_); });
+    if (!is_of_meshes(query.kind)) return policy_.decide_within(query, given_);
+    return with_kind(query.kind, [&]<Kind kind>() { return policy_.template decide<kind>(query, given_); });
   }
 
   std::string name_;
   std::optional<double> given_;
+  Policy policy_;
 };
 
 template <bool plane_culling>
@@ -102,6 +106,13 @@ struct Basic {
   }
 };
 
+struct Bridson : Basic<false>, BridsonTolerances {
+  template <Kind kind>
+  [[nodiscard]] Verdict decide(const Query& query, const std::optional<double>& /*given*/) const {
+    return bridson<kind>(query, *this);
+  }
+};
+
 /// The policy of a subject that decides nothing.
 struct Empty : Basic<false> {
   template <Kind kind>
@@ -112,14 +123,14 @@ struct Empty : Basic<false> {
 };
 
 template <WangOptions options, class Rule = PaperTolerances>
-struct Wang {
+struct Wang : Rule {
   static constexpr bool claims_bound = true;
   static constexpr bool takes_separation = false;
   static constexpr TimeSort time_sort = TimeSort::none;
 
   template <Kind kind>
-  static Verdict decide(const Query& query, const std::optional<double>& given) {
-    return wang<kind, double, options, Rule>(query, given);
+  [[nodiscard]] Verdict decide(const Query& query, const std::optional<double>& given) const {
+    return wang<kind, double, options, Rule>(query, given, *this);
   }
   static Verdict decide_within(const Query& query, const std::optional<double>& given) {
     return wang_within<double, Rule>(query, options.plane_culling, given);
@@ -128,9 +139,9 @@ struct Wang {
     if (!is_of_meshes(query.kind)) return within_distance_bound<Rule>(query, given);
     return distance_bound_of(Rule()(1.0), given.value_or(pair_bound(query)));
   }
-  static double needed_tolerance(const Query& query, const std::optional<double>& given) {
+  [[nodiscard]] double needed_tolerance(const Query& query, const std::optional<double>& given) const {
     return least_loosening([&](double s) {
-      const Loosened<Rule> tolerances{{}, s};
+      const Loosened<Rule> tolerances{*this, s};
       if (!is_of_meshes(query.kind))
         return wang_within<double>(query, options.plane_culling, given, tolerances).hit;
       return with_kind(
@@ -138,6 +149,19 @@ struct Wang {
     });
   }
 };
+
+/// The paper's tolerances with another interval for VE culling.
+struct WithInterval : PaperTolerances {
+  double h = PaperTolerances()(1.0).h;
+
+  template <class T>
+  [[nodiscard]] Tolerances<T> operator()(T B) const {
+    Tolerances<T> tol = PaperTolerances::operator()(B);
+    tol.h = static_cast<T>(h);
+    return tol;
+  }
+};
+using WangEps = Wang<WangOptions{true, VeCulling::fixed}, WithInterval>;
 
 template <WangOptions options>
 struct WangTime : Wang<options> {
@@ -174,16 +198,35 @@ struct Advance {
   }
 };
 
+/// The options of a policy.
+template <class Policy>
+constexpr std::array<Option<Policy>, 0> options_of{};
+template <>
+constexpr std::array<Option<Bridson>, 2> options_of<Bridson>{
+    {{"thickness", &Bridson::thickness, 0, 1e300}, {"barycentric", &Bridson::barycentric, 0, 1e300}}};
+template <>
+constexpr std::array<Option<WangEps>, 1> options_of<WangEps>{{{"h", &WangEps::h, 1e-300, 1}}};
+
 struct Entry {
   SubjectInfo info;
-  std::unique_ptr<Subject> (*make)(std::string_view name, std::optional<double> given);
+  /// Makes the subject `name`, which has these options. Returns null if the policy takes none.
+  std::unique_ptr<Subject> (*make)(std::string_view name, const std::string& options,
+                                   std::optional<double> given);
 };
 
 template <class Policy, bool is_batched = false>
 constexpr Entry entry(std::string_view name, std::string_view about) {
   return {{name, about},
-          [](std::string_view own_name, std::optional<double> given) -> std::unique_ptr<Subject> {
-            return std::make_unique<BuiltInSubject<Policy, is_batched>>(own_name, given);
+          [](std::string_view own_name, const std::string& options,
+             std::optional<double> given) -> std::unique_ptr<Subject> {
+            Policy policy;
+            if constexpr (options_of<Policy>.empty()) {
+              if (!options.empty()) return nullptr;
+            } else {
+              const std::string fault = set_options(options_of<Policy>, options, policy);
+              if (!fault.empty()) throw Error("subject '" + excerpt(own_name) + "': " + fault);
+            }
+            return std::make_unique<BuiltInSubject<Policy, is_batched>>(own_name, given, policy);
           }};
 }
 
@@ -191,11 +234,13 @@ constexpr std::array registry{
     entry<Basic<true>>(
         "basic", "cubic CCD, or closest approach of vertices and edges, without any tolerance: the baseline"),
     entry<Basic<false>>("basic-plain", "the same without plane culling"),
+    entry<Bridson>("bridson",
+                   "the same with the user's tolerances: bridson:thickness=LENGTH:barycentric=NUMBER"),
     entry<Wang<WangOptions{true, VeCulling::per_root}>, true>(
         "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),
     entry<Wang<WangOptions{true, VeCulling::per_root}>>("wang-scalar", "the same, one query at a time"),
-    entry<Wang<WangOptions{true, VeCulling::fixed}>>(
-        "wang-eps", "the same with the fixed interval of the paper's text, the square root of epsilon"),
+    entry<WangEps>("wang-eps",
+                   "the same with a fixed interval: the paper's square root of epsilon, or wang-eps:h=TIME"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
     entry<Wang<WangOptions{true, VeCulling::per_root}, TightTolerances>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),
@@ -249,10 +294,12 @@ SplitName split_bound(std::string_view name, std::optional<double> given_bound) 
 }
 
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
-  const auto [name, bound] = split_bound(name_or_path, given_bound);
-  for (const Entry& each : registry)
-    if (each.info.name == name) return each.make(name_or_path, bound);
   if (is_plugin(name_or_path)) return std::make_unique<Plugin>(name_or_path);
+  const auto [name, bound] = split_bound(name_or_path, given_bound);
+  const PluginName parsed = PluginName::parse(name);
+  for (const Entry& each : registry)
+    if (each.info.name == parsed.path)
+      return each.make(name_or_path, parsed.subject.empty() ? parsed.options : parsed.subject, bound);
   return nullptr;
 }
 
@@ -267,6 +314,10 @@ void refuse_coordinates(std::string_view name) {
 }
 
 void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {
+  for (const SubjectInfo& info : known)
+    if (name.starts_with(std::string(info.name) + ":"))
+      throw Error("subject '" + excerpt(name) + "': found '" + excerpt(name.substr(info.name.size() + 1)) +
+                  "', expected no options");
   std::string names;
   for (const SubjectInfo& info : known) names += (names.empty() ? "" : ", ") + std::string(info.name);
   throw Error("unknown subject '" + excerpt(name) + "', expected one of " + names +

@@ -52,6 +52,14 @@ inline std::vector<double> product(const std::vector<double>& a, const std::vect
   return c;
 }
 
+/// The squared distance of a vertex from an edge. Both are relative to one end of the edge, which may be a
+/// point.
+inline double squared_edge_distance(const Vector3<double>& vertex, const Vector3<double>& edge) {
+  const double ll = edge.dot(edge);
+  const double weight = ll > 0 ? std::clamp(vertex.dot(edge) / ll, 0.0, 1.0) : 0;
+  return (vertex - weight * edge).squaredNorm();
+}
+
 /// A vertex relative to one end of an edge, and the edge: a + t va and e + t ve. For two vertices, e and ve
 /// are 0.
 struct Approach {
@@ -65,11 +73,7 @@ struct Approach {
         ve(query.end(2) - query.end(1) - e) {}
 
   [[nodiscard]] double squared_distance(double t) const {
-    const Vector vertex = a + t * va;
-    const Vector edge = e + t * ve;
-    const double ll = edge.dot(edge);
-    const double weight = ll > 0 ? std::clamp(vertex.dot(edge) / ll, 0.0, 1.0) : 0;
-    return (vertex - weight * edge).squaredNorm();
+    return squared_edge_distance(a + t * va, e + t * ve);
   }
 
   /// The times at which the distance to an end or to the edge's line may be smallest, and 0 and 1, in order.

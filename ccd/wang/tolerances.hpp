@@ -36,6 +36,7 @@ struct Tolerances {
   T mu;       ///< μ, length³: the cubic's residual (§4.4)
   T tau;      ///< τ, length²: the area test (§4.4)
   T eta;      ///< η, length: the height test (§4.4)
+  T h;        ///< a time: half the width of the fixed interval of VE culling (§5)
 
   /// The largest distance of a false positive, about 41 B e. VV accepts a computed squared distance of up to
   /// D² + δ, which has an error of at most δ, and the other tests accept nothing farther away (§4.3 to §4.5).
@@ -63,6 +64,7 @@ Tolerances<T> paper_tolerances(T B) {
   tol.mu = 64 * B2e2 * Be;
   tol.tau = 64 * B2e2;
   tol.eta = 4 * Be;
+  tol.h = e * e;
   return tol;
 }
 

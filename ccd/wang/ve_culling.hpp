@@ -14,7 +14,7 @@ namespace nearmiss {
 /// How to choose h, the half width of an interval around a computed root that must contain the true root.
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
-  fixed,     ///< h = ε^½, as the paper proposes
+  fixed,     ///< h of the tolerances: ε^½, as the paper proposes, or another one
   per_root,  ///< h from the slope of F at the root
 };
 
@@ -93,19 +93,18 @@ auto outside(const Configuration<kind, T>& configuration, T spread, T eps, T B) 
 /// is a convex combination of the velocities of its vertices). A weight is linear in p, so moving p by δ
 /// changes the weight by at most ‖N‖‖edge‖ δ. If a weight is farther outside [0, N·N] than that plus the
 /// rounding error, nothing touches at t0. The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the
-/// configuration's own lengths (‖·‖₁ >= ‖·‖₂).
+/// configuration's own lengths (‖·‖₁ >= ‖·‖₂). All this holds for any h in (0, 1].
 template <VeCulling culling, Kind kind, class T>
 bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
                         const Configuration<kind, T>& configuration, T t, const Tolerances<T>& tol) {
   using std::abs;
-  using std::sqrt;
   const T B = pair.B;
   const T eps = epsilon<T>();
   const T threshold = detail::culling_threshold(tol.mu, eps, B);
   T h;
   T spread;  // the most by which a weight may move
   if constexpr (culling == VeCulling::fixed) {
-    h = sqrt(epsilon<T>());
+    h = tol.h;
     if (!detail::brackets_root(F, t, h, threshold)) return false;
     spread = 9 * B * B * B * B * h;
   } else {

@@ -42,7 +42,7 @@ constexpr std::array tolerance_table{
 
 /// Multiples of the paper's tolerances for double.
 struct DefectiveTolerances {
-  Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
   /// These tolerances with the changed one loosened by s. If none is changed, all accepting tolerances are

@@ -48,7 +48,8 @@ SubjectText SubjectText::parse(std::string_view text) {
 std::unique_ptr<Subject> named(std::unique_ptr<Subject> subject, const std::string& name, bool is_plugin) {
   if (name.empty()) return subject;
   const std::string own = subject->name();
-  const std::size_t rest = is_plugin ? own.find(':') : own.rfind('@');
+  const bool has_options = is_plugin || own.find('=') != std::string::npos;
+  const std::size_t rest = has_options ? own.find(':') : own.rfind('@');
   return std::make_unique<Named>(std::move(subject), name, rest == std::string::npos ? "" : own.substr(rest));
 }
 

@@ -21,8 +21,8 @@ struct SubjectText {
   static SubjectText parse(std::string_view text);
 };
 
-/// The subject under another name, which replaces its own. The options of a plug-in and the bound of a
-/// built-in subject stay at the end: "new:KEY=VALUE", "new@0.5". Nothing changes if the name is "".
+/// The subject under another name, which replaces its own. Options, and the bound of a built-in subject, stay
+/// at the end: "new:KEY=VALUE", "new@0.5". Nothing changes if the name is "".
 std::unique_ptr<Subject> named(std::unique_ptr<Subject> subject, const std::string& name, bool is_plugin);
 
 /// The name that named() gave to a subject; "" if there is none.

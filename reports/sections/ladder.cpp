@@ -55,12 +55,13 @@ LadderPlace place_of(const std::string& subject) {
   LadderPlace place{std::string(algorithm) + given_bound, scalar.empty() ? "double" : std::string(scalar),
                     *exponent, std::nullopt};
   if (!given_bound.empty()) return place;
-  if (algorithm == "basic" || algorithm == "basic-plain")  // they claim no bound; wang's is their unit
+  const auto name = algorithm.substr(0, algorithm.find(':'));  // without options
+  // The first three claim no bound; wang's is their unit.
+  if (name == "basic" || name == "basic-plain" || name == "bridson")
     place.unit = claimed_distance("wang", double_exponent);
-  else if (algorithm == "wang-tight")
+  else if (name == "wang-tight")
     place.unit = claimed_distance("wang-tight", *exponent);
-  else if (algorithm == "wang" || algorithm == "wang-scalar" || algorithm == "wang-eps" ||
-           algorithm == "wang-plain")
+  else if (name == "wang" || name == "wang-scalar" || name == "wang-eps" || name == "wang-plain")
     place.unit = claimed_distance("wang", *exponent);
   return place;
 }

@@ -13,7 +13,8 @@ namespace nearmiss {
 
 /// A subject's place on a ladder. For a subject that is not on a ladder, the algorithm is the subject itself.
 struct LadderPlace {
-  std::string algorithm, scalar;  ///< the algorithm's name includes a bound that the user gave: "wang@0.5"
+  std::string algorithm;  ///< with options, and a bound that the user gave: "wang-eps:h=0.001@0.5"
+  std::string scalar;
   int epsilon_exponent = 0;
   /// The bound by which the distances of false positives are divided, itself in units of B; nothing if it is
   /// not known.

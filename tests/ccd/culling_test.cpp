@@ -36,10 +36,11 @@ Configuration<Kind::vertex_triangle, double> with_weight(double weight) {
 /// A linear F with this slope and with the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
-/// Tolerances with μ = 2^-40 and zeros otherwise.
-Tolerances<double> tolerances() {
+/// Tolerances with μ = 2^-40, this h, and zeros otherwise.
+Tolerances<double> tolerances(double h) {
   Tolerances<double> tol{};
   tol.mu = 0x1p-40;
+  tol.h = h;
   return tol;
 }
 
@@ -49,8 +50,8 @@ constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
 constexpr double rounding = (1160 + 4400) * eps;
 
 template <VeCulling culling>
-bool culled(double slope, double weight) {
-  return excludes_collision<culling>(unit_pair(), line(slope), with_weight(weight), 0.5, tolerances());
+bool culled(double slope, double weight, double h = 0) {
+  return excludes_collision<culling>(unit_pair(), line(slope), with_weight(weight), 0.5, tolerances(h));
 }
 
 // For a line of slope 1, h is 4 * threshold. A weight may then move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
@@ -63,18 +64,26 @@ TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRoundi
   }
 }
 
-// The paper's interval has h = 2^-26, in which a weight moves by at most 9 B⁴ h.
-TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
-  const double slack = 9 * 0x1p-26 + rounding;
-  EXPECT_FALSE(culled<VeCulling::fixed>(1, -slack + 0x1p-50));
-  EXPECT_TRUE(culled<VeCulling::fixed>(1, -slack - 0x1p-50));
+TEST(VeCulling, TheFixedIntervalOfThePaperIsTheSquareRootOfEpsilon) {
+  EXPECT_EQ(paper_tolerances(3.0).h, 0x1p-26);
 }
 
-// At t ± 2^-26 a line has |F| = slope 2^-26.
+// A weight moves by at most 9 B⁴ h.
+TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
+  for (const double h : {0x1p-26, 0x1p-10}) {
+    const double slack = 9 * h + rounding;
+    EXPECT_FALSE(culled<VeCulling::fixed>(1, -slack + 0x1p-50, h));
+    EXPECT_TRUE(culled<VeCulling::fixed>(1, -slack - 0x1p-50, h));
+  }
+}
+
+// At t ± h a line has |F| = slope h.
 TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
-  const double slope = threshold * 0x1p26;
-  EXPECT_FALSE(culled<VeCulling::fixed>(slope * (1 - 0x1p-20), -9));
-  EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-20), -9));
+  for (const double h : {0x1p-26, 0x1p-10}) {
+    const double slope = threshold / h;
+    EXPECT_FALSE(culled<VeCulling::fixed>(slope * (1 - 0x1p-20), -9, h));
+    EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-20), -9, h));
+  }
 }
 
 // F is 1/4 - t², which is 15/64 at 1/8 and 7/64 at 3/8.

@@ -24,7 +24,8 @@ class EveryWang : public ::testing::TestWithParam<const char*> {
   [[nodiscard]] Verdict decide(const Query& query) const { return make_subject(GetParam())->decide(query); }
 };
 INSTANTIATE_TEST_SUITE_P(Variants, EveryWang,
-                         ::testing::Values("wang", "wang-eps", "wang-plain", "wang-tight"));
+                         ::testing::Values("wang", "wang-eps", "wang-eps:h=0.001", "wang-plain",
+                                           "wang-tight"));
 
 TEST_P(EveryWang, ReportsAVertexThatFallsThroughATriangle) {
   const Verdict verdict = decide(falling_vertex(0.25, 0.25, 1, -1));

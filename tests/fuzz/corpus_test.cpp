@@ -38,7 +38,7 @@ TEST(Corpus, TheOracleAgreesWithEveryRecordedTruth) {
 }
 
 TEST(Corpus, EveryWangReportsEveryCollision) {
-  for (const char* name : {"wang", "wang-eps", "wang-plain", "wang-tight"}) {
+  for (const char* name : {"wang", "wang-eps", "wang-eps:h=0.001", "wang-plain", "wang-tight"}) {
     const auto subject = make_subject(name);
     for (const Case& each : corpus()) {
       if (each.query.separation > 0 && !subject->takes_separation(each.query.kind)) continue;

@@ -124,7 +124,7 @@ TEST(TimesOfSubjects, AreNearWhereNothingIsHard) {
 
 TEST(TimesOfSubjects, AreOfTheSortThatEachPromises) {
   const std::map<TimeSort, std::vector<const char*>> subjects{
-      {TimeSort::estimate, {"basic", "basic-plain", "basic:float"}},
+      {TimeSort::estimate, {"basic", "basic-plain", "bridson", "basic:float"}},
       {TimeSort::none,
        {"wang", "wang-eps", "wang-plain", "wang-scalar", "wang-tight", "wang:dd", "adaptive"}},
       {TimeSort::lower_bound, {"wang-time", "advance"}}};

@@ -103,6 +103,7 @@ TEST(SubjectNames, CanBeGivenToAllSubjects) {
   EXPECT_EQ(subject->name(), "new");
   EXPECT_EQ(text_of(*subject), program);
   EXPECT_EQ(text_of(*make_any_subject("new=wang@0.5")), "new=wang@0.5");
+  EXPECT_EQ(make_any_subject("new=wang-eps:h=0.001@0.5")->name(), "new:h=0.001@0.5");
   EXPECT_REFUSED(make_any_subjects("new=" + plugin("several")),
                  "found several detectors, expected one of told");
 }

@@ -11,6 +11,7 @@ from scalars import EPSILONS, paper_bound
 SORTS = {  # the sort of time that each built-in subject gives, with any scalar
     'basic': 'estimate',
     'basic-plain': 'estimate',
+    'bridson': 'estimate',
     'wang-time': 'lower-bound',
     'advance': 'lower-bound',
     'exact': 'lower-bound',

@@ -49,10 +49,12 @@ class Units:
         return self._known[subject]
 
     def of_distances(self, subject):
-        """The bound by which a subject's distances are divided: its claim, or for basic wang's
-        bound."""
+        """The bound by which a subject's distances are divided: its claim, or wang's bound
+        for `basic` and `bridson`."""
         algorithm, _, _ = place(subject)
-        if algorithm in ('basic', 'basic-plain'):
+        if '@' not in algorithm:
+            algorithm = algorithm.partition(':')[0]  # without options
+        if algorithm in ('basic', 'basic-plain', 'bridson'):
             return paper_bound(2.0 ** EPSILONS['double'])
         return self.claimed(subject) if algorithm in AS_WANG + ALGORITHMS else None
 

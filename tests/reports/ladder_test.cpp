@@ -46,11 +46,13 @@ TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
 TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
   EXPECT_EQ(place_of("wang:p40").algorithm, "wang");
   EXPECT_EQ(place_of("wang:p40").scalar, "p40");
-  for (const char* name : {"wang-eps", "wang-scalar"})
+  for (const char* name : {"wang-eps", "wang-eps:h=0.001", "wang-scalar", "bridson:thickness=1"})
     EXPECT_NEAR(*place_of(name).unit, 40.963 * 0x1p-13, 1e-7) << name;
+  EXPECT_EQ(place_of("wang-eps:h=0.001").algorithm, "wang-eps:h=0.001");
   EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
   EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the name gives B
-  for (const char* other : {"exact", "defect:vv", "./plugin.so"}) {
+  for (const char* other :
+       {"exact", "defect:vv", "./plugin.so", "additive:rescaling=0.5", "wang-eps:h=0.001@7"}) {
     EXPECT_EQ(place_of(other).algorithm, other);
     EXPECT_EQ(place_of(other).unit, std::nullopt);
   }

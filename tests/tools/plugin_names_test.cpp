@@ -1,14 +1,15 @@
-// Tests what a run stores about plug-ins: their limits, and names with which findings can be replayed.
+// Tests what a run stores about subjects: limits of plug-ins, and names with which findings can be replayed.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
 namespace {
 
 using testing::CommandLine;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 /// The command that replays the first finding of a campaign with a subject that misses something.
-class ReplayOfAPlugin : public CommandLine {
+class ReplayOfASubject : public CommandLine {
  protected:
   [[nodiscard]] std::string command(const std::string& subject) const {
     const std::string options = "--family small-integer --cases 200 --db a.db --subject ";
@@ -17,7 +18,14 @@ class ReplayOfAPlugin : public CommandLine {
   }
 };
 
-TEST_F(ReplayOfAPlugin, HasTheWholePathAndTheOptionsAsTheyWereGiven) {
+TEST_F(ReplayOfASubject, HasTheOptionsOfABuiltInSubject) {
+  const std::string subject = "mine=bridson:thickness=0:barycentric=1e-3";
+  const std::string again = command(subject);
+  EXPECT_THAT(again, EndsWith(" --subject " + subject));
+  EXPECT_EQ(run(again.substr(9), "cd report &&").code, 1);
+}
+
+TEST_F(ReplayOfASubject, HasTheWholePathAndTheOptionsOfAPluginAsTheyWereGiven) {
   const std::string options = ":told:answer=0/../x";
   std::filesystem::copy(plugin("several"), file("a.so"));
   const std::string again = command("./a.so" + options);
@@ -25,7 +33,7 @@ TEST_F(ReplayOfAPlugin, HasTheWholePathAndTheOptionsAsTheyWereGiven) {
   EXPECT_EQ(run(again.substr(9), "cd report &&").code, 1);
 }
 
-TEST_F(ReplayOfAPlugin, HasTheCommandOfAProgramAsItWasGiven) {
+TEST_F(ReplayOfASubject, HasTheCommandOfAProgramAsItWasGiven) {
   write("p.py",
         "import sys\n"
         "sys.stdout.write('nearmiss 3\\nname p\\nkinds vt ee\\n\\n')\n"

@@ -1,4 +1,4 @@
-// Studies as a user sees them: ladder, audit, power, tightness, and the values of a plug-in's option.
+// Studies as a user sees them: ladder, audit, power, tightness, and the values of a CCD's option.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -137,6 +137,30 @@ TEST_F(OptionValues, AreAskedTheSameQueries) {
   EXPECT_GT(steps[2]["false_positives"], steps[1]["false_positives"]);
 }
 
+TEST_F(OptionValues, OfBuiltInSubjectsAreAskedToo) {
+  EXPECT_EQ(run(tightness + "bridson:thickness='*' --values 0,1e-6,0.1 --cases 4000").code, 1);
+  const json steps = read_json("new.json")["option_sweeps"]["bridson:thickness=*"];
+  EXPECT_GT(steps[0]["false_negatives"], steps[1]["false_negatives"]);
+  EXPECT_EQ(steps[2]["false_negatives"], 0);
+  EXPECT_LE(steps[0]["false_positives"], steps[1]["false_positives"]);
+  EXPECT_LT(steps[1]["false_positives"], steps[2]["false_positives"]);
+}
+
+// A short interval does not bracket roots, and a long one leaves weights too much room.
+TEST_F(OptionValues, OfTheIntervalOfVertexEdgeCullingCauseNoMiss) {
+  const std::string command =
+      "tightness --family uniform,crossed --json new.json -q --subject wang-eps:h='*'";
+  EXPECT_EQ(run(command + " --values 1e-12,1e-8,1e-3,1 --cases 4000").code, 0);
+  const json subjects = read_json("new.json")["subjects"];
+  const auto culled = [&](const char* h) {
+    return subjects[std::string("wang-eps:h=") + h]["vt"]["rejected_by"].value("culled", 0);
+  };
+  EXPECT_EQ(culled("1e-12"), 0);
+  EXPECT_GT(culled("1e-8"), culled("1e-3"));
+  EXPECT_GT(culled("1e-3"), 0);
+  EXPECT_EQ(culled("1"), 0);
+}
+
 TEST_F(OptionValues, AreSearchedOneByOne) {
   EXPECT_LE(run(tightness + sampling + " --values 0.01,0.1 --search --cases 132").code, 1);
   const json families = read_json("new.json")["subjects"]["sampling:tolerance=0.1"]["ee"]["families"];
@@ -160,6 +184,8 @@ TEST_F(OptionValues, AreRefusedWithoutAnOptionToTakeThem) {
   expect_refused(tightness + "exact --values 1,2", {"found 'exact', expected NAME:KEY=*"});
   expect_refused(tightness + sampling + " --values 1,2 --tolerance D2", {"--tolerance"});
   expect_refused(tightness + sampling + " --values 1,-1", {"tolerance=LENGTH"});
+  expect_refused(tightness + "wang-eps:h='*' --values 1,2",
+                 {"found 'h=2', expected h=NUMBER from 1e-300 to 1"});
   expect_refused(tightness + sampling + " --values 1,2 --separation 0.1", {"answers for contact only"});
   expect_refused(tightness + sampling + " --values 1,1", {"two subjects named 'sampling:tolerance=1'"});
 }

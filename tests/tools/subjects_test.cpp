@@ -12,7 +12,7 @@ using ::testing::StartsWith;
 TEST_F(CommandLine, SubjectsAreListed) {
   const Output output = run("subjects");
   for (const char* name :
-       {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact ", "defect:vv "})
+       {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact ", "bridson ", "defect:vv "})
     EXPECT_THAT(output.out, HasSubstr(name));
 }
 

@@ -127,13 +127,13 @@ void add_value_options(CLI::App& command, Options& options) {
                      ->excludes("--tolerance")
                      ->excludes("--vertices")
                      ->type_name("A,B,...");
-  auto* subject =
-      command
-          .add_option("--subject", campaign.trial.subjects,
-                      "The CCD, such as ./plugin.so:KEY=*; others, separated by commas, are asked too")
-          ->delimiter(',')
-          ->needs(values)
-          ->type_name("NAME:KEY=*,...");
+  auto* subject = command
+                      .add_option("--subject", campaign.trial.subjects,
+                                  "The CCD, such as ./plugin.so:KEY=* or bridson:thickness=*; others, "
+                                  "separated by commas, are asked too")
+                      ->delimiter(',')
+                      ->needs(values)
+                      ->type_name("NAME:KEY=*,...");
   values->needs(subject);
   command.add_option("--family", campaign.families, "Families of queries, separated by commas, or all")
       ->delimiter(',')
@@ -161,8 +161,8 @@ void add_tightness(CLI::App& app, int& exit_code) {
   add_tolerance_options(*command, *options);
   add_value_options(*command, *options);
   command->footer(fmt::format(
-      "\nTolerances and tests: {}\n\nExample: nearmiss tightness --subject 'additive:rescaling=*' --values "
-      "0.5,0.9,0.99 --cases 100000\n",
+      "\nTolerances and tests: {}\n\nExample: nearmiss tightness --subject 'bridson:thickness=*' --values "
+      "0,1e-6,1e-3 --cases 100000\n",
       fmt::join(tightness_names(), ", ")));
   command->callback([options, &exit_code] {
     exit_code = options->values.empty() ? measure_tolerances(*options) : measure_values(*options);

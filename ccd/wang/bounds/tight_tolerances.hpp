@@ -177,6 +177,7 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
   tol.mu = B2 * B * eps * static_cast<T>(c.mu);
   tol.tau = B2e2 * static_cast<T>(c.tau);
   tol.eta = Be * static_cast<T>(c.eta);
+  tol.h = sqrt(eps);
   return tol;
 }
 
