@@ -39,11 +39,14 @@ std::unique_ptr<Subject> try_make_scaled(std::string_view name_and_bound, std::o
   if (colon == std::string_view::npos || name.find('/') != std::string_view::npos) return nullptr;
   const auto algorithm = std::find_if(algorithms.begin(), algorithms.end(),
                                       [&](const auto& each) { return each.first == name.substr(0, colon); });
-  if (algorithm == algorithms.end()) return nullptr;
-  if (const auto scalar = scalar_of(name.substr(colon + 1)))
-    return scalar->make(name_and_bound, scalar->epsilon_exponent, algorithm->second, split.bound);
+  const auto scalar = scalar_of(name.substr(colon + 1));
+  if (algorithm == algorithms.end() && !scalar) return nullptr;
+  if (algorithm == algorithms.end())
+    throw Error(fmt::format("unknown subject '{}', expected basic, wang or wang-tight before the colon",
+                            excerpt(name)));
+  if (scalar) return scalar->make(name_and_bound, scalar->epsilon_exponent, algorithm->second, split.bound);
   std::string names;
-  for (const ladder::Scalar& scalar : named_scalars()) names += scalar.name + ", ";
+  for (const ladder::Scalar& each : named_scalars()) names += each.name + ", ";
   throw Error(fmt::format("unknown subject '{}', expected a scalar behind the colon: {}p{} to p{}",
                           excerpt(name), names, ladder::fewest_bits, ladder::most_bits));
 }

@@ -32,8 +32,8 @@ inline constexpr int fewest_bits = 16, most_bits = 256;
 /// The scalars with a name, by ascending precision. "p16" to "p256" exist, too.
 std::vector<ladder::Scalar> named_scalars();
 
-/// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". Returns null for any
-/// other algorithm. `given_bound` is as for make_subject. Throws Error for an unknown scalar.
+/// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". `given_bound` is as
+/// for make_subject. Returns null if neither the algorithm nor the scalar is known. Throws Error if one is not.
 std::unique_ptr<Subject> try_make_scaled(std::string_view name, std::optional<double> given_bound);
 
 }  // namespace nearmiss
