@@ -11,6 +11,7 @@
 #include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/funnel_table.hpp"
+#include "reports/sections/simulations.hpp"
 #include "reports/sections/sweeps.hpp"
 #include "reports/sections/version_table.hpp"
 #include "reports/statistics/family.hpp"
@@ -40,7 +41,7 @@ ordered_json extreme_json(const Extreme& extreme) {
 /// does that, or if a store says anything but one command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");
-  constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "tightness "};
+  constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "simulate ", "tightness "};
   const bool repeats_a_run = std::ranges::any_of(that_store_runs, [&](const std::string& subcommand) {
     return again.starts_with("nearmiss " + subcommand);
   });
@@ -51,10 +52,11 @@ std::optional<std::string> command_to_repeat(const Run& run) {
 }
 
 /// The sections that are left out if they are empty.
-constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 5> sections{
+constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 6> sections{
     {{"common_factors", common_factors_json},
      {"versions", versions_json},
      {"scenes", funnels_json},
+     {"simulations", simulations_json},
      {"sweeps", sweeps_json},
      {"option_sweeps", option_sweeps_json}}};
 

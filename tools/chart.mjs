@@ -1,7 +1,8 @@
-// Writes a chart of a report as an SVG file: opens the page in Chromium, as a user does.
-// Usage: node tools/chart.mjs REPORT CHART OUT.svg
+// Writes a chart of a report as an SVG file, or any part of its page as a PNG file: opens the page in Chromium, as
+// a user does.
+// Usage: node tools/chart.mjs REPORT CHART OUT.svg|OUT.png
 //   REPORT  the folder of a report
-//   CHART   the id of a chart on its page, such as error-time, misses or distances
+//   CHART   the id of a chart on its page, such as error-time, misses or distances; for a PNG file, of any element
 //   OUT     the file to write
 import { existsSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -13,7 +14,7 @@ const refuse = (why) => {
   process.exit(2);
 };
 const { positionals } = readOptions({}, true);
-if (positionals.length !== 3) refuse(`found ${positionals.length} arguments, expected REPORT CHART OUT.svg`);
+if (positionals.length !== 3) refuse(`found ${positionals.length} arguments, expected REPORT CHART OUT.svg or OUT.png`);
 const [report, chart, out] = positionals;
 const file = join(resolve(report), "index.html");
 if (!existsSync(file)) refuse(`found no '${file}', expected the folder of a report`);
@@ -24,6 +25,13 @@ try {
   const page = await browser.newPage({ offline: true, viewport: { width: 1100, height: 800 } });
   await page.goto(pathToFileURL(file).href);
   await page.waitForSelector("body[data-drawn], body[data-error]");
+  const part = page.locator(`[id="${chart.replace(/["\\]/g, "\\$&")}"]`);
+  if ((await part.count()) === 0) refuse(`${file}: found no chart '${chart}'`);
+  if (out.endsWith(".png")) {
+    await page.emulateMedia({ media: "print" }); // without buttons
+    await part.screenshot({ path: out });
+    process.exit(0);
+  }
   const svg = await page.evaluate((id) => {
     const drawn = document.querySelector(`#${CSS.escape(id)} svg.marks`);
     if (!drawn) return undefined;

@@ -18,6 +18,7 @@
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/ladder.hpp"
+#include "reports/sections/simulations.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/sections/sweeps.hpp"
 #include "reports/text/json.hpp"
@@ -213,7 +214,7 @@ int Record::finish(bool interrupted, bool complete) {
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",
              sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
-             funnel_tables(statistics_));
+             funnel_tables(statistics_) + simulation_tables(statistics_));
   const auto findings = campaign.findings();
   print_broken(text, findings, statistics_);
   std::set<Signature> printed;  // prints one finding of each way to fail

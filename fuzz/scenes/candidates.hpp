@@ -23,6 +23,12 @@ struct Candidate {
   auto operator<=>(const Candidate&) const = default;
 };
 
+/// A pair that a subject reports.
+struct ReportedPair {
+  Candidate pair;
+  double time;  ///< in [0, 1], or NaN if the subject does not say
+};
+
 /// The query of a candidate.
 Query make_query(const MovingMesh& mesh, const Candidate& candidate);
 

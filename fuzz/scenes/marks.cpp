@@ -18,7 +18,8 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t most_primitives = 8000;  // limit for primitives with a mark, and for those without
-constexpr std::size_t most_subjects = 15;      // bits of a mark: 1 + 2 * 15
+constexpr std::uint32_t collides = 1, tangled = 2;
+constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 
 /// The mark of a primitive, which is identified by its vertices.
 template <class Key>
@@ -95,11 +96,18 @@ struct Marked {
 
 }  // namespace
 
+void Marks::add_collision(const Candidate& candidate) { add(candidate, collides); }
+
 void Marks::add(const Candidate& candidate, std::size_t subject, const Outcome& outcome) {
-  if (outcome.collision) add(candidate, 1);
+  if (outcome.collision) add(candidate, collides);
   if (subject >= most_subjects || outcome.verdict.fault != Fault::none) return;
   if (outcome.verdict.hit != outcome.collision)
-    add(candidate, Mark{outcome.collision ? 2U : 1U} << (1 + 2 * subject));
+    add(candidate, Mark{outcome.collision ? 2U : 1U} << (2 + 2 * subject));
+}
+
+void Marks::add_tangled(const std::array<int, 2>& edge, const std::array<int, 3>& triangle) {
+  edges_[edge] |= tangled;
+  triangles_[triangle] |= tangled;
 }
 
 void Marks::add(const Candidate& candidate, Mark mark) {
@@ -162,7 +170,7 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
   add_points(mesh, primitives);
   nlohmann::json json;
   json["primitives"] = primitives.marked.size() + primitives.others.size();
-  json["meanings"] = {"collides"};
+  json["meanings"] = {"collides", "tangled"};
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));

@@ -145,9 +145,10 @@ Scene with_separation(Scene scene, double separation) {
   return scene;
 }
 
+std::string scene_family(const Scene& scene) { return fmt::format("scene:{}", scene.name); }
+
 std::string step_name(const Scene& scene, std::size_t step) {
-  if (scene.steps() == 1) return fmt::format("scene:{}", scene.name);
-  return fmt::format("scene:{}#{}", scene.name, step);
+  return scene.steps() == 1 ? scene_family(scene) : fmt::format("{}#{}", scene_family(scene), step);
 }
 
 Scene scene_of_files(const fs::path& start, const fs::path& end) {

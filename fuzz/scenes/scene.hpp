@@ -34,6 +34,9 @@ MovingMesh moving_mesh(const Scene& scene, std::size_t step);
 void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
                    const std::function<void(std::size_t step, const MovingMesh& mesh)>& visit);
 
+/// The name under which all pairs of a simulation are counted: "scene:NAME".
+std::string scene_family(const Scene& scene);
+
 /// The name under which the pairs of a step are counted: "scene:NAME", or "scene:NAME#STEP" if there are
 /// several steps. No family of random queries has such a name.
 std::string step_name(const Scene& scene, std::size_t step);

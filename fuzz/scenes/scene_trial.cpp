@@ -23,47 +23,75 @@ void SceneTrial::make_plan(const MovingMesh& mesh) {
 void SceneTrial::PartResult::merge(const PartResult& other) {
   for (const auto& [kind, funnel] : other.funnels) funnels[kind].merge(funnel);
   marks.merge(other.marks);
+  reported.insert(reported.end(), other.reported.begin(), other.reported.end());
+  counts.merge(other.counts);
 }
 
-void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress) {
-  try {
-    make_plan(mesh);
-  } catch (const Stopped&) {
-    plan_.reset();
-    return;
-  }
+SceneTrial::PartResult SceneTrial::hold_parts(std::size_t step, const MovingMesh& mesh,
+                                              const std::function<void(double)>& progress,
+                                              const IsAsked& is_asked) {
   PartResult sum;
+  make_plan(mesh);
   const auto parts = static_cast<double>(plan_->parts());
   trials_.run([&, begun = std::size_t{0}]() mutable -> std::optional<Work> {
     if (begun == plan_->parts()) return std::nullopt;
     const std::size_t number = begun++;
     const auto part = std::make_shared<PartResult>();
-    return Work{[=, this](const AskBatch& ask) { *part = hold_part(step, number, ask); },
+    return Work{[=, this, &is_asked](const AskBatch& ask) { *part = hold_part(step, number, ask, is_asked); },
                 [=, &sum, &progress](bool /*complete*/) {
                   sum.merge(*part);
                   progress(static_cast<double>(number + 1) / parts);
                   return true;
                 }};
   });
-  TrialResult counted;
-  for (const Funnels& funnels : {sum.funnels, trials_.stop().is_due() ? Funnels{} : plan_->rest(sum.funnels)})
-    for (const auto& [kind, funnel] : funnels)
-      counted.statistics.funnels[{step_name(scene_, step), kind}].merge(funnel);
-  trials_.add(std::move(counted));
-  if (sum.marks.size() <= most_marks_) return;
-  most_marks_ = sum.marks.size();
-  std::vector<std::string> names;
-  for (const auto& subject : trials_.subjects()) names.push_back(subject->name());
-  picture_ = sum.marks.picture(step_name(scene_, step), mesh, names);
+  return sum;
 }
 
-SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t number,
-                                             const AskBatch& ask) const {
+void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress) {
+  try {
+    const PartResult sum = hold_parts(step, mesh, progress, {});
+    TrialResult counted;
+    for (const Funnels& funnels :
+         {sum.funnels, trials_.stop().is_due() ? Funnels{} : plan_->rest(sum.funnels)})
+      for (const auto& [kind, funnel] : funnels)
+        counted.statistics.funnels[{step_name(scene_, step), kind}].merge(funnel);
+    trials_.add(std::move(counted));
+    if (sum.marks.size() <= most_marks_) return;
+    most_marks_ = sum.marks.size();
+    std::vector<std::string> names;
+    for (const auto& subject : trials_.subjects()) names.push_back(subject->name());
+    picture_ = sum.marks.picture(step_name(scene_, step), mesh, names);
+  } catch (const Stopped&) {
+    plan_.reset();
+  }
+}
+
+std::vector<ReportedPair> SceneTrial::ask(std::size_t step, const MovingMesh& mesh, const IsAsked& is_asked,
+                                          SimulatedStep& counts) {
+  PartResult sum = hold_parts(
+      step, mesh, [](double /*part*/) {}, is_asked);
+  trials_.stop().check();
+  counts.merge(sum.counts);
+  return std::move(sum.reported);
+}
+
+SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t number, const AskBatch& ask,
+                                             const IsAsked& is_asked) const {
   const std::string name = step_name(scene_, step);
   PartResult part;
+  const auto keep = [&](const Candidate& pair, const Outcome& outcome) {
+    const Verdict& verdict = outcome.verdict;
+    if (verdict.fault != Fault::none) return;
+    ++part.counts.queries;
+    part.counts.collisions += outcome.collision ? 1 : 0;
+    part.counts.positives += verdict.hit ? 1 : 0;
+    part.counts.false_negatives += outcome.collision && !verdict.hit ? 1 : 0;
+    part.counts.false_positives += verdict.hit && !outcome.collision ? 1 : 0;
+    if (verdict.hit) part.reported.push_back({pair, verdict.time});
+  };
   const auto ask_pairs = [&](const AskedPairs& pairs) {
     ask({.kind = pairs.kind,
-         .family = name,
+         .family = is_asked ? scene_family(scene_) : name,
          .queries = pairs.queries,
          .first_number = (std::uint64_t{step} << 48) + (std::uint64_t{number} << 24),
          .provenance =
@@ -71,13 +99,26 @@ SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t numbe
                return fmt::format("{}:{}:{}", name, short_name(pairs.kind),
                                   fmt::join(pairs.candidates[i].vertices, ","));
              },
-         .observe = [&](std::size_t i, std::size_t subject,
-                        const Outcome& outcome) { part.marks.add(pairs.candidates[i], subject, outcome); }});
+         .observe =
+             [&](std::size_t i, std::size_t subject, const Outcome& outcome) {
+               part.marks.add(pairs.candidates[i], subject, outcome);
+               if (is_asked) keep(pairs.candidates[i], outcome);
+             }});
+  };
+  const auto ask_some = [&](const AskedPairs& pairs) {
+    AskedPairs some{.kind = pairs.kind, .candidates = {}, .queries = {}};
+    for (std::size_t i = 0; i < pairs.candidates.size(); ++i)
+      if (is_asked(pairs.candidates[i])) {
+        some.candidates.push_back(pairs.candidates[i]);
+        some.queries.push_back(pairs.queries[i]);
+      }
+    if (!some.queries.empty()) ask_pairs(some);
   };
   const auto decided = [&](const Candidate& candidate, const Query&, PairFate, bool collides) {
     if (collides) part.marks.add_collision(candidate);
   };
-  part.funnels = plan_->follow(number, ask_pairs, decided, [&] { return trials_.stop().is_due(); });
+  part.funnels = plan_->follow(number, is_asked ? AskSink(ask_some) : AskSink(ask_pairs), decided,
+                               [&] { return trials_.stop().is_due(); });
   return part;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "fuzz/scenes/marks.hpp"
 #include "fuzz/scenes/plan.hpp"
@@ -22,20 +23,34 @@ class SceneTrial {
   /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
+  /// Asks a single subject about the pairs of a step whose boxes meet and for which `is_asked` is true. They are
+  /// counted in the family of the whole scene (scene_family), and in `counts`. Returns the pairs that the subject
+  /// reports, in the order of the plan. Throws Stopped.
+  std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
+                                const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
+
   /// The picture of the step with the most marked primitives so far; nothing if no primitive is marked.
   [[nodiscard]] const std::optional<ScenePicture>& picture() const { return picture_; }
 
  private:
-  /// The funnels and marks of some parts, in addition to the results of their trials.
+  using IsAsked = std::function<bool(const Candidate&)>;
+
+  /// What is kept of some parts, in addition to the results of their trials.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};
+    std::vector<ReportedPair> reported = {};
+    SimulatedStep counts = {};
 
     void merge(const PartResult& other);
   };
 
+  /// Asks about all parts of the plan. Without `is_asked`, about all of their pairs.
+  PartResult hold_parts(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress,
+                        const IsAsked& is_asked);
   /// Asks about one part of the plan; counts and marks its pairs.
-  [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask) const;
+  [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask,
+                                     const IsAsked& is_asked) const;
 
   /// Makes the plan of a step. Throws Stopped.
   void make_plan(const MovingMesh& mesh);

@@ -11,6 +11,7 @@ function markColours(meanings, subject) {
   return [
     { bits: bit(`missed by ${subject}`), name: `missed by ${subject}`, colour: "--bad" },
     { bits: bit(`falsely reported by ${subject}`), name: `falsely reported by ${subject}`, colour: "--false" },
+    { bits: bit("tangled"), name: "tangled", colour: "--bad" },
     { bits: bit("collides"), name: "collides", colour: "--second" },
   ];
 }

@@ -32,6 +32,7 @@ NEARMISS_ASSET(nearmiss_page_error_time, NEARMISS_PAGE "/error_time.js");
 NEARMISS_ASSET(nearmiss_page_times, NEARMISS_PAGE "/times.js");
 NEARMISS_ASSET(nearmiss_page_cases, NEARMISS_PAGE "/cases.js");
 NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
+NEARMISS_ASSET(nearmiss_page_simulations, NEARMISS_PAGE "/simulations.js");
 NEARMISS_ASSET(nearmiss_page_ladder, NEARMISS_PAGE "/ladder.js");
 NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
 NEARMISS_ASSET(nearmiss_page_options, NEARMISS_PAGE "/options.js");
@@ -93,6 +94,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_times_begin, nearmiss_page_times_end),
                                       between(nearmiss_page_cases_begin, nearmiss_page_cases_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
+                                      between(nearmiss_page_simulations_begin, nearmiss_page_simulations_end),
                                       between(nearmiss_page_ladder_begin, nearmiss_page_ladder_end),
                                       between(nearmiss_page_options_begin, nearmiss_page_options_end),
                                       between(nearmiss_page_scorecard_begin, nearmiss_page_scorecard_end),

@@ -271,7 +271,7 @@ function drawPart(draw) {
     element("headline").after(made("p", `A part of this page cannot be drawn (${draw.name}): ${error.message}`, { class: "bad" }));
   }
 }
-for (const draw of [drawHead, drawScorecard, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawTimes, drawSlowest,
+for (const draw of [drawHead, drawScorecard, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawSimulations, drawTimes, drawSlowest,
   drawDeciders, drawOracle, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
   drawPart(draw);
 for (const id of ["by-class", "by-family"]) element(id).addEventListener("change", drawCounts);
@@ -289,6 +289,7 @@ const charts = [
   ["stages-section", drawStages, hasStages()],
   ["ladder-section", drawLadder, report.ladder !== undefined],
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],
+  ["simulated-steps", drawSimulatedSteps, report.simulations !== undefined],
   ["scene-steps", drawSceneSteps, funnelRows().some((row) => row.step > 0)],
   ["scene-error-time", drawSceneErrorTime, new Set(askedRows().map((row) => row.scene)).size > 1],
 ].filter(([, , there]) => there);

@@ -1,7 +1,7 @@
 // Draws scenes: how many pairs were left out and why, and the subjects' answers for the remaining pairs.
 "use strict";
 
-const isStep = (family) => family.startsWith("scene:");
+const isStep = (family) => family.startsWith("scene:") && !isSimulation(family);
 const sceneOf = (step) => step.replace(/^scene:/, "").replace(/#\d+$/, "");
 const stepNumber = (step) => Number(step.match(/#(\d+)$/)?.[1] ?? 0);
 
@@ -61,7 +61,8 @@ function drawScenes() {
 }
 
 function drawScenePictures() {
-  for (const picture of report.pictures ?? []) element("scene-pictures").append(drawMesh(picture));
+  for (const picture of report.pictures ?? [])
+    if (isStep(picture.step.replace(/ with .*$/, ""))) element("scene-pictures").append(drawMesh(picture));
 }
 
 /** Draws the number of pairs, the subjects' answers, and the run time along the steps. */

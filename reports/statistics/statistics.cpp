@@ -19,6 +19,7 @@ void Statistics::merge(const Statistics& other) {
   for (const auto& [name, each] : other.extremes)
     if (const auto [own, fresh] = extremes.try_emplace(name, each); !fresh) own->second.merge(each);
   for (const auto& [key, each] : other.funnels) funnels[key].merge(each);
+  for (const auto& [key, each] : other.simulated) simulated[key].merge(each);
   for (const auto& [key, each] : other.factors) factors[key].merge(each);
   for (const auto& [key, each] : other.versions) versions[key].merge(each);
   for (const auto& [signature, count] : other.seen) seen[signature] += count;

@@ -12,6 +12,7 @@ void for_each_table(SomeStatistics& statistics, const Use& use) {
   use("counts", statistics.counts);
   use("oracle", statistics.oracle);
   use("funnel", statistics.funnels);
+  use("simulated", statistics.simulated);
   use("factor", statistics.factors);
   use("version", statistics.versions);
   use("seen", statistics.seen);

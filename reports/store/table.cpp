@@ -23,8 +23,8 @@ using Check = std::function<void()>;
 
 constexpr int application_id = 0x6e656172;  // "near"
 constexpr const char* contents_table = "contents";
-constexpr std::array tables{"run",    "shard",  "finding", "picture", "campaign", "counts",
-                            "oracle", "funnel", "factor",  "version", "seen",     "extreme"};
+constexpr std::array tables{"run",    "shard",  "finding",   "picture", "campaign", "counts", "oracle",
+                            "funnel", "factor", "simulated", "version", "seen",     "extreme"};
 
 /// The definition of a table, as SQLite keeps it.
 std::string definition(const char* table) {

@@ -75,7 +75,7 @@ TEST(SceneTrial, ThePictureMarksWhatCollides) {
   ASSERT_TRUE(picture.has_value());
   EXPECT_EQ(picture->step, "scene:grids");
   const auto json = nlohmann::json::parse(picture->json);
-  EXPECT_EQ(json["meanings"].size(), 7);
+  EXPECT_EQ(json["meanings"].size(), 8);
   EXPECT_EQ(json["primitives"], 3);  // a triangle, a line, and the falling vertex
   const auto numbers = [&](const char* name) {
     std::istringstream text(json[name].get<std::string>());

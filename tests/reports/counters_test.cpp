@@ -118,6 +118,7 @@ TEST(Counters, EachMerges) {
   expect_that_it_merges<Counts>();
   expect_that_it_merges<OracleCounts>();
   expect_that_it_merges<Funnel>();
+  expect_that_it_merges<SimulatedStep>();
   expect_that_it_merges<Statistics>();
 }
 
@@ -129,6 +130,7 @@ TEST_F(CountersTest, EachComesBackFromTheStore) {
   statistics.counts[{"wang", Kind::edge_edge, "f"}] = filled_counts(5000);
   statistics.oracle[{Kind::edge_edge, "f"}] = filled<OracleCounts>();
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = filled<Funnel>();
+  statistics.simulated[{"scene:sim:cloths", "wang", 3}] = filled<SimulatedStep>();
   write_campaign({{}, statistics}, file("a.db"));
   EXPECT_EQ(load_campaign(file("a.db")).statistics, statistics);
 }

@@ -54,6 +54,7 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.counts, IsSupersetOf(part.statistics.counts));
   EXPECT_THAT(whole.statistics.oracle, IsSupersetOf(part.statistics.oracle));
   EXPECT_THAT(whole.statistics.funnels, IsSupersetOf(part.statistics.funnels));
+  EXPECT_THAT(whole.statistics.simulated, IsSupersetOf(part.statistics.simulated));
   EXPECT_THAT(whole.statistics.factors, IsSupersetOf(part.statistics.factors));
   EXPECT_THAT(whole.statistics.versions, IsSupersetOf(part.statistics.versions));
   EXPECT_THAT(whole.statistics.extremes, IsSupersetOf(part.statistics.extremes));
@@ -113,10 +114,11 @@ TEST_F(DamageTest, OfAnyBitIsNoticedOrDoesNotMatter) {
 }
 
 TEST_F(DamageTest, OfARowOfAnyTableIsRefusedAndTheOthersAreSaved) {
-  for (const char* lost : {"1 of 2 rows of run", "1 of 4 rows of shard", "1 of 40 rows of finding",
-                           "1 of 4 rows of picture", "1 of 1 rows of campaign", "1 of 3 rows of counts",
-                           "1 of 1 rows of oracle", "1 of 1 rows of funnel", "1 of 12 rows of factor",
-                           "1 of 3 rows of version", "1 of 3 rows of seen", "1 of 2 rows of extreme"}) {
+  for (const char* lost :
+       {"1 of 2 rows of run", "1 of 4 rows of shard", "1 of 40 rows of finding", "1 of 4 rows of picture",
+        "1 of 1 rows of campaign", "1 of 3 rows of counts", "1 of 1 rows of oracle", "1 of 1 rows of funnel",
+        "1 of 12 rows of factor", "1 of 3 rows of simulated", "1 of 3 rows of version", "1 of 3 rows of seen",
+        "1 of 2 rows of extreme"}) {
     const std::string words = lost;
     copy_file(file("a.db"), file("b.db"), std::filesystem::copy_options::overwrite_existing);
     Database(file("b.db"))
@@ -208,7 +210,7 @@ TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
 
 TEST_F(DamageTest, NoMoreRowsAreLookedForThanTheFileCanHold) {
   for (const char* table : {"run", "shard", "finding", "picture", "campaign", "counts", "oracle", "funnel",
-                            "factor", "version", "seen", "extreme"})
+                            "factor", "simulated", "version", "seen", "extreme"})
     claim_rows(file("a.db"), table, "4611686018427387904");
   EXPECT_REFUSED(load_campaign(file("a.db")), "some rows are not as they were saved");
 }

@@ -5,7 +5,7 @@ import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSubjectsWithThe
 import { showsFindings, showsVersions, showsVerticesAndEdges, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
 import { answersBeforeScrolling } from "./page/first_screen.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
-import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
+import { showsSceneStepsAndMeshes, showsScenes, showsSimulations } from "./page/scenes.mjs";
 import { everyReportFollowsItsSchema } from "./page/schema.mjs";
 import { removeFolder } from "./page/session.mjs";
 import { drawsAMixOfRuns, drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
@@ -35,6 +35,7 @@ try {
   await showsAClaimOfNoDistanceThatIsRefuted(browser);
   await showsScenes(browser);
   await showsSceneStepsAndMeshes(browser);
+  await showsSimulations(browser);
   await showsTheLadderAndTheAudit(browser);
   await showsWhatDecides(browser);
   await showsAChoiceOfManySubjects(browser);

@@ -19,6 +19,21 @@ export async function showsScenes(browser) {
   await page.close();
 }
 
+export async function showsSimulations(browser) {
+  run("simulate", "cloths@100", "--subject", "bullet,exact", "--steps", "25", "--db", "simulated.db");
+  run("report", "simulated.db", "-o", "simulated");
+  const page = await open(browser, pageOf("simulated"));
+  assert.equal(await count(page, "#simulations tbody tr"), 2);
+  assert.match(await page.locator("#simulations tbody tr").first().textContent(), /^cloths@100bullet25/);
+  assert.ok((await count(page, "#simulations tbody tr:first-child td.bad")) >= 2);
+  assert.equal(await count(page, "#simulations tbody tr:last-child td.bad"), 0);
+  assert.equal(await count(page, "#simulated-steps .mark-line path"), 4 * 2);
+  assert.equal(await count(page, "#simulation-pictures canvas.mesh"), 2);
+  assert.match(await page.locator("#simulation-pictures .mesh-legend").first().textContent(), /tangled \(\d+\)/);
+  assert.equal(await page.isVisible("#scenes-section"), false);
+  await page.close();
+}
+
 export async function showsSceneStepsAndMeshes(browser) {
   for (const scene of ["mat@300", "hair@100"])
     run("scene", scene, "--subject", "basic,wang", "--bound", "pair,scene", "--db", `${scene}.db`);

@@ -1,0 +1,49 @@
+// Cloth and hair as masses and springs, which implicit integration moves without regard to contacts.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+
+#include <vector>
+
+#include "fuzz/meshes/mesh.hpp"
+#include "fuzz/simulation/material.hpp"
+
+namespace nearmiss {
+
+/// Points with springs along the edges of a mesh and across them: between the two vertices opposite an edge,
+/// and between the neighbours of a point of a hair. All springs are at rest in the given mesh.
+///
+/// A step is one of backward Euler. Its equations are solved by alternating between the directions of all
+/// springs and the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
+/// mass-spring systems"). The matrix of the second is constant and positive definite, so no stiffness and no
+/// time step makes the integration unstable; a stiff cloth only converges more slowly.
+class Cloth {
+ public:
+  /// `held` has a value for each point: held points are moved by the caller. `step` is in seconds.
+  Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step);
+
+  /// The positions after a step from `start` (positions and velocities in m and m/s). Held points are at
+  /// their positions in `held_at`.
+  [[nodiscard]] PointVectors advance(const PointVectors& start, const PointVectors& velocities,
+                                     const PointVectors& held_at) const;
+
+ private:
+  struct Spring {
+    int i, j;
+    double stiffness, length;
+  };
+
+  void add_springs(const Mesh& mesh);
+  void factorise();
+  [[nodiscard]] Eigen::MatrixXd right_side(const Eigen::MatrixXd& inertia, const PointVectors& at) const;
+
+  std::vector<bool> held_;
+  Material material_;
+  double step_;
+  std::vector<Spring> springs_;
+  std::vector<int> row_of_;  ///< the row of each free point in the matrix; -1 for held points
+  int rows_ = 0;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,138 @@
+#include "fuzz/simulation/simulated_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string_view>
+
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "corpus/query_text.hpp"
+#include "fuzz/scenes/built_in/built_in_scenes.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
+#include "fuzz/scenes/built_in/shapes.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Held = std::vector<bool>;
+
+/// The first and the last ring of a tube whose points are in rings.
+Held ends_of_tube(const Mesh& mesh) {
+  const std::size_t ring = mesh.points.size() - mesh.triangles.size() / 2;
+  Held held(mesh.points.size());
+  std::fill_n(held.begin(), ring, true);
+  std::fill_n(held.rbegin(), ring, true);
+  return held;
+}
+
+/// The points of all bodies but the first.
+Held other_bodies(const Mesh& mesh) {
+  Held held;
+  for (const int body : bodies(mesh).of_point) held.push_back(body != 0);
+  return held;
+}
+
+Held ends_of_lines(const Mesh& mesh) {
+  std::vector<int> lines(mesh.points.size());
+  for (const auto& line : mesh.lines)
+    for (const int point : line) ++lines[static_cast<std::size_t>(point)];
+  Held held;
+  for (const int count : lines) held.push_back(count == 1);
+  return held;
+}
+
+/// Two equal sheets, vertex above vertex. The lower one is held by its corners.
+Scene two_sheets(int size) {
+  const int squares = std::max(2, nearest(std::sqrt(size / 4.0)));
+  const int in_sheet = (squares + 1) * (squares + 1);
+  Mesh mesh;
+  for (const double height : {0.0, 2.0}) {
+    const auto place = [&](double x, double y) { return Vector3<double>(x, y, height); };
+    for (const auto& p : sheet_points(squares, place)) mesh.points.push_back(p);
+  }
+  for (const int first : {0, in_sheet}) add_surface(mesh, first, squares + 1, squares + 1);
+  const auto points = mesh.points;
+  return {.name = {}, .frames = 26, .mesh = std::move(mesh), .points = [points](std::size_t /*frame*/) {
+            return points;
+          }};
+}
+
+Held corners_of_first_sheet(const Mesh& mesh) {
+  const auto in_sheet = mesh.points.size() / 2;
+  const auto side = static_cast<std::size_t>(nearest(std::sqrt(static_cast<double>(in_sheet))));
+  Held held(mesh.points.size());
+  for (const std::size_t corner : {std::size_t{0}, side - 1, in_sheet - side, in_sheet - 1})
+    held[corner] = true;
+  return held;
+}
+
+struct Entry {
+  SimulatedSceneInfo info;
+  int smallest;
+  std::function<Scene(int size)> make;
+  Held (*held)(const Mesh& mesh);
+};
+
+/// A built-in scene, from its first frame on.
+std::function<Scene(int size)> built_in(const std::string& name) {
+  return [name](int size) { return built_in_scene(fmt::format("{}@{}", name, size)); };
+}
+
+constexpr int largest = 100'000;
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all{
+      {{"knot", 1200, "a tube with an overhand knot, which is pulled tight by its ends"},
+       300,
+       built_in("knot"),
+       ends_of_tube},
+      {{"cloths", 800, "a cloth falls, vertex on vertex, on an equal one that is held by its corners"},
+       16,
+       two_sheets,
+       corners_of_first_sheet},
+      {{"spikes", 1200, "a cloth falls on a square of spikes"}, 300, built_in("spikes"), other_bodies},
+      {{"hair", 600, "a bundle of hair is twisted by its ends: lines only"},
+       100,
+       built_in("hair"),
+       ends_of_lines}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<SimulatedSceneInfo>& simulated_scenes() {
+  static const std::vector<SimulatedSceneInfo> infos = [] {
+    std::vector<SimulatedSceneInfo> all;
+    for (const Entry& each : entries()) all.push_back(each.info);
+    return all;
+  }();
+  return infos;
+}
+
+SimulatedScene simulated_scene(const std::string& text) {
+  const std::string_view name = std::string_view(text).substr(0, text.find('@'));
+  const auto found = std::find_if(entries().begin(), entries().end(),
+                                  [&](const Entry& each) { return each.info.name == name; });
+  if (found == entries().end())
+    throw Error(
+        fmt::format("{}: found no scene of that name that can be simulated (see nearmiss simulate --list)",
+                    excerpt(text)));
+  std::optional<int> size = found->info.default_size;
+  if (name.size() < text.size()) {
+    const std::string_view word = std::string_view(text).substr(name.size() + 1);
+    size = parse_integer<int>(word);
+    if (!size || *size < found->smallest || *size > largest)
+      throw Error(fmt::format("{}: found size '{}', expected {} to {}", excerpt(text), excerpt(word),
+                              found->smallest, largest));
+  }
+  SimulatedScene made{.scene = found->make(*size), .held = {}};
+  made.scene.name = text;
+  made.held = found->held(made.scene.mesh);
+  return made;
+}
+
+}  // namespace nearmiss

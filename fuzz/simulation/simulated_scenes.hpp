@@ -1,0 +1,31 @@
+// The scenes that can be simulated.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fuzz/scenes/scene.hpp"
+
+namespace nearmiss {
+
+/// A scene of which some points move as its frames say, and physics moves all others. In its unit of length,
+/// an edge is about 1 long.
+struct SimulatedScene {
+  Scene scene;
+  std::vector<bool> held;  ///< for each point: whether it moves as the frames say
+};
+
+struct SimulatedSceneInfo {
+  std::string name;
+  int default_size = 0;  ///< the approximate number of triangles, or of lines of hair
+  std::string description;
+};
+
+/// All scenes, in the order in which they are listed.
+const std::vector<SimulatedSceneInfo>& simulated_scenes();
+
+/// Makes the scene NAME in its default size, or NAME@SIZE. Throws Error if there is no such scene, or the
+/// size is not an integer or is out of range.
+SimulatedScene simulated_scene(const std::string& text);
+
+}  // namespace nearmiss

@@ -1,0 +1,146 @@
+#include "fuzz/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "fuzz/scenes/built_in/formulas.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The largest energy that is told, 100 kJ, for a simulation that explodes.
+constexpr double most_picojoules = 1e17;
+
+constexpr int impulse_rounds = 10;  ///< before impact zones
+constexpr int zone_rounds = 20;     ///< before the step ends with pairs that are still reported
+
+/// Points that move rigidly together: those of pairs that are reported again and again.
+class ImpactZones {
+ public:
+  explicit ImpactZones(std::size_t points) : leader_(points) { std::iota(leader_.begin(), leader_.end(), 0); }
+
+  void join(const Candidate& pair) {
+    for (const int point : pair.vertices)
+      leader_[static_cast<std::size_t>(leader(point))] = leader(pair.vertices[0]);
+  }
+
+  /// The zones of more than one point, in the order of their leaders.
+  [[nodiscard]] std::vector<std::vector<int>> zones() {
+    std::map<int, std::vector<int>> by_leader;
+    for (int point = 0; point < static_cast<int>(leader_.size()); ++point)
+      by_leader[leader(point)].push_back(point);
+    std::vector<std::vector<int>> all;
+    for (auto& [leader, zone] : by_leader)
+      if (zone.size() > 1) all.push_back(std::move(zone));
+    return all;
+  }
+
+ private:
+  int leader(int point) {
+    int& above = leader_[static_cast<std::size_t>(point)];
+    if (above != point) above = leader(above);
+    return above;
+  }
+
+  std::vector<int> leader_;
+};
+
+Mesh in_metres(Mesh mesh, double edge) {
+  for (auto& point : mesh.points) point *= edge;
+  return mesh;
+}
+
+}  // namespace
+
+Simulation::Simulation(SimulatedScene scene, const Material& material, double step, int steps_per_frame)
+    : scene_(std::move(scene)),
+      material_(material),
+      step_(step),
+      steps_per_frame_(steps_per_frame),
+      cloth_(in_metres(scene_.scene.mesh, material.edge), scene_.held, material, step),
+      response_(scene_.held, material),
+      velocities_(scene_.held.size(), Vector3<double>(0, 0, 0)) {
+  Mesh mesh = in_metres(scene_.scene.mesh, material.edge);
+  auto end = mesh.points;
+  motion_ = make_moving_mesh(std::move(mesh), std::move(end));
+}
+
+std::size_t Simulation::steps() const {
+  return scene_.scene.steps() * static_cast<std::size_t>(steps_per_frame_);
+}
+
+/// Where held points are after a step: between two frames, or as in the last frame.
+PointVectors Simulation::held_positions(std::size_t step) const {
+  const auto count = static_cast<std::size_t>(steps_per_frame_);
+  const std::size_t frame = std::min((step + 1) / count, scene_.scene.steps());
+  const double part =
+      frame == scene_.scene.steps() ? 0 : static_cast<double>((step + 1) % count) / steps_per_frame_;
+  PointVectors at = scene_.scene.points(frame);
+  if (part > 0) {
+    const PointVectors next = scene_.scene.points(frame + 1);
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] += part * (next[i] - at[i]);
+  }
+  for (auto& point : at) point *= material_.edge;
+  return at;
+}
+
+void Simulation::repel() {
+  MovingMesh near = motion_;
+  near.end = near.start;
+  near.separation = material_.thickness * material_.edge;
+  find_candidates(near, [&](const Candidate& pair) { response_.repel(pair, motion_.start, motion_.end); });
+}
+
+void Simulation::resolve(const AskCcd& ask, SimulatedStep& done) {
+  const auto at = [](int point) { return static_cast<std::size_t>(point); };
+  ImpactZones zones(scene_.held.size());
+  std::vector<bool> moved(scene_.held.size(), true);
+  const auto asked = [&](const Candidate& pair) {
+    const auto& all = pair.vertices;
+    return std::any_of(all.begin(), all.end(), [&](int i) { return moved[at(i)]; }) &&
+           !std::all_of(all.begin(), all.end(), [&](int i) { return scene_.held[at(i)]; });
+  };
+  for (int round = 0;; ++round) {
+    const std::vector<ReportedPair> reported = ask(motion_, asked);
+    ++done.rounds;
+    done.unresolved = reported.size();
+    if (reported.empty() || round == impulse_rounds + zone_rounds) return;
+    const PointVectors before = motion_.end;
+    if (round < impulse_rounds) {
+      for (const ReportedPair& each : reported)
+        response_.stop_approach(each.pair, each.time, motion_.start, motion_.end);
+    } else {
+      for (const ReportedPair& each : reported) zones.join(each.pair);
+      for (const auto& zone : zones.zones()) response_.move_rigidly(zone, motion_.start, motion_.end);
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = motion_.end[i] != before[i];
+    for (const ReportedPair& each : reported)
+      for (const int point : each.pair.vertices) moved[at(point)] = true;
+  }
+}
+
+double Simulation::kinetic_energy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < velocities_.size(); ++i)
+    if (!scene_.held[i]) sum += dot(velocities_[i], velocities_[i]);
+  return material_.mass() * sum / 2;
+}
+
+SimulatedStep Simulation::advance(const AskCcd& ask) {
+  motion_.start = motion_.end;
+  motion_.end = cloth_.advance(motion_.start, velocities_, held_positions(done_++));
+  repel();
+  SimulatedStep done;
+  resolve(ask, done);
+  for (std::size_t i = 0; i < velocities_.size(); ++i)
+    velocities_[i] = (motion_.end[i] - motion_.start[i]) / step_;
+  tangled_ = find_tangled(motion_);
+  done.tangled = tangled_.size();
+  done.picojoules = static_cast<std::uint64_t>(std::min(most_picojoules, 1e12 * kinetic_energy()));
+  return done;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,59 @@
+// A simulation with a CCD in the loop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "fuzz/simulation/cloth.hpp"
+#include "fuzz/simulation/response.hpp"
+#include "fuzz/simulation/simulated_scenes.hpp"
+#include "fuzz/simulation/tangled.hpp"
+#include "reports/statistics/simulated_step.hpp"
+
+namespace nearmiss {
+
+/// Asks a CCD about the motion of a step: about the pairs for which `asked` is true and whose boxes meet.
+/// Returns those that it reports, in an order that is always the same.
+using AskCcd = std::function<std::vector<ReportedPair>(const MovingMesh& motion,
+                                                       const std::function<bool(const Candidate&)>& asked)>;
+
+/// Moves a scene step by step: implicit integration, repulsion of near primitives, then rounds in which a CCD
+/// is asked and the reported pairs are stopped, at last by rigid impact zones. The result only depends on the
+/// arguments and the CCD's answers.
+class Simulation {
+ public:
+  /// Each frame of the scene takes `steps_per_frame` steps of `step` seconds.
+  Simulation(SimulatedScene scene, const Material& material, double step, int steps_per_frame);
+
+  /// The number of steps until the last frame of the scene.
+  [[nodiscard]] std::size_t steps() const;
+
+  /// Does the next step. The result has no counts of answers.
+  SimulatedStep advance(const AskCcd& ask);
+
+  /// The motion of the last step.
+  [[nodiscard]] const MovingMesh& motion() const { return motion_; }
+  /// The edges and triangles that pass through each other after it.
+  [[nodiscard]] const std::vector<Piercing>& tangled() const { return tangled_; }
+
+ private:
+  [[nodiscard]] PointVectors held_positions(std::size_t step) const;
+  void repel();
+  void resolve(const AskCcd& ask, SimulatedStep& done);
+  [[nodiscard]] double kinetic_energy() const;
+
+  SimulatedScene scene_;
+  Material material_;
+  double step_;
+  int steps_per_frame_;
+  Cloth cloth_;
+  Response response_;
+  MovingMesh motion_;  ///< in metres
+  PointVectors velocities_;
+  std::vector<Piercing> tangled_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace nearmiss

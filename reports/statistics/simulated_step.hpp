@@ -1,0 +1,58 @@
+// The steps of simulations with a subject as their CCD.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "reports/statistics/counter.hpp"
+
+namespace nearmiss {
+
+/// What a step has shown. The answers are those of all rounds in which the subject was asked about its motion.
+struct SimulatedStep {
+  std::uint64_t queries = 0;
+  std::uint64_t collisions = 0;
+  std::uint64_t positives = 0;
+  std::uint64_t false_negatives = 0;
+  std::uint64_t false_positives = 0;
+  std::uint64_t rounds = 0;
+  std::uint64_t unresolved = 0;  ///< pairs that it reported in the motion that was made in the end
+  std::uint64_t tangled = 0;     ///< pairs of an edge and a triangle that pass through each other afterwards
+  std::uint64_t picojoules = 0;  ///< kinetic energy afterwards
+  std::uint64_t solver_ns = 0;   ///< time of the simulation without the subject
+
+  static constexpr auto counters() {
+    return std::tuple{Counter{"queries", &SimulatedStep::queries},
+                      Counter{"collisions", &SimulatedStep::collisions},
+                      Counter{"positives", &SimulatedStep::positives},
+                      Counter{"false_negatives", &SimulatedStep::false_negatives},
+                      Counter{"false_positives", &SimulatedStep::false_positives},
+                      Counter{"rounds", &SimulatedStep::rounds},
+                      Counter{"unresolved", &SimulatedStep::unresolved},
+                      Counter{"tangled", &SimulatedStep::tangled},
+                      Counter{"picojoules", &SimulatedStep::picojoules},
+                      Counter{"solver_ns", &SimulatedStep::solver_ns}};
+  }
+
+  void merge(const SimulatedStep& other) { merge_counters(*this, other); }
+  bool operator==(const SimulatedStep&) const = default;
+};
+static_assert(declares_all_members<SimulatedStep>());
+
+/// Identifies a step of a simulation.
+struct SimulatedStepKey {
+  std::string family;  ///< "scene:sim:NAME": the family of all queries of the simulation
+  std::string subject;
+  std::uint64_t step = 0;  ///< from 0
+
+  bool operator==(const SimulatedStepKey&) const = default;
+  bool operator<(const SimulatedStepKey& other) const {
+    return std::tie(family, subject, step) < std::tie(other.family, other.subject, other.step);
+  }
+};
+
+using SimulatedSteps = std::map<SimulatedStepKey, SimulatedStep>;
+
+}  // namespace nearmiss

@@ -1,0 +1,49 @@
+// nearmiss simulate
+#include <numeric>
+
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+using testing::CommandLine;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
+  EXPECT_THAT(expect_code(0, "simulate --list").out, HasSubstr("\ncloths "));
+  const Output output = expect_code(1,
+                                    "simulate cloths@100 --subject bullet,exact --steps 25 --db s.db --json "
+                                    "new.json --frames frames --no-shrink");
+  EXPECT_THAT(output.out, HasSubstr("cloths@100: 72 vertices, 100 triangles, steps of 5ms"));
+  EXPECT_THAT(output.out, ContainsRegex("scene:sim:cloths@100 +steps +rounds"));
+  const json steps = read_json("new.json")["simulations"]["scene:sim:cloths@100"];
+  const auto sum = [&](const char* subject, const char* counter) {
+    const auto list = steps[subject][counter].get<std::vector<int>>();
+    EXPECT_EQ(list.size(), 25);
+    return std::accumulate(list.begin(), list.end(), 0);
+  };
+  EXPECT_GT(sum("bullet", "tangled"), 0);
+  EXPECT_GT(sum("bullet", "false_negatives"), 0);
+  EXPECT_GT(sum("exact", "positives"), 0);
+  for (const char* counter : {"tangled", "false_negatives", "false_positives", "unresolved"})
+    EXPECT_EQ(sum("exact", counter), 0) << counter;
+  // The command that the store keeps makes the same again.
+  const json run_of = read_json("new.json")["runs"][0];
+  EXPECT_EQ(run(run_of["again"].get<std::string>().substr(9) + " --json again.json").code, 1);
+  for (const char* counter : {"positives", "collisions", "tangled", "picojoules"})
+    EXPECT_EQ(read_json("again.json")["simulations"]["scene:sim:cloths@100"]["bullet"][counter],
+              steps["bullet"][counter]);
+  EXPECT_EQ(report_of("s.db", 1)["pictures"].size(), 2);
+  // Frames are scenes.
+  EXPECT_THAT(run("scene frames/exact --leave-out boxes").out, HasSubstr("exact: 25 frames, 72 vertices"));
+  expect_refused("simulate cloths@100 --subject exact --frames frames", {"frames: exists already"});
+  expect_refused("simulate knots", {"knots: found no scene of that name", "nearmiss simulate --list"});
+  expect_refused("simulate cloths --stiffness -1", {"--stiffness"});
+  expect_refused("simulate cloths --step-time 0s", {"--step-time"});
+  expect_refused("simulate", {"SCENE is required"});
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,213 @@
+// nearmiss simulate: the same cloth with each subject as its CCD, judged step by step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "ccd/query/error.hpp"
+#include "fuzz/scenes/scene_trial.hpp"
+#include "fuzz/simulation/simulation.hpp"
+#include "reports/text/text.hpp"
+#include "tools/commands.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+#include "tools/trial_options.hpp"
+#include "tools/values.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string scene;
+  TrialOptions trial{.subjects = {"basic", "wang", "exact"}};
+  Material material;
+  std::string step = "5ms";
+  int steps_per_frame = 4;
+  std::size_t steps = 0;
+  bool list = false;
+  fs::path frames;
+  RecordOptions record;
+};
+
+void list_scenes(std::FILE* out) {
+  fmt::print(out, "{:<10}{:>7}  shows\n", "scene", "default");
+  for (const SimulatedSceneInfo& scene : simulated_scenes())
+    fmt::print(out, "{:<10}{:>7}  {}\n", scene.name, scene.default_size, scene.description);
+}
+
+/// The facts of a run, with every option that its results depend on.
+RunInfo run_info(const Options& options, const Subjects& subjects) {
+  RunInfo info = options.trial.run_info("simulate " + options.scene, subjects);
+  const auto note = [&](const std::string& fact, const std::string& option, const auto& value) {
+    note_option(info, fact, option, fmt::format("{}", value));
+  };
+  note("stiffness", "--stiffness", options.material.stiffness);
+  note("edge", "--edge", options.material.edge);
+  note("time step", "--step-time", options.step);
+  note("steps a frame", "--steps-per-frame", options.steps_per_frame);
+  if (options.steps > 0) note("steps", "--steps", options.steps);
+  return info;
+}
+
+/// Writes the mesh at the end of each step to FOLDER/SUBJECT/STEP.obj.
+class Frames {
+ public:
+  Frames(const fs::path& folder, const std::string& subject) {
+    if (folder.empty()) return;
+    std::string name = subject;
+    std::replace(name.begin(), name.end(), '/', '_');
+    folder_ = folder / name;
+    std::error_code error;
+    if (fs::create_directories(folder_, error); error)
+      throw Error(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+  }
+
+  void add(std::size_t step, const MovingMesh& motion) const {
+    if (folder_.empty()) return;
+    const fs::path file = folder_ / fmt::format("{:04}.obj", step);
+    std::ofstream out(file);
+    for (const auto& p : motion.end) out << fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
+    for (const auto& [a, b, c] : motion.triangles) out << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+    if (motion.triangles.empty())
+      for (const auto& [a, b] : motion.edges) out << fmt::format("l {} {}\n", a + 1, b + 1);
+    if (!out.flush()) throw Error(fmt::format("{}: cannot be written", file.string()));
+  }
+
+ private:
+  fs::path folder_;
+};
+
+/// Shows the progress of all simulations.
+class SimulationProgress {
+ public:
+  SimulationProgress(bool quiet, std::size_t subjects) : progress_(quiet), subjects_(subjects) {}
+
+  void show(std::size_t subject, const std::string& name, std::size_t step, std::size_t steps) {
+    if (!progress_.due()) return;
+    const double done = static_cast<double>(subject * steps + step) / static_cast<double>(subjects_ * steps);
+    progress_.show(fmt::format("{}: step {} of {}", name, step + 1, steps), done);
+  }
+
+ private:
+  Progress progress_;
+  std::size_t subjects_;
+};
+
+/// The mesh after the last step, with tangled primitives marked.
+ScenePicture last_picture(const Simulation& simulation, const std::string& family,
+                          const std::string& subject) {
+  Marks marks;
+  for (const auto& [edge, triangle] : simulation.tangled()) marks.add_tangled(edge, triangle);
+  return marks.picture(fmt::format("{} with {}", family, subject), simulation.motion(), {});
+}
+
+/// Simulates the scene with one subject as its CCD, until the stop is due.
+void simulate(const Options& options, Subjects subject, Record& record, const Stop& stop,
+              const std::function<void(std::size_t step, std::size_t steps)>& progress) {
+  using Clock = std::chrono::steady_clock;
+  const std::string name = subject.front()->name();
+  Simulation simulation(simulated_scene(options.scene), options.material,
+                        parse_duration(options.step, "--step-time").count(), options.steps_per_frame);
+  const std::size_t steps = options.steps > 0 ? options.steps : simulation.steps();
+  const Scene named{.name = "sim:" + options.scene, .frames = steps + 1, .mesh = {}, .points = {}};
+  Trials trials(subject, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
+                [&](TrialResult&& found) { record.add(std::move(found)); });
+  SceneTrial trial(named, LeaveOut::boxes, trials);
+  const Frames frames(options.frames, name);
+  try {
+    for (std::size_t step = 0; step < steps; ++step) {
+      progress(step, steps);
+      const auto start = Clock::now();
+      Clock::duration asking{};
+      SimulatedStep counts;
+      counts.merge(simulation.advance([&](const MovingMesh& motion, const auto& is_asked) {
+        const auto asked = Clock::now();
+        auto reported = trial.ask(step, motion, is_asked, counts);
+        asking += Clock::now() - asked;
+        return reported;
+      }));
+      const std::chrono::nanoseconds solving = Clock::now() - start - asking;
+      counts.solver_ns = static_cast<std::uint64_t>(solving.count());
+      TrialResult result;
+      result.statistics.simulated[{scene_family(named), name, step}] = counts;
+      trials.add(std::move(result));
+      frames.add(step, simulation.motion());
+    }
+    record.add(last_picture(simulation, scene_family(named), name));
+  } catch (const Stopped&) {  // the steps so far are still reported
+  }
+  trials.finish();
+}
+
+/// Throws Error for bad options, before any work is done.
+void expect_fine(const Options& options) {
+  (void)parse_duration(options.step, "--step-time");
+  if (std::error_code error; !options.frames.empty() && fs::exists(options.frames, error))
+    throw Error(fmt::format("{}: exists already, expected a new folder", options.frames.string()));
+}
+
+int run(const Options& options) {
+  expect_fine(options);
+  const SimulatedScene scene = simulated_scene(options.scene);
+  const Stop stop(interrupted());
+  Subjects subjects = options.trial.make_subjects(stop);
+  Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
+  std::FILE* const text = options.record.json.text();
+  fmt::print(text, "{}: {}, {}, steps of {}, edges of {} m, springs of {} N/m\n", options.scene,
+             counted(scene.scene.mesh.points.size(), "vertex", "vertices"),
+             counted(scene.scene.mesh.triangles.size(), "triangle", "triangles"), options.step,
+             options.material.edge, options.material.stiffness);
+  SimulationProgress progress(options.record.quiet, subjects.size());
+  for (std::size_t i = 0; i < subjects.size() && !stop.is_due(); ++i) {
+    const std::string name = subjects[i]->name();
+    Subjects one;
+    one.push_back(std::move(subjects[i]));
+    simulate(options, std::move(one), record, stop,
+             [&](std::size_t step, std::size_t steps) { progress.show(i, name, step, steps); });
+  }
+  return record.finish(stop.is_requested(), !stop.is_requested());
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("simulate", "Simulate cloth or hair with each subject as its CCD");
+  command->add_option(
+      "SCENE", options->scene,
+      "NAME or NAME@SIZE, where SIZE is the approximate number of triangles or lines of hair");
+  command->add_flag("--list", options->list, "List the scenes");
+  options->trial.add_to(*command);
+  Material& material = options->material;
+  command->add_option("--stiffness", material.stiffness, "The stiffness of springs, in N/m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--edge", material.edge, "The length of an edge, in m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--step-time", options->step, "The time of a step")->capture_default_str();
+  command
+      ->add_option("--steps-per-frame", options->steps_per_frame,
+                   "The number of steps in which held points move by a frame of the scene")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "The number of steps; by default, all frames of the scene")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--frames", options->frames,
+          "Write the mesh after each step to FOLDER/SUBJECT/STEP.obj (nearmiss scene reads such folders)")
+      ->type_name("FOLDER");
+  options->record.add_to(*command);
+  command->callback([options, &exit_code] {
+    if (options->list) return list_scenes(options->record.json.text());
+    if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace nearmiss::tools
