@@ -4,6 +4,7 @@
 #include "fuzz/subjects/exact.hpp"
 #include "fuzz/subjects/ladder/adaptive.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
+#include "fuzz/subjects/parity.hpp"
 
 namespace nearmiss {
 
@@ -12,6 +13,7 @@ std::vector<SubjectInfo> built_in_subjects() {
   const auto exact = exact_subjects();
   infos.insert(infos.end(), exact.begin(), exact.end());
   infos.push_back(adaptive_info);
+  infos.push_back(parity_info);
   return infos;
 }
 
@@ -19,6 +21,7 @@ std::unique_ptr<Subject> try_make_built_in(std::string_view name, std::optional<
   if (auto defect = try_make_defect(name)) return defect;
   if (auto exact = try_make_exact(name)) return exact;
   if (auto adaptive = try_make_adaptive(name)) return adaptive;
+  if (auto parity = try_make_parity(name)) return parity;
   if (auto scaled = try_make_scaled(name, given_bound)) return scaled;
   return try_make_subject(name, given_bound);
 }

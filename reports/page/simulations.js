@@ -21,7 +21,9 @@ function simulations() {
     const last = steps[steps.length - 1];
     const [sum] = summed(steps, ["scene", "subject"]);
     const most = (field) => steps.reduce((value, step) => Math.max(value, step[field]), 0);
-    return { ...sum, steps: steps.length, since: steps.find((step) => step.tangled > 0)?.step, tangled: most("tangled"), left: last.tangled,
+    const answers = countRows(true).filter((row) => isSimulation(row.family) && simulationName(row.family) === sum.scene && row.subject === sum.subject);
+    const subject_ns = answers.reduce((time, row) => time + (row.ns_per_query ?? 0) * row.queries, 0);
+    return { ...sum, subject_ns, steps: steps.length, since: steps.find((step) => step.tangled > 0)?.step, tangled: most("tangled"), left: last.tangled,
       picojoules: most("picojoules"), rest: last.picojoules };
   });
 }
@@ -41,6 +43,7 @@ function drawSimulations() {
     { title: "energy: most", number: (r) => r.picojoules, text: (r) => joules(r.picojoules) },
     { title: "at the end", number: (r) => r.rest, text: (r) => joules(r.rest) },
     { title: "solver", number: (r) => r.solver_ns, text: (r) => duration(1e-9 * r.solver_ns) },
+    { title: "CCD", number: (r) => r.subject_ns, text: (r) => duration(1e-9 * r.subject_ns) },
   ], rows, true);
   for (const picture of report.pictures ?? [])
     if (isSimulation(picture.step.replace(/ with .*$/, ""))) element("simulation-pictures").append(drawMesh(picture));

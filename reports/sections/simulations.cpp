@@ -19,6 +19,7 @@ struct Whole {
   std::uint64_t steps = 0;
   SimulatedStep sum, last;
   std::uint64_t most_tangled = 0, most_picojoules = 0;
+  std::uint64_t subject_ns = 0;                ///< the time that the subject took for all its answers
   std::optional<std::uint64_t> first_tangled;  ///< the number of the step
 
   void add(std::uint64_t number, const SimulatedStep& step) {
@@ -37,6 +38,9 @@ Row row(const std::string& subject, const Whole& whole) {
   const auto joules = [](std::uint64_t pico) {
     return fmt::format("{:.3g} J", 1e-12 * static_cast<double>(pico));
   };
+  const auto milliseconds = [&](std::uint64_t ns) {
+    return fmt::format("{:.3g} ms", 1e-6 * static_cast<double>(ns) / static_cast<double>(whole.steps));
+  };
   return {subject,
           with_separators(whole.steps),
           with_separators(whole.sum.rounds),
@@ -50,7 +54,9 @@ Row row(const std::string& subject, const Whole& whole) {
           whole.first_tangled ? with_separators(*whole.first_tangled) : "-",
           with_separators(whole.last.tangled),
           joules(whole.most_picojoules),
-          joules(whole.last.picojoules)};
+          joules(whole.last.picojoules),
+          milliseconds(whole.sum.solver_ns),
+          milliseconds(whole.subject_ns)};
 }
 
 }  // namespace
@@ -58,11 +64,15 @@ Row row(const std::string& subject, const Whole& whole) {
 std::string simulation_tables(const Statistics& statistics) {
   std::map<std::string, std::map<std::string, Whole>> scenes;
   for (const auto& [key, step] : statistics.simulated) scenes[key.family][key.subject].add(key.step, step);
+  for (const auto& [key, counts] : statistics.counts)
+    if (const auto scene = scenes.find(key.family); scene != scenes.end())
+      if (const auto whole = scene->second.find(key.subject); whole != scene->second.end())
+        whole->second.subject_ns += counts.times.nanoseconds;
   std::string text;
   for (const auto& [scene, subjects] : scenes) {
     std::vector<Row> rows{{scene, "steps", "rounds", "asked", "reported", "collisions", "missed",
                            "false pos.", "unresolved", "tangled: most", "since step", "at the end",
-                           "energy: most", "at the end"}};
+                           "energy: most", "at the end", "a step: solver", "CCD"}};
     for (const auto& [subject, whole] : subjects) rows.push_back(row(subject, whole));
     text += "\n" + columns(rows, 1);
   }

@@ -45,7 +45,7 @@ struct Statistics {
   std::map<CountsKey, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
   std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
-  SimulatedSteps simulated;                 ///< steps of simulations
+  SimulatedSteps simulated;                                     ///< steps of simulations
   FactorTable factors;                      ///< collisions of the families whose queries have factors
   VersionTable versions;                    ///< compares versions of CCDs, query by query
   std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed in each way

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/exact.hpp"
 #include "tests/queries.hpp"
 #include "tests/refused.hpp"
@@ -15,12 +17,12 @@
 namespace nearmiss {
 namespace {
 
-TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAndAdaptiveButNoDefects) {
-  EXPECT_EQ(built_in_subjects().size(), subjects().size() + exact_subjects().size() + 1);
+TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAdaptiveAndParityButNoDefects) {
+  EXPECT_EQ(built_in_subjects().size(), subjects().size() + exact_subjects().size() + 2);
   for (const SubjectInfo& info : built_in_subjects())
     EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
   EXPECT_REFUSED(make_any_subject("wong"), "exact");
-  for (const char* name : {"exact", "adaptive", "advance"})
+  for (const char* name : {"exact", "adaptive", "parity", "advance"})
     EXPECT_REFUSED(make_any_subject(std::string(name) + ":h=0.1"), "found 'h=0.1', expected no options");
   EXPECT_EQ(make_any_subject("defect:vv")->name(), "defect:vv");
   for (const SubjectInfo& info : built_in_subjects()) EXPECT_FALSE(info.name.starts_with("defect:"));
@@ -44,6 +46,23 @@ TEST(ExactSubject, AnswersEachOfManyQueries) {
     for (std::size_t i = 0; i < queries.size(); ++i)
       EXPECT_EQ(verdicts[i].hit, i % 3 != 0) << info.name << ' ' << i;
   }
+}
+
+/// The vertex goes through the triangle and back: two roots, which parity cannot tell from none.
+TEST(ParitySubject, CannotSeeAnEvenNumberOfRoots) {
+  const auto parity = make_any_subject("parity");
+  const Query back = query_of(Kind::vertex_triangle,
+                              std::array{-0.375, -0.3125, 0.25, 0., 0., 0., 1., -1., 0., 1.,  0., 1.,  //
+                                         1.125,  0.4375,  0.25, 0., 0., 0., 1., 1.,  0., -1., 0., 1.}
+                                  .data());
+  EXPECT_TRUE(make_any_subject("exact")->decide(back).hit);
+  EXPECT_FALSE(parity->decide(back).hit);
+  EXPECT_FALSE(keeps_contract(back, parity->contract()));
+  const Query once = testing::falling_vertex(0.5, 0.5, 1, -1);  // on the border
+  EXPECT_TRUE(parity->decide(once).hit);
+  EXPECT_TRUE(keeps_contract(once, parity->contract()));
+  EXPECT_EQ(parity->distance_bound(once), 0);
+  EXPECT_FALSE(parity->decides(Kind::vertex_edge));
 }
 
 TEST(AllSubjects, RefuseCoordinatesThatAreNotFinite) {

@@ -126,7 +126,7 @@ TEST(TimesOfSubjects, AreOfTheSortThatEachPromises) {
   const std::map<TimeSort, std::vector<const char*>> subjects{
       {TimeSort::estimate, {"basic", "basic-plain", "bridson", "basic:float"}},
       {TimeSort::none,
-       {"wang", "wang-eps", "wang-plain", "wang-scalar", "wang-tight", "wang:dd", "adaptive"}},
+       {"wang", "wang-eps", "wang-plain", "wang-scalar", "wang-tight", "wang:dd", "adaptive", "parity"}},
       {TimeSort::lower_bound, {"wang-time", "advance"}}};
   for (const auto& [sort, names] : subjects)
     for (const char* name : names) EXPECT_EQ(make_any_subject(name)->time_sort(), sort) << name;

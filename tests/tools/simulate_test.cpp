@@ -15,10 +15,10 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
   EXPECT_THAT(expect_code(0, "simulate --list").out, HasSubstr("\ncloths "));
   const Output output = expect_code(1,
                                     "simulate cloths@100 --subject bullet,exact --steps 25 --db s.db --json "
-                                    "new.json --frames frames --no-shrink");
+                                    "run.json --frames frames --no-shrink");
   EXPECT_THAT(output.out, HasSubstr("cloths@100: 72 vertices, 100 triangles, steps of 5ms"));
   EXPECT_THAT(output.out, ContainsRegex("scene:sim:cloths@100 +steps +rounds"));
-  const json steps = read_json("new.json")["simulations"]["scene:sim:cloths@100"];
+  const json steps = read_json("run.json")["simulations"]["scene:sim:cloths@100"];
   const auto sum = [&](const char* subject, const char* counter) {
     const auto list = steps[subject][counter].get<std::vector<int>>();
     EXPECT_EQ(list.size(), 25);
@@ -30,7 +30,7 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
   for (const char* counter : {"tangled", "false_negatives", "false_positives", "unresolved"})
     EXPECT_EQ(sum("exact", counter), 0) << counter;
   // The command that the store keeps makes the same again.
-  const json run_of = read_json("new.json")["runs"][0];
+  const json run_of = read_json("run.json")["runs"][0];
   EXPECT_EQ(run(run_of["again"].get<std::string>().substr(9) + " --json again.json").code, 1);
   for (const char* counter : {"positives", "collisions", "tangled", "picojoules"})
     EXPECT_EQ(read_json("again.json")["simulations"]["scene:sim:cloths@100"]["bullet"][counter],
