@@ -150,7 +150,7 @@ Campaign campaign() {
       statistics.oracle[{query.kind, family}].queries = 3;
     }
   statistics.funnels[{"scene:cloth#3", query.kind}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
-  statistics.simulated[{"scene:sim:cloths", "wang", 3}] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  statistics.simulated[{"scene:sim:cloths", "wang", 3}] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   count_collision(statistics.factors, {"wang", query.kind, "crossed", ""},
                   std::array<std::string, 2>{"scale=1", "when=at-1"}, true);
   statistics.versions[{"old", "wang", query.kind, "uniform"}] = {1, 2, 3, 4};

@@ -83,6 +83,7 @@ SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t numbe
     const Verdict& verdict = outcome.verdict;
     if (verdict.fault != Fault::none) return;
     ++part.counts.queries;
+    --part.counts.unanswered;
     part.counts.collisions += outcome.collision ? 1 : 0;
     part.counts.positives += verdict.hit ? 1 : 0;
     part.counts.false_negatives += outcome.collision && !verdict.hit ? 1 : 0;
@@ -112,6 +113,7 @@ SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t numbe
         some.candidates.push_back(pairs.candidates[i]);
         some.queries.push_back(pairs.queries[i]);
       }
+    part.counts.unanswered += some.queries.size();
     if (!some.queries.empty()) ask_pairs(some);
   };
   const auto decided = [&](const Candidate& candidate, const Query&, PairFate, bool collides) {

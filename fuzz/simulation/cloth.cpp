@@ -1,10 +1,13 @@
 #include "fuzz/simulation/cloth.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
 
+#include "ccd/query/error.hpp"
 #include "fuzz/scenes/built_in/formulas.hpp"
 
 namespace nearmiss {
@@ -35,6 +38,12 @@ constexpr int iterations = 12;
 
 Cloth::Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step)
     : held_(std::move(held)), material_(material), step_(step) {
+  constexpr double most = 1e10;
+  if (!(material.stiffness * step * step <= most * material.mass()))
+    throw Error(
+        fmt::format("found springs of {:g} N/m with steps of {:g} s and points of {:g} kg, expected at most "
+                    "{:.3g} N/m",
+                    material.stiffness, step, material.mass(), most * material.mass() / (step * step)));
   add_springs(mesh);
   factorise();
 }
@@ -70,6 +79,7 @@ void Cloth::factorise() {
   Eigen::SparseMatrix<double> matrix(rows_, rows_);
   matrix.setFromTriplets(entries.begin(), entries.end());
   factor_.compute(matrix);
+  if (factor_.info() != Eigen::Success) throw Error("found springs that do not hold the cloth together");
 }
 
 Eigen::MatrixXd Cloth::right_side(const Eigen::MatrixXd& inertia, const PointVectors& at) const {
@@ -94,7 +104,7 @@ Eigen::MatrixXd Cloth::right_side(const Eigen::MatrixXd& inertia, const PointVec
 }
 
 PointVectors Cloth::advance(const PointVectors& start, const PointVectors& velocities,
-                            const PointVectors& held_at) const {
+                            const PointVectors& held_at, const std::function<void()>& check) const {
   const double kept = std::max(0.0, 1 - material_.drag * step_);
   const Vector3<double> fall(0, 0, -material_.gravity * step_ * step_);
   PointVectors at(start.size());
@@ -106,6 +116,7 @@ PointVectors Cloth::advance(const PointVectors& start, const PointVectors& veloc
   }
   if (rows_ == 0) return at;
   for (int iteration = 0; iteration < iterations; ++iteration) {
+    check();
     const Eigen::MatrixXd solved = factor_.solve(right_side(inertia, at));
     for (std::size_t i = 0; i < at.size(); ++i)
       if (!held_[i])

@@ -3,6 +3,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <functional>
 #include <vector>
 
 #include "fuzz/meshes/mesh.hpp"
@@ -15,17 +16,21 @@ namespace nearmiss {
 ///
 /// A step is one of backward Euler. Its equations are solved by alternating between the directions of all
 /// springs and the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
-/// mass-spring systems"). The matrix of the second is constant and positive definite, so no stiffness and no
-/// time step makes the integration unstable; a stiff cloth only converges more slowly.
+/// mass-spring systems"). The matrix of the second is constant and positive definite, and an implicit step is
+/// stable for any stiffness; a stiff cloth only converges more slowly.
 class Cloth {
  public:
-  /// `held` has a value for each point: held points are moved by the caller. `step` is in seconds.
+  /// `held` has a value for each point: held points are moved by the caller. `step` is in seconds. Throws Error
+  /// if a spring's stiffness times the square of the step is more than 10^10 masses, for which double is too
+  /// coarse.
   Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step);
 
   /// The positions after a step from `start` (positions and velocities in m and m/s). Held points are at
   /// their positions in `held_at`.
-  [[nodiscard]] PointVectors advance(const PointVectors& start, const PointVectors& velocities,
-                                     const PointVectors& held_at) const;
+  /// Calls `check` now and then, which may end the work by an exception.
+  [[nodiscard]] PointVectors advance(
+      const PointVectors& start, const PointVectors& velocities, const PointVectors& held_at,
+      const std::function<void()>& check = [] {}) const;
 
  private:
   struct Spring {

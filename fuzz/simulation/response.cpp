@@ -76,14 +76,12 @@ void Response::apply(const Candidate& pair, const Touch& touch, double least_nor
       end[index(pair.vertices[i])] += (touch.weights[i] / compliance) * impulse;
 }
 
-bool Response::repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const {
+void Response::repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const {
   constexpr double part = 0.1;
   const Touch near = touch(pair, 0, start, end);
   const double missing = material_.thickness * material_.edge - near.distance;
   const double least = part * missing;
-  if (missing <= 0 || dot(near.motion, near.normal) >= least) return false;
-  apply(pair, near, least, end);
-  return true;
+  if (near.distance > 0 && missing > 0) apply(pair, near, least, end);
 }
 
 void Response::stop_approach(const Candidate& pair, double time, const PointVectors& start,

@@ -17,8 +17,9 @@ class Response {
   Response(std::vector<bool> held, const Material& material) : held_(std::move(held)), material_(material) {}
 
   /// Pushes a pair apart that is nearer than the thickness at the start of the step: an inelastic impulse if
-  /// they approach, and a tenth of the missing distance (§7.2 there). Returns whether something changed.
-  bool repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const;
+  /// they approach, and a tenth of the missing distance (§7.2 there). Primitives that touch have no side to which
+  /// they could be pushed, and are left as they are.
+  void repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const;
 
   /// Ends the approach of a pair that collides at a time in [0, 1]: an inelastic impulse along the normal, and
   /// friction (§7.4 there). If the time is NaN, the end of the step stands for it.

@@ -14,8 +14,8 @@ namespace {
 /// The largest energy that is told, 100 kJ, for a simulation that explodes.
 constexpr double most_picojoules = 1e17;
 
-constexpr int impulse_rounds = 10;  ///< before impact zones
-constexpr int zone_rounds = 20;     ///< before the step ends with pairs that are still reported
+constexpr int impulse_rounds = 10;  ///< after which the CCD is asked again, before impact zones
+constexpr int zone_rounds = 20;     ///< before the last one, after which nothing is changed any more
 
 /// Points that move rigidly together: those of pairs that are reported again and again.
 class ImpactZones {
@@ -87,11 +87,13 @@ PointVectors Simulation::held_positions(std::size_t step) const {
   return at;
 }
 
-void Simulation::repel() {
+void Simulation::repel(const Stop& stop) {
   MovingMesh near = motion_;
   near.end = near.start;
   near.separation = material_.thickness * material_.edge;
-  find_candidates(near, [&](const Candidate& pair) { response_.repel(pair, motion_.start, motion_.end); });
+  find_candidates(
+      near, [&](const Candidate& pair) { response_.repel(pair, motion_.start, motion_.end); },
+      [&] { return stop.is_due(); });
 }
 
 void Simulation::resolve(const AskCcd& ask, SimulatedStep& done) {
@@ -129,10 +131,11 @@ double Simulation::kinetic_energy() const {
   return material_.mass() * sum / 2;
 }
 
-SimulatedStep Simulation::advance(const AskCcd& ask) {
+SimulatedStep Simulation::advance(const AskCcd& ask, const Stop& stop) {
   motion_.start = motion_.end;
-  motion_.end = cloth_.advance(motion_.start, velocities_, held_positions(done_++));
-  repel();
+  motion_.end = cloth_.advance(motion_.start, velocities_, held_positions(done_++), [&] { stop.check(); });
+  repel(stop);
+  stop.check();
   SimulatedStep done;
   resolve(ask, done);
   for (std::size_t i = 0; i < velocities_.size(); ++i)

@@ -10,6 +10,7 @@
 #include "fuzz/simulation/response.hpp"
 #include "fuzz/simulation/simulated_scenes.hpp"
 #include "fuzz/simulation/tangled.hpp"
+#include "fuzz/stop.hpp"
 #include "reports/statistics/simulated_step.hpp"
 
 namespace nearmiss {
@@ -30,8 +31,8 @@ class Simulation {
   /// The number of steps until the last frame of the scene.
   [[nodiscard]] std::size_t steps() const;
 
-  /// Does the next step. The result has no counts of answers.
-  SimulatedStep advance(const AskCcd& ask);
+  /// Does the next step. The result has no counts of answers. Throws Stopped.
+  SimulatedStep advance(const AskCcd& ask, const Stop& stop = Stop::never());
 
   /// The motion of the last step.
   [[nodiscard]] const MovingMesh& motion() const { return motion_; }
@@ -40,7 +41,7 @@ class Simulation {
 
  private:
   [[nodiscard]] PointVectors held_positions(std::size_t step) const;
-  void repel();
+  void repel(const Stop& stop);
   void resolve(const AskCcd& ask, SimulatedStep& done);
   [[nodiscard]] double kinetic_energy() const;
 

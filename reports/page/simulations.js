@@ -15,7 +15,8 @@ function simulations() {
   const all = new Map();
   for (const step of simulatedSteps()) {
     const key = `${step.scene}\n${step.subject}`;
-    all.set(key, [...(all.get(key) ?? []), step]);
+    if (!all.has(key)) all.set(key, []);
+    all.get(key).push(step);
   }
   return [...all.values()].map((steps) => {
     const last = steps[steps.length - 1];
@@ -35,13 +36,13 @@ function drawSimulations() {
   if (rows.length === 0) return;
   show("simulations-section");
   fillTable(element("simulations"), [
-    text("scene", "scene"), measures.subject, count("steps", "steps"), count("rounds", "rounds"), count("asked", "queries"), count("reported", "positives"),
+    text("scene", "scene"), measures.subject, count("steps", "steps"), count("rounds", "rounds"), count("answered", "queries"), count("unanswered", "unanswered"), count("reported", "positives"),
     count("collisions", "collisions"), count("missed", "false_negatives", true), count("false positives", "false_positives"),
     count("unresolved", "unresolved"), count("tangled: most", "tangled", true),
-    { title: "since step", number: (r) => r.since ?? -1, text: (r) => (r.since === undefined ? "–" : integer(r.since)) },
-    count("at the end", "left", true),
+    { title: "first in step", number: (r) => r.since ?? -1, text: (r) => (r.since === undefined ? "–" : integer(r.since)) },
+    count("tangled at the end", "left", true),
     { title: "energy: most", number: (r) => r.picojoules, text: (r) => joules(r.picojoules) },
-    { title: "at the end", number: (r) => r.rest, text: (r) => joules(r.rest) },
+    { title: "energy at the end", number: (r) => r.rest, text: (r) => joules(r.rest) },
     { title: "solver", number: (r) => r.solver_ns, text: (r) => duration(1e-9 * r.solver_ns) },
     { title: "CCD", number: (r) => r.subject_ns, text: (r) => duration(1e-9 * r.subject_ns) },
   ], rows, true);

@@ -45,6 +45,7 @@ Row row(const std::string& subject, const Whole& whole) {
           with_separators(whole.steps),
           with_separators(whole.sum.rounds),
           with_separators(whole.sum.queries),
+          with_separators(whole.sum.unanswered),
           with_separators(whole.sum.positives),
           with_separators(whole.sum.collisions),
           with_separators(whole.sum.false_negatives),
@@ -70,17 +71,18 @@ std::string simulation_tables(const Statistics& statistics) {
         whole->second.subject_ns += counts.times.nanoseconds;
   std::string text;
   for (const auto& [scene, subjects] : scenes) {
-    std::vector<Row> rows{{scene, "steps", "rounds", "asked", "reported", "collisions", "missed",
-                           "false pos.", "unresolved", "tangled: most", "since step", "at the end",
-                           "energy: most", "at the end", "a step: solver", "CCD"}};
+    std::vector<Row> rows{{scene, "steps", "rounds", "answered", "unanswered", "reported", "collisions",
+                           "missed", "false pos.", "unresolved", "tangled: most", "first in step",
+                           "at the end", "energy: most", "at the end", "a step: solver", "CCD"}};
     for (const auto& [subject, whole] : subjects) rows.push_back(row(subject, whole));
     text += "\n" + columns(rows, 1);
   }
   if (!text.empty())
     text +=
-        "tangled: pairs of an edge and a triangle that pass through each other; unresolved: pairs still "
-        "reported "
-        "when a step ended\n";
+        "tangled: pairs of an edge and a triangle that pass through each other; unresolved: pairs that were "
+        "still "
+        "reported when a step ended;\nunanswered: pairs that the subject does not decide, or gave no answer "
+        "about\n";
   return text;
 }
 

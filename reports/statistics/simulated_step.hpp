@@ -12,7 +12,9 @@ namespace nearmiss {
 
 /// What a step has shown. The answers are those of all rounds in which the subject was asked about its motion.
 struct SimulatedStep {
-  std::uint64_t queries = 0;
+  std::uint64_t queries = 0;  ///< pairs that the subject answered
+  std::uint64_t unanswered =
+      0;  ///< pairs that it does not decide, that its contract excludes, or without answer
   std::uint64_t collisions = 0;
   std::uint64_t positives = 0;
   std::uint64_t false_negatives = 0;
@@ -25,6 +27,7 @@ struct SimulatedStep {
 
   static constexpr auto counters() {
     return std::tuple{Counter{"queries", &SimulatedStep::queries},
+                      Counter{"unanswered", &SimulatedStep::unanswered},
                       Counter{"collisions", &SimulatedStep::collisions},
                       Counter{"positives", &SimulatedStep::positives},
                       Counter{"false_negatives", &SimulatedStep::false_negatives},

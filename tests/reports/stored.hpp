@@ -40,7 +40,7 @@ inline Statistics some_statistics(const std::string& subject) {
       Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, stored_query, "uniform:1:3", 7};
   statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
-  statistics.simulated[{"scene:sim:cloths", subject, 3}] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  statistics.simulated[{"scene:sim:cloths", subject, 3}] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   const std::array<std::string, 2> values{"scale=1", "when=at-1"};
   count_collision(statistics.factors, {subject, Kind::edge_edge, "crossed", ""}, values, true);
   statistics.versions[{"old", subject, Kind::edge_edge, "uniform"}] = {1, 2, 3, 4};

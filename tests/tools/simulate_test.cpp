@@ -26,8 +26,9 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
   };
   EXPECT_GT(sum("bullet", "tangled"), 0);
   EXPECT_GT(sum("bullet", "false_negatives"), 0);
+  EXPECT_GT(sum("bullet", "unanswered"), 0) << "it does not decide pairs of edges";
   EXPECT_GT(sum("exact", "positives"), 0);
-  for (const char* counter : {"tangled", "false_negatives", "false_positives", "unresolved"})
+  for (const char* counter : {"unanswered", "tangled", "false_negatives", "false_positives", "unresolved"})
     EXPECT_EQ(sum("exact", counter), 0) << counter;
   // The command that the store keeps makes the same again.
   const json run_of = read_json("run.json")["runs"][0];
@@ -36,13 +37,40 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
     EXPECT_EQ(read_json("again.json")["simulations"]["scene:sim:cloths@100"]["bullet"][counter],
               steps["bullet"][counter]);
   EXPECT_EQ(report_of("s.db", 1)["pictures"].size(), 2);
-  // Frames are scenes.
-  EXPECT_THAT(run("scene frames/exact --leave-out boxes").out, HasSubstr("exact: 25 frames, 72 vertices"));
+  // Frames are scenes: the start, and the end of each step.
+  EXPECT_THAT(run("scene frames/exact --leave-out boxes").out, HasSubstr("exact: 26 frames, 72 vertices"));
   expect_refused("simulate cloths@100 --subject exact --frames frames", {"frames: exists already"});
   expect_refused("simulate knots", {"knots: found no scene of that name", "nearmiss simulate --list"});
-  expect_refused("simulate cloths --stiffness -1", {"--stiffness"});
+  for (const char* bad : {"-1", "0", "nan", "inf", "x", "1e999"}) {
+    expect_refused(std::string("simulate cloths --stiffness ") + bad,
+                   {"--stiffness: found '" + std::string(bad) + "', expected a positive number"});
+    expect_refused(std::string("simulate cloths --edge ") + bad, {"--edge: found '" + std::string(bad)});
+  }
+  expect_refused("simulate cloths --stiffness 1e20",
+                 {"found springs of 1e+20 N/m", "expected at most 8e+09 N/m"});
   expect_refused("simulate cloths --step-time 0s", {"--step-time"});
+  expect_refused("simulate cloths --steps 10001", {"--steps"});
+  expect_refused("simulate cloths --subject basic,wang --versions basic,wang", {"--versions"});
   expect_refused("simulate", {"SCENE is required"});
+}
+
+TEST_F(CommandLine, SimulateFailsIfASubjectIsAskedNothing) {
+  const Output output = expect_code(1, "simulate hair@100 --subject bullet --steps 3");
+  EXPECT_THAT(output.out, HasSubstr("asked nothing"));
+}
+
+TEST_F(CommandLine, SimulationsAreAddedUpOnlyIfTheyDiffer) {
+  const std::string simulate = "simulate cloths@50 --subject exact --steps 8 -q --db ";
+  expect_code(0, simulate + "a.db");
+  expect_code(0, simulate + "b.db --stiffness 500 --step-time 2ms");
+  expect_code(0, "merge both.db a.db b.db");
+  const json both = report_of("both.db")["simulations"];
+  EXPECT_EQ(both.size(), 2);
+  EXPECT_TRUE(both.contains("scene:sim:cloths@50:stiffness=500:step=2ms"));
+  EXPECT_EQ(both["scene:sim:cloths@50"]["exact"]["step"].size(), 8);
+  expect_code(0, "simulate cloths@50 --subject exact --steps 9 -q --db c.db");
+  EXPECT_THAT(expect_code(2, "report a.db c.db -o twice").error,
+              HasSubstr("c.db: found scene:sim:cloths@50 with exact, which another store has too"));
 }
 
 }  // namespace

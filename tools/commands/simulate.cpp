@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/simulation/simulation.hpp"
 #include "reports/text/text.hpp"
@@ -21,16 +23,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_steps = 10'000;
+
+/// Throws Error that names the option.
+double positive_number(const std::string& text, const std::string& option) {
+  const auto number = number_in(text);
+  if (!number || !(*number > 0) || !std::isfinite(*number))
+    throw Error(fmt::format("{}: found '{}', expected a positive number", option, excerpt(text)));
+  return *number;
+}
+
 struct Options {
   std::string scene;
   TrialOptions trial{.subjects = {"basic", "wang", "exact"}};
-  Material material;
-  std::string step = "5ms";
+  std::string stiffness = "20", edge = "0.01", step = "5ms";
   int steps_per_frame = 4;
   std::size_t steps = 0;
   bool list = false;
   fs::path frames;
   RecordOptions record;
+
+  /// Throws Error.
+  [[nodiscard]] Simulation simulation() const {
+    Material material;
+    material.stiffness = positive_number(stiffness, "--stiffness");
+    material.edge = positive_number(edge, "--edge");
+    return {simulated_scene(scene), material, parse_duration(step, "--step-time").count(), steps_per_frame};
+  }
+
+  /// The name under which the steps are counted: the scene with the options that change its motion, unless they
+  /// are the usual ones, such as "sim:knot:stiffness=100:step=2ms".
+  [[nodiscard]] std::string name() const {
+    const Options usual;
+    std::string all = "sim:" + scene;
+    const auto add = [&](std::string_view key, const auto& own, const auto& usual_value) {
+      if (own != usual_value) all += fmt::format(":{}={}", key, own);
+    };
+    add("stiffness", stiffness, usual.stiffness);
+    add("edge", edge, usual.edge);
+    add("step", step, usual.step);
+    add("steps-per-frame", steps_per_frame, usual.steps_per_frame);
+    return all;
+  }
 };
 
 void list_scenes(std::FILE* out) {
@@ -45,15 +79,15 @@ RunInfo run_info(const Options& options, const Subjects& subjects) {
   const auto note = [&](const std::string& fact, const std::string& option, const auto& value) {
     note_option(info, fact, option, fmt::format("{}", value));
   };
-  note("stiffness", "--stiffness", options.material.stiffness);
-  note("edge", "--edge", options.material.edge);
+  note("stiffness", "--stiffness", options.stiffness);
+  note("edge", "--edge", options.edge);
   note("time step", "--step-time", options.step);
   note("steps a frame", "--steps-per-frame", options.steps_per_frame);
   if (options.steps > 0) note("steps", "--steps", options.steps);
   return info;
 }
 
-/// Writes the mesh at the end of each step to FOLDER/SUBJECT/STEP.obj.
+/// Writes the mesh after each step to FOLDER/SUBJECT/STEP.obj; step 0 is the start.
 class Frames {
  public:
   Frames(const fs::path& folder, const std::string& subject) {
@@ -106,36 +140,37 @@ ScenePicture last_picture(const Simulation& simulation, const std::string& famil
 }
 
 /// Simulates the scene with one subject as its CCD, until the stop is due.
-void simulate(const Options& options, Subjects subject, Record& record, const Stop& stop,
+void simulate(const Options& options, const Subjects& subject, Record& record, const Stop& stop,
               const std::function<void(std::size_t step, std::size_t steps)>& progress) {
   using Clock = std::chrono::steady_clock;
   const std::string name = subject.front()->name();
-  Simulation simulation(simulated_scene(options.scene), options.material,
-                        parse_duration(options.step, "--step-time").count(), options.steps_per_frame);
+  Simulation simulation = options.simulation();
   const std::size_t steps = options.steps > 0 ? options.steps : simulation.steps();
-  const Scene named{.name = "sim:" + options.scene, .frames = steps + 1, .mesh = {}, .points = {}};
+  const Scene named{.name = options.name(), .frames = steps + 1, .mesh = {}, .points = {}};
   Trials trials(subject, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
                 [&](TrialResult&& found) { record.add(std::move(found)); });
   SceneTrial trial(named, LeaveOut::boxes, trials);
   const Frames frames(options.frames, name);
+  frames.add(0, simulation.motion());
   try {
     for (std::size_t step = 0; step < steps; ++step) {
       progress(step, steps);
       const auto start = Clock::now();
       Clock::duration asking{};
       SimulatedStep counts;
-      counts.merge(simulation.advance([&](const MovingMesh& motion, const auto& is_asked) {
+      const auto ask = [&](const MovingMesh& motion, const auto& is_asked) {
         const auto asked = Clock::now();
         auto reported = trial.ask(step, motion, is_asked, counts);
         asking += Clock::now() - asked;
         return reported;
-      }));
+      };
+      counts.merge(simulation.advance(ask, stop));
       const std::chrono::nanoseconds solving = Clock::now() - start - asking;
       counts.solver_ns = static_cast<std::uint64_t>(solving.count());
       TrialResult result;
       result.statistics.simulated[{scene_family(named), name, step}] = counts;
       trials.add(std::move(result));
-      frames.add(step, simulation.motion());
+      frames.add(step + 1, simulation.motion());
     }
     record.add(last_picture(simulation, scene_family(named), name));
   } catch (const Stopped&) {  // the steps so far are still reported
@@ -143,31 +178,29 @@ void simulate(const Options& options, Subjects subject, Record& record, const St
   trials.finish();
 }
 
-/// Throws Error for bad options, before any work is done.
-void expect_fine(const Options& options) {
-  (void)parse_duration(options.step, "--step-time");
+int run(const Options& options) {
+  if (!options.trial.comparison.versions.empty())
+    throw Error("--versions: found simulations, in which each subject is asked other queries");
   if (std::error_code error; !options.frames.empty() && fs::exists(options.frames, error))
     throw Error(fmt::format("{}: exists already, expected a new folder", options.frames.string()));
-}
-
-int run(const Options& options) {
-  expect_fine(options);
-  const SimulatedScene scene = simulated_scene(options.scene);
+  const Simulation simulation = options.simulation();  // bad options are refused before any work
   const Stop stop(interrupted());
   Subjects subjects = options.trial.make_subjects(stop);
   Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
   std::FILE* const text = options.record.json.text();
-  fmt::print(text, "{}: {}, {}, steps of {}, edges of {} m, springs of {} N/m\n", options.scene,
-             counted(scene.scene.mesh.points.size(), "vertex", "vertices"),
-             counted(scene.scene.mesh.triangles.size(), "triangle", "triangles"), options.step,
-             options.material.edge, options.material.stiffness);
+  const MovingMesh& mesh = simulation.motion();
+  fmt::print(text, "{}: {}, {}, {}, steps of {}, edges of {} m, springs of {} N/m\n", options.scene,
+             counted(mesh.start.size(), "vertex", "vertices"),
+             counted(mesh.triangles.size(), "triangle", "triangles"),
+             counted(mesh.edges.size(), "edge", "edges"), options.step, options.edge, options.stiffness);
   SimulationProgress progress(options.record.quiet, subjects.size());
   for (std::size_t i = 0; i < subjects.size() && !stop.is_due(); ++i) {
     const std::string name = subjects[i]->name();
     Subjects one;
     one.push_back(std::move(subjects[i]));
-    simulate(options, std::move(one), record, stop,
+    simulate(options, one, record, stop,
              [&](std::size_t step, std::size_t steps) { progress.show(i, name, step, steps); });
+    if (!stop.is_requested()) record.add_unasked(one);
   }
   return record.finish(stop.is_requested(), !stop.is_requested());
 }
@@ -179,28 +212,26 @@ void add_simulate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("simulate", "Simulate cloth or hair with each subject as its CCD");
   command->add_option(
       "SCENE", options->scene,
-      "NAME or NAME@SIZE, where SIZE is the approximate number of triangles or lines of hair");
+      "NAME or NAME@SIZE, where SIZE is the approximate number of triangles, or of lines of hair");
   command->add_flag("--list", options->list, "List the scenes");
   options->trial.add_to(*command);
-  Material& material = options->material;
-  command->add_option("--stiffness", material.stiffness, "The stiffness of springs, in N/m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--edge", material.edge, "The length of an edge, in m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--step-time", options->step, "The time of a step")->capture_default_str();
+  command->add_option("--stiffness", options->stiffness, "The stiffness of springs, in N/m")
+      ->capture_default_str()
+      ->type_name("NUMBER");
+  command->add_option("--edge", options->edge, "The length of an edge, in m")
+      ->capture_default_str()
+      ->type_name("NUMBER");
+  command->add_option("--step-time", options->step, "The time of a step")
+      ->capture_default_str()
+      ->type_name("TIME");
+  add_count_option(*command, "--steps-per-frame", options->steps_per_frame, 1, 1000,
+                   "Steps from one frame of the scene to the next; held points move evenly between them");
+  add_count_option(*command, "--steps", options->steps, 1, most_steps, "The number of steps")
+      ->default_str("all frames");
   command
-      ->add_option("--steps-per-frame", options->steps_per_frame,
-                   "The number of steps in which held points move by a frame of the scene")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--steps", options->steps, "The number of steps; by default, all frames of the scene")
-      ->check(CLI::PositiveNumber);
-  command
-      ->add_option(
-          "--frames", options->frames,
-          "Write the mesh after each step to FOLDER/SUBJECT/STEP.obj (nearmiss scene reads such folders)")
+      ->add_option("--frames", options->frames,
+                   "Write the mesh after each step to FOLDER/SUBJECT/STEP.obj; 0000.obj is the start "
+                   "(nearmiss scene reads such folders)")
       ->type_name("FOLDER");
   options->record.add_to(*command);
   command->callback([options, &exit_code] {
