@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <nlopt.hpp>
 #include <stdexcept>
 
@@ -9,10 +10,21 @@
 
 namespace nearmiss {
 
+namespace {
+
+constexpr int evaluations = 300;  ///< of one optimiser
+
+}  // namespace
+
 SearchPoint Maximiser::run(const Draw& draw_start) {
   constexpr int starts = 50;
   for (int i = 0; i < starts && !over(); ++i) show(draw_start());
-  for (bool again = false; !over(); again = true) optimise(again);
+  for (bool again = false; !over(); again = true) {
+    if (moves_vertices_ && random_.one_in(2))
+      move_vertices();
+    else
+      optimise(again);
+  }
   return best_;
 }
 
@@ -32,7 +44,6 @@ double Maximiser::show(const SearchPoint& point) {
 
 void Maximiser::optimise(bool beside) {
   constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
-  constexpr int evaluations = 300;
   const double step = search_log_uniform(random_, finest_step_, 0.5);
   SearchPoint start = best_;
   if (beside) start.visit(touching_, [&](Vector3<double>& v) { v += random_.vector(step); });
@@ -58,6 +69,36 @@ void Maximiser::optimise(bool beside) {
   if (error_) std::rethrow_exception(error_);
 }
 
+void Maximiser::move_vertices() {
+  const int last = shown_ + evaluations;
+  double size = search_log_uniform(random_, finest_step_, 0.5);
+  while (!over() && shown_ < last) {
+    Displacements step = draw_step(size * search_log_uniform(random_, 1.0 / 8, 8));
+    bool gained = false;
+    for (; !over() && gains(step); gained = true)
+      for (double& c : step) c *= 2;
+    size *= gained ? 1.5 : 0.97;
+  }
+}
+
+Displacements Maximiser::draw_step(double size) {
+  const Vector3<double> by = random_.vector(size);
+  const auto draw = [&](int lo, int hi) { return static_cast<unsigned>(random_.integer(lo, hi)); };
+  const std::bitset<3> axes(draw(1, 7));
+  const std::bitset<8> points(random_.one_in(2) ? 1U << draw(0, 7) : draw(1, 255));
+  Displacements step{};
+  for (std::size_t i = 0; i < step.size(); ++i)
+    if (points[i / 3] && axes[i % 3]) step[i] = by[static_cast<Eigen::Index>(i % 3)];
+  return step;
+}
+
+bool Maximiser::gains(const Displacements& step) {
+  SearchPoint point = best_;
+  for (std::size_t i = 0; i < step.size(); ++i) point.moved[i] += step[i];
+  const double before = best_value_;
+  return show(point) > before;
+}
+
 double Maximiser::value_at(const std::vector<double>& x) {
   double value = unwanted;
   try {
@@ -70,8 +111,7 @@ double Maximiser::value_at(const std::vector<double>& x) {
 }
 
 SearchPoint Maximiser::point_at(const std::vector<double>& x) const {
-  SearchPoint point;
-  point.gap.setZero();
+  SearchPoint point = best_;
   const double* from = x.data();
   point.visit(touching_, [&](Vector3<double>& v) {
     v = Vector3<double>(from[0], from[1], from[2]);

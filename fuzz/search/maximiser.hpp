@@ -24,9 +24,15 @@ class Maximiser {
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// Step sizes are drawn between `finest_step` and 0.5.
-  Maximiser(Random& random, bool touching, double finest_step, Objective objective)
-      : random_(random), touching_(touching), finest_step_(finest_step), objective_(std::move(objective)) {}
+  /// Step sizes are drawn between `finest_step` and 0.5. With `moves_vertices`, which breaks contacts, every
+  /// second optimisation moves vertices in place of the coordinates of SearchPoint::visit().
+  Maximiser(Random& random, bool touching, double finest_step, Objective objective,
+            bool moves_vertices = false)
+      : random_(random),
+        touching_(touching),
+        moves_vertices_(moves_vertices),
+        finest_step_(finest_step),
+        objective_(std::move(objective)) {}
 
   /// The best of search_evaluations points. Throws what the objective throws.
   SearchPoint run(const Draw& draw_start);
@@ -36,12 +42,21 @@ class Maximiser {
   double show(const SearchPoint& point);
   /// Optimises from the best point so far, or from one near it (`beside`), with steps of a random size.
   void optimise(bool beside);
+  /// Moves vertices of the best point so far. A step that gains is repeated, each time twice as long. The
+  /// size of steps grows after a gain, and shrinks after a step without one.
+  void move_vertices();
+  /// Draws one displacement along some axes, for one of the eight positions (four vertices, at t = 0 and
+  /// t = 1) or for several.
+  Displacements draw_step(double size);
+  /// Whether the best point is improved by this step.
+  bool gains(const Displacements& step);
   /// The objective as an optimiser sees it.
   double value_at(const std::vector<double>& x);
   [[nodiscard]] SearchPoint point_at(const std::vector<double>& x) const;
 
   Random& random_;
   bool touching_;
+  bool moves_vertices_;
   double finest_step_;
   Objective objective_;
   nlopt::opt* optimiser_ = nullptr;

@@ -113,7 +113,7 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
     if (h > 0) m.gap += h * m.gap.normalized();
     return m;
   };
-  return query_of(kind, Maximiser(random, false, smallest, objective).run(draw), h);
+  return query_of(kind, Maximiser(random, false, smallest, objective, /*moves_vertices=*/true).run(draw), h);
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ Family miss_search(const Subject& subject, const Stop& stop = Stop::never(),
 
 /// The family "search-far-NAME". Each query is the farthest false positive that a search found, relative to
 /// the bound that the subject claims, or to wang's bound if it claims none. A false positive that refutes the
-/// bound ends the search. If a search finds no false positive, it returns another query. All else is as for
-/// miss_search.
+/// bound ends the search. If a search finds no false positive, it returns another query. Besides contacts and
+/// gaps, the search moves vertices: plane culling compares their coordinates, and hardly any change of the
+/// contact keeps a far pair unseparated by all planes. All else is as for miss_search.
 Family far_search(const Subject& subject, const Stop& stop = Stop::never(), std::string_view separation = {});
 
 /// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest

@@ -92,6 +92,7 @@ Query query_of(Kind kind, const SearchPoint& point, double h) {
     query.set_start(i, query.start(i) + point.gap);
     query.set_end(i, query.end(i) + point.gap);
   }
+  for (std::size_t i = 0; i < query.x.size(); ++i) query.x[i] += point.moved[i];
   query.separation = h;
   repeat_vertices(query);
   return query;

@@ -7,12 +7,17 @@
 
 namespace nearmiss {
 
-/// A contact, in the frame in which `base` is at rest at the origin, and a gap between the primitives.
+/// How far each vertex is moved, in the order of Query::x.
+using Displacements = std::array<double, 24>;
+
+/// A contact, in the frame in which `base` is at rest at the origin, a gap between the primitives, and
+/// displacements of the vertices from there.
 struct SearchPoint {
   Path q, r;
   Vector3<double> w;      ///< velocity of the first primitive's point of contact
   Vector3<double> place;  ///< α, β, time
   Vector3<double> gap;
+  Displacements moved{};
 
   /// Visits all vectors, without the gap if the primitives must touch.
   template <class Visit>

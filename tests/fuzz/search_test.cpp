@@ -62,7 +62,7 @@ TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
       for (const auto& family : {miss_search(*subject), far_search(*subject)})
         hash.add_all(search(family, i).x);
   }
-  EXPECT_EQ(hash.value(), 0x6de54ae0e88b2ce) << std::hex << hash.value();
+  EXPECT_EQ(hash.value(), 0xbde8d2f62b9b68cd) << std::hex << hash.value();
 }
 
 TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
@@ -88,6 +88,11 @@ double farthest(const Subject& subject, std::uint64_t searches) {
 }
 
 TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) { EXPECT_GT(farthest(*make_subject("wang"), 20), 0.9); }
+
+// In float the bound is 0.76 B, so that many planes of the culling nearly separate far false positives.
+TEST(FarSearch, ComesNearTheBoundPastPlaneCulling) {
+  EXPECT_GT(farthest(*make_any_subject("wang:float"), 40), 0.8);
+}
 
 // For a fine scalar, the search must make primitives as small as the bound.
 TEST(FarSearch, ComesNearTheBoundOfAFineScalarToo) {
