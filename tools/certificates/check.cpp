@@ -153,7 +153,9 @@ Integers dot(const Vector& a, const Vector& b) {
 }
 
 Vector cross(const Vector& a, const Vector& b) {
-  const auto component = [&](int i, int j) { return Integers(product(a[i], b[j]) - product(a[j], b[i])); };
+  const auto component = [&](std::size_t i, std::size_t j) {
+    return Integers(product(a[i], b[j]) - product(a[j], b[i]));
+  };
   return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
@@ -270,7 +272,7 @@ void prove_at(const Json& proof, const Query& query, const Statement& claim) {
 /// at all times. So where F = 0 and all weights are positive, x0 is the weighted mean of x1, x2 and x3.
 std::vector<Integers> vertex_triangle(const std::vector<Vector>& x) {
   const Vector N = cross(x[2] - x[1], x[3] - x[1]);
-  const auto weight = [&](int j, int k) { return dot(N, cross(x[j] - x[0], x[k] - x[0])); };
+  const auto weight = [&](std::size_t j, std::size_t k) { return dot(N, cross(x[j] - x[0], x[k] - x[0])); };
   return {dot(N, x[0] - x[1]), weight(2, 3), weight(3, 1), weight(1, 2)};
 }
 
