@@ -91,8 +91,9 @@ nlohmann::ordered_json simulations_json(const Statistics& statistics) {
   for (const auto& [key, step] : statistics.simulated) {
     auto& lists = json[key.family][key.subject];
     lists["step"].push_back(key.step);
-    for_each_counter<SimulatedStep>(
-        [&](const auto& counter) { lists[std::string(counter.json_key)].push_back(step.*counter.member); });
+    for_each_counter<SimulatedStep>([&lists, &counts = step](const auto& counter) {
+      lists[std::string(counter.json_key)].push_back(counts.*counter.member);
+    });
   }
   return json;
 }
