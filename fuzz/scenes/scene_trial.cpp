@@ -102,8 +102,10 @@ SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t numbe
              },
          .observe =
              [&](std::size_t i, std::size_t subject, const Outcome& outcome) {
-               part.marks.add(pairs.candidates[i], subject, outcome);
-               if (is_asked) keep(pairs.candidates[i], outcome);
+               if (is_asked)
+                 keep(pairs.candidates[i], outcome);
+               else
+                 part.marks.add(pairs.candidates[i], subject, outcome);
              }});
   };
   const auto ask_some = [&](const AskedPairs& pairs) {

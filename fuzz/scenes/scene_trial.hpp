@@ -23,9 +23,9 @@ class SceneTrial {
   /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
-  /// Asks a single subject about the pairs of a step whose boxes meet and for which `is_asked` is true. They are
-  /// counted in the family of the whole scene (scene_family), and in `counts`. Returns the pairs that the subject
-  /// reports, in the order of the plan. Throws Stopped.
+  /// Asks a single subject about the pairs of a step whose boxes meet and for which `is_asked` is true. They
+  /// are counted in the family of the whole scene (scene_family), and in `counts`. Returns the pairs that the
+  /// subject reports, in the order of the plan. Throws Stopped.
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
@@ -35,7 +35,7 @@ class SceneTrial {
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
 
-  /// What is kept of some parts, in addition to the results of their trials.
+  /// The results of some parts that are not statistics of trials.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};

@@ -50,28 +50,25 @@ class Nearest {
 
 bool is_inside(double weight) { return weight > 0 && weight < 1; }
 
-/// The foot of the vertex on the triangle's plane, if it is inside.
-void offer_face(const Points& x, Nearest& nearest) {
-  const Vector3<double> u = x[2] - x[1];
-  const Vector3<double> v = x[3] - x[1];
-  const Vector3<double> w = x[0] - x[1];
+/// The coefficients a and b of the point a u + b v that is nearest to w.
+std::array<double, 2> coefficients(const Vector3<double>& u, const Vector3<double>& v,
+                                   const Vector3<double>& w) {
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
   const double area = uu * vv - uv * uv;
-  const double second = (vv * wu - uv * wv) / area;
-  const double third = (uu * wv - uv * wu) / area;
+  return {(vv * wu - uv * wv) / area, (uu * wv - uv * wu) / area};
+}
+
+/// The foot of the vertex on the triangle's plane, if it is inside.
+void offer_face(const Points& x, Nearest& nearest) {
+  const auto [second, third] = coefficients(x[2] - x[1], x[3] - x[1], x[0] - x[1]);
   if (is_inside(second) && is_inside(third) && second + third < 1)
     nearest.offer({1, -(1 - second - third), -second, -third});
 }
 
 /// The feet of the common perpendicular of two edges, if both are inside.
 void offer_perpendicular(const Points& x, Nearest& nearest) {
-  const Vector3<double> u = x[1] - x[0];
-  const Vector3<double> v = x[3] - x[2];
-  const Vector3<double> w = x[0] - x[2];
-  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
-  const double area = uu * vv - uv * uv;
-  const double s = (uv * wv - vv * wu) / area;
-  const double t = (uu * wv - uv * wu) / area;
+  const auto [back, t] = coefficients(x[1] - x[0], x[3] - x[2], x[0] - x[2]);
+  const double s = -back;
   if (is_inside(s) && is_inside(t)) nearest.offer({1 - s, s, -(1 - t), -t});
 }
 

@@ -26,8 +26,7 @@ class Cloth {
   Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step);
 
   /// The positions after a step from `start` (positions and velocities in m and m/s). Held points are at
-  /// their positions in `held_at`.
-  /// Calls `check` now and then, which may end the work by an exception.
+  /// their positions in `held_at`. `check` is called now and then, and may end the work by an exception.
   [[nodiscard]] PointVectors advance(
       const PointVectors& start, const PointVectors& velocities, const PointVectors& held_at,
       const std::function<void()>& check = [] {}) const;

@@ -1,4 +1,4 @@
-// What simulated cloth and hair are made of.
+// The physical constants of simulated cloth and hair.
 #pragma once
 
 #include <vector>

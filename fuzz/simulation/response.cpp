@@ -16,7 +16,7 @@ std::size_t index(int point) { return static_cast<std::size_t>(point); }
 
 }  // namespace
 
-/// Where and how the primitives of a pair touch.
+/// The contact of a pair: its place, its normal, and the relative motion there.
 struct Response::Touch {
   std::array<double, 4> weights{};  ///< as in closest_weights
   Vector3<double> normal{0, 0, 0};  ///< of length 1, from the second primitive to the first; or 0
@@ -39,11 +39,11 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
     from += touch.weights[i] * start[point];
     touch.motion += touch.weights[i] * (end[point] - start[point]);
   }
-  const auto [u, v] =
-      has_triangle(pair.kind) ? std::pair{x[2] - x[1], x[3] - x[1]} : std::pair{x[1] - x[0], x[3] - x[2]};
+  const auto& edges = topology(pair.kind).pqr;  // q and r, whose cross product is the normal
+  const Vector3<double> u = x[edges[1].to] - x[edges[1].from];
+  const Vector3<double> v = x[edges[2].to] - x[edges[2].from];
   // The closest points give the normal while they are apart, and the primitives when they meet.
-  const Vector3<double> cross(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                              u[0] * v[1] - u[1] * v[0]);
+  const Vector3<double> cross = u.cross(v);
   constexpr double parallel = 1e-6;
   touch.normal = time > 0 && length(cross) > parallel * length(u) * length(v) ? cross : from;
   const double size = length(touch.normal);

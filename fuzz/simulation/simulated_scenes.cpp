@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string_view>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
-#include "corpus/query_text.hpp"
-#include "fuzz/scenes/built_in/built_in_scenes.hpp"
 #include "fuzz/scenes/built_in/formulas.hpp"
 #include "fuzz/scenes/built_in/shapes.hpp"
 
@@ -71,9 +68,7 @@ Held corners_of_first_sheet(const Mesh& mesh) {
 }
 
 struct Entry {
-  SimulatedSceneInfo info;
-  int smallest;
-  std::function<Scene(int size)> make;
+  BuiltInScene scene;
   Held (*held)(const Mesh& mesh);
 };
 
@@ -86,52 +81,38 @@ constexpr int largest = 20'000;  // whose matrix takes less than a second
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all{
-      {{"knot", 1200, "a tube with an overhand knot, which is pulled tight by its ends"},
-       300,
-       built_in("knot"),
+      {{"knot", "a tube with an overhand knot, which is pulled tight by its ends", 1200, 300, largest,
+        built_in("knot")},
        ends_of_tube},
-      {{"cloths", 800, "a cloth falls, vertex on vertex, on an equal one that is held by its corners"},
-       16,
-       two_sheets,
+      {{"cloths", "a cloth falls, vertex on vertex, on an equal one that is held by its corners", 800, 16,
+        largest, two_sheets},
        corners_of_first_sheet},
-      {{"spikes", 1200, "a cloth falls on a square of spikes"}, 300, built_in("spikes"), other_bodies},
-      {{"hair", 600, "a bundle of hair is twisted by its ends: lines only"},
-       100,
-       built_in("hair"),
+      {{"spikes", "a cloth falls on a square of spikes", 1200, 300, largest, built_in("spikes")},
+       other_bodies},
+      {{"hair", "a bundle of hair is twisted by its ends: lines only", 600, 100, largest, built_in("hair")},
        ends_of_lines}};
   return all;
 }
 
 }  // namespace
 
-const std::vector<SimulatedSceneInfo>& simulated_scenes() {
-  static const std::vector<SimulatedSceneInfo> infos = [] {
-    std::vector<SimulatedSceneInfo> all;
-    for (const Entry& each : entries()) all.push_back(each.info);
+const std::vector<BuiltInScene>& simulated_scenes() {
+  static const std::vector<BuiltInScene> scenes = [] {
+    std::vector<BuiltInScene> all;
+    for (const Entry& each : entries()) all.push_back(each.scene);
     return all;
   }();
-  return infos;
+  return scenes;
 }
 
 SimulatedScene simulated_scene(const std::string& text) {
-  const std::string_view name = std::string_view(text).substr(0, text.find('@'));
-  const auto found = std::find_if(entries().begin(), entries().end(),
-                                  [&](const Entry& each) { return each.info.name == name; });
-  if (found == entries().end())
+  const BuiltInScene* scene = find_scene(text, simulated_scenes());
+  if (scene == nullptr)
     throw Error(
         fmt::format("{}: found no scene of that name that can be simulated (see nearmiss simulate --list)",
                     excerpt(text)));
-  std::optional<int> size = found->info.default_size;
-  if (name.size() < text.size()) {
-    const std::string_view word = std::string_view(text).substr(name.size() + 1);
-    size = parse_integer<int>(word);
-    if (!size || *size < found->smallest || *size > largest)
-      throw Error(fmt::format("{}: found size '{}', expected {} to {}", excerpt(text), excerpt(word),
-                              found->smallest, largest));
-  }
-  SimulatedScene made{.scene = found->make(*size), .held = {}};
-  made.scene.name = text;
-  made.held = found->held(made.scene.mesh);
+  SimulatedScene made{.scene = make_scene(text, *scene), .held = {}};
+  made.held = entries()[static_cast<std::size_t>(scene - simulated_scenes().data())].held(made.scene.mesh);
   return made;
 }
 

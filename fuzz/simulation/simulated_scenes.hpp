@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/scenes/scene.hpp"
+#include "fuzz/scenes/built_in/built_in_scenes.hpp"
 
 namespace nearmiss {
 
@@ -15,14 +15,8 @@ struct SimulatedScene {
   std::vector<bool> held;  ///< for each point: whether it moves as the frames say
 };
 
-struct SimulatedSceneInfo {
-  std::string name;
-  int default_size = 0;  ///< the approximate number of triangles, or of lines of hair
-  std::string description;
-};
-
 /// All scenes, in the order in which they are listed.
-const std::vector<SimulatedSceneInfo>& simulated_scenes();
+const std::vector<BuiltInScene>& simulated_scenes();
 
 /// Makes the scene NAME in its default size, or NAME@SIZE. Throws Error if there is no such scene, or the
 /// size is not an integer or is out of range.

@@ -1,8 +1,6 @@
 #include "fuzz/simulation/simulation.hpp"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 #include <utility>
 
 #include "fuzz/scenes/built_in/formulas.hpp"
@@ -17,36 +15,15 @@ constexpr double most_picojoules = 1e17;
 constexpr int impulse_rounds = 10;  ///< after which the CCD is asked again, before impact zones
 constexpr int zone_rounds = 20;     ///< before the last one, after which nothing is changed any more
 
-/// Points that move rigidly together: those of pairs that are reported again and again.
-class ImpactZones {
- public:
-  explicit ImpactZones(std::size_t points) : leader_(points) { std::iota(leader_.begin(), leader_.end(), 0); }
-
-  void join(const Candidate& pair) {
-    for (const int point : pair.vertices)
-      leader_[static_cast<std::size_t>(leader(point))] = leader(pair.vertices[0]);
-  }
-
-  /// The zones of more than one point, in the order of their leaders.
-  [[nodiscard]] std::vector<std::vector<int>> zones() {
-    std::map<int, std::vector<int>> by_leader;
-    for (int point = 0; point < static_cast<int>(leader_.size()); ++point)
-      by_leader[leader(point)].push_back(point);
-    std::vector<std::vector<int>> all;
-    for (auto& [leader, zone] : by_leader)
-      if (zone.size() > 1) all.push_back(std::move(zone));
-    return all;
-  }
-
- private:
-  int leader(int point) {
-    int& above = leader_[static_cast<std::size_t>(point)];
-    if (above != point) above = leader(above);
-    return above;
-  }
-
-  std::vector<int> leader_;
-};
+/// The points that the lines of a mesh join to others, in groups.
+std::vector<std::vector<int>> groups(const Mesh& joined) {
+  const Bodies found = bodies(joined);
+  std::vector<std::vector<int>> all(static_cast<std::size_t>(found.count));
+  for (std::size_t i = 0; i < found.of_point.size(); ++i)
+    all[static_cast<std::size_t>(found.of_point[i])].push_back(static_cast<int>(i));
+  std::erase_if(all, [](const std::vector<int>& group) { return group.size() == 1; });
+  return all;
+}
 
 Mesh in_metres(Mesh mesh, double edge) {
   for (auto& point : mesh.points) point *= edge;
@@ -60,10 +37,10 @@ Simulation::Simulation(SimulatedScene scene, const Material& material, double st
       material_(material),
       step_(step),
       steps_per_frame_(steps_per_frame),
-      cloth_(in_metres(scene_.scene.mesh, material.edge), scene_.held, material, step),
       response_(scene_.held, material),
       velocities_(scene_.held.size(), Vector3<double>(0, 0, 0)) {
   Mesh mesh = in_metres(scene_.scene.mesh, material.edge);
+  cloth_ = std::make_shared<const Cloth>(mesh, scene_.held, material, step);
   auto end = mesh.points;
   motion_ = make_moving_mesh(std::move(mesh), std::move(end));
 }
@@ -72,7 +49,7 @@ std::size_t Simulation::steps() const {
   return scene_.scene.steps() * static_cast<std::size_t>(steps_per_frame_);
 }
 
-/// Where held points are after a step: between two frames, or as in the last frame.
+/// The positions of held points after a step: interpolated between two frames, or those of the last frame.
 PointVectors Simulation::held_positions(std::size_t step) const {
   const auto count = static_cast<std::size_t>(steps_per_frame_);
   const std::size_t frame = std::min((step + 1) / count, scene_.scene.steps());
@@ -98,7 +75,7 @@ void Simulation::repel(const Stop& stop) {
 
 void Simulation::resolve(const AskCcd& ask, SimulatedStep& done) {
   const auto at = [](int point) { return static_cast<std::size_t>(point); };
-  ImpactZones zones(scene_.held.size());
+  Mesh zones{.points = motion_.start, .triangles = {}, .lines = {}};  ///< lines join points that move rigidly
   std::vector<bool> moved(scene_.held.size(), true);
   const auto asked = [&](const Candidate& pair) {
     const auto& all = pair.vertices;
@@ -115,8 +92,9 @@ void Simulation::resolve(const AskCcd& ask, SimulatedStep& done) {
       for (const ReportedPair& each : reported)
         response_.stop_approach(each.pair, each.time, motion_.start, motion_.end);
     } else {
-      for (const ReportedPair& each : reported) zones.join(each.pair);
-      for (const auto& zone : zones.zones()) response_.move_rigidly(zone, motion_.start, motion_.end);
+      for (const ReportedPair& each : reported)
+        for (const int point : each.pair.vertices) zones.lines.push_back({each.pair.vertices[0], point});
+      for (const auto& zone : groups(zones)) response_.move_rigidly(zone, motion_.start, motion_.end);
     }
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = motion_.end[i] != before[i];
     for (const ReportedPair& each : reported)
@@ -133,7 +111,7 @@ double Simulation::kinetic_energy() const {
 
 SimulatedStep Simulation::advance(const AskCcd& ask, const Stop& stop) {
   motion_.start = motion_.end;
-  motion_.end = cloth_.advance(motion_.start, velocities_, held_positions(done_++), [&] { stop.check(); });
+  motion_.end = cloth_->advance(motion_.start, velocities_, held_positions(done_++), [&] { stop.check(); });
   repel(stop);
   stop.check();
   SimulatedStep done;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "fuzz/simulation/cloth.hpp"
@@ -49,7 +50,7 @@ class Simulation {
   Material material_;
   double step_;
   int steps_per_frame_;
-  Cloth cloth_;
+  std::shared_ptr<const Cloth> cloth_;  ///< copies share it, because its matrix takes long to factorise
   Response response_;
   MovingMesh motion_;  ///< in metres
   PointVectors velocities_;

@@ -64,7 +64,16 @@ std::set<CountsKey> random_keys(const Campaign& campaign, const RunInfo& info) {
 
 }  // namespace
 
+void AskedQueries::add_simulations(const Campaign& campaign, const std::string& name) {
+  for (const auto& [key, step] : campaign.statistics.simulated)
+    if (!simulated_.insert(key).second)
+      throw Error(
+          fmt::format("{}: found {} with {}, which another store has too; expected each simulation once",
+                      name, key.family, key.subject));
+}
+
 void AskedQueries::add(const Campaign& campaign, const std::string& name) {
+  add_simulations(campaign, name);
   std::vector<std::pair<std::string, Asked>> added;
   for (const Run& run : campaign.runs) {
     const std::string seed = fact(run.info, "seed");

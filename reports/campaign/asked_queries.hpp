@@ -1,4 +1,5 @@
-// Whether campaigns that are added up asked a subject the same random queries, which would count twice.
+// Whether campaigns that are added up asked a subject the same random queries, or have the same step of a
+// simulation, which would count twice.
 #pragma once
 
 #include <map>
@@ -13,7 +14,8 @@ namespace nearmiss {
 class AskedQueries {
  public:
   /// Adds a campaign, whose store has this name. Throws Error if a run of a campaign that was added before had
-  /// the same seed and asked the same subject queries of the same family. Shards of one run ask different ones.
+  /// the same seed and asked the same subject queries of the same family, or has the same step of a simulation.
+  /// Shards of one run ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:
@@ -24,7 +26,10 @@ class AskedQueries {
     std::string name;
     std::set<CountsKey> keys;
   };
+  void add_simulations(const Campaign& campaign, const std::string& name);
+
   std::map<std::string, std::vector<Asked>> by_seed_;
+  std::set<SimulatedStepKey> simulated_;
 };
 
 }  // namespace nearmiss

@@ -198,11 +198,6 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
     if (campaigns.size() > 1) expect_known_runs(campaigns[i], names[i]);
     for (const Run& each : campaigns[i].runs) runs.add(each, names[i]);
     asked.add(campaigns[i], names[i]);
-    for (const auto& [key, step] : campaigns[i].statistics.simulated)
-      if (statistics.simulated.contains(key))
-        throw Error(
-            fmt::format("{}: found {} with {}, which another store has too; expected each simulation once",
-                        names[i], key.family, key.subject));
     statistics.merge(campaigns[i].statistics);
   }
   return {std::move(runs).merged(), std::move(statistics)};

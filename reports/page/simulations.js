@@ -18,12 +18,13 @@ function simulations() {
     if (!all.has(key)) all.set(key, []);
     all.get(key).push(step);
   }
+  const answers = countRows(true).filter((row) => isSimulation(row.family));
   return [...all.values()].map((steps) => {
     const last = steps[steps.length - 1];
     const [sum] = summed(steps, ["scene", "subject"]);
     const most = (field) => steps.reduce((value, step) => Math.max(value, step[field]), 0);
-    const answers = countRows(true).filter((row) => isSimulation(row.family) && simulationName(row.family) === sum.scene && row.subject === sum.subject);
-    const subject_ns = answers.reduce((time, row) => time + (row.ns_per_query ?? 0) * row.queries, 0);
+    const own = answers.filter((row) => simulationName(row.family) === sum.scene && row.subject === sum.subject);
+    const subject_ns = own.reduce((time, row) => time + (row.ns_per_query ?? 0) * row.queries, 0);
     return { ...sum, subject_ns, steps: steps.length, since: steps.find((step) => step.tangled > 0)?.step, tangled: most("tangled"), left: last.tangled,
       picojoules: most("picojoules"), rest: last.picojoules };
   });

@@ -14,7 +14,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// What the steps of a simulation have shown together.
+/// Totals and extremes over the steps of a simulation.
 struct Whole {
   std::uint64_t steps = 0;
   SimulatedStep sum, last;

@@ -254,7 +254,7 @@ TEST(Simulation, IsTheSameWithAnyNumberOfThreadsAndLanes) {
 }
 
 TEST(Simulation, HeldPointsMoveAsTheFramesSay) {
-  for (const SimulatedSceneInfo& info : simulated_scenes()) {
+  for (const BuiltInScene& info : simulated_scenes()) {
     const SimulatedScene scene = simulated_scene(info.name);
     EXPECT_THAT(scene.held, SizeIs(scene.scene.mesh.points.size()));
     Simulation simulation(scene, {}, step_time, 2);
@@ -275,7 +275,7 @@ TEST(Simulation, HeldPointsMoveAsTheFramesSay) {
 
 TEST(Simulation, ScenesHaveSizes) {
   EXPECT_REFUSED(simulated_scene("knots"), "knots: found no scene of that name that can be simulated");
-  EXPECT_REFUSED(simulated_scene("knot@10"), "knot@10: found size '10', expected 300 to 20000");
+  EXPECT_REFUSED(simulated_scene("knot@10"), "knot@10: found size 10, expected 300 to 20000");
   EXPECT_REFUSED(simulated_scene("knot@x"), "knot@x: found size 'x', expected 300 to 20000");
   EXPECT_GT(simulated_scene("cloths@3000").scene.mesh.triangles.size(), 2500);
 }

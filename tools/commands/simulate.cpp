@@ -69,7 +69,7 @@ struct Options {
 
 void list_scenes(std::FILE* out) {
   fmt::print(out, "{:<10}{:>7}  shows\n", "scene", "default");
-  for (const SimulatedSceneInfo& scene : simulated_scenes())
+  for (const BuiltInScene& scene : simulated_scenes())
     fmt::print(out, "{:<10}{:>7}  {}\n", scene.name, scene.default_size, scene.description);
 }
 
@@ -140,11 +140,10 @@ ScenePicture last_picture(const Simulation& simulation, const std::string& famil
 }
 
 /// Simulates the scene with one subject as its CCD, until the stop is due.
-void simulate(const Options& options, const Subjects& subject, Record& record, const Stop& stop,
-              const std::function<void(std::size_t step, std::size_t steps)>& progress) {
+void simulate(const Options& options, Simulation simulation, const Subjects& subject, Record& record,
+              const Stop& stop, const std::function<void(std::size_t step, std::size_t steps)>& progress) {
   using Clock = std::chrono::steady_clock;
   const std::string name = subject.front()->name();
-  Simulation simulation = options.simulation();
   const std::size_t steps = options.steps > 0 ? options.steps : simulation.steps();
   const Scene named{.name = options.name(), .frames = steps + 1, .mesh = {}, .points = {}};
   Trials trials(subject, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
@@ -198,7 +197,7 @@ int run(const Options& options) {
     const std::string name = subjects[i]->name();
     Subjects one;
     one.push_back(std::move(subjects[i]));
-    simulate(options, one, record, stop,
+    simulate(options, simulation, one, record, stop,
              [&](std::size_t step, std::size_t steps) { progress.show(i, name, step, steps); });
     if (!stop.is_requested()) record.add_unasked(one);
   }

@@ -15,15 +15,6 @@ namespace nearmiss {
 
 namespace {
 
-/// The entry that a text NAME or NAME@SIZE names; null if there is none.
-const BuiltInScene* find(std::string_view text) {
-  const auto& all = built_in_scenes();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const BuiltInScene& each) {
-    return each.name == text.substr(0, text.find('@'));
-  });
-  return found == all.end() ? nullptr : &*found;
-}
-
 int parse_size(const std::string& text, const BuiltInScene& scene) {
   const std::string_view word = std::string_view(text).substr(scene.name.size() + 1);
   const auto size = parse_integer<int>(word);
@@ -46,14 +37,23 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   return all;
 }
 
-bool is_built_in_scene(const std::string& text) { return find(text) != nullptr; }
+const BuiltInScene* find_scene(std::string_view text, std::span<const BuiltInScene> among) {
+  const auto found = std::ranges::find(among, text.substr(0, text.find('@')), &BuiltInScene::name);
+  return found == among.end() ? nullptr : &*found;
+}
+
+Scene make_scene(const std::string& text, const BuiltInScene& scene) {
+  Scene made = scene.make(text == scene.name ? scene.default_size : parse_size(text, scene));
+  made.name = text;
+  return made;
+}
+
+bool is_built_in_scene(const std::string& text) { return find_scene(text, built_in_scenes()) != nullptr; }
 
 Scene built_in_scene(const std::string& text) {
-  const BuiltInScene* built_in = find(text);
+  const BuiltInScene* built_in = find_scene(text, built_in_scenes());
   if (built_in == nullptr) throw Error(fmt::format("{}: found no built-in scene of that name", text));
-  Scene scene = built_in->make(text == built_in->name ? built_in->default_size : parse_size(text, *built_in));
-  scene.name = text;
-  return scene;
+  return make_scene(text, *built_in);
 }
 
 Scene scene_of_formula(std::size_t frames, Mesh primitives, std::function<PointList(double frame)> points) {

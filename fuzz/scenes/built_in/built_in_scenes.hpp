@@ -4,7 +4,9 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/scenes/scene.hpp"
@@ -27,6 +29,13 @@ struct BuiltInScene {
 
 /// All built-in scenes, in the order in which they are listed.
 const std::vector<BuiltInScene>& built_in_scenes();
+
+/// The scene that a text names, as NAME or NAME@SIZE; null if there is none. The size is not checked.
+const BuiltInScene* find_scene(std::string_view text, std::span<const BuiltInScene> among);
+
+/// Makes a scene in its default size (NAME), or in another one (NAME@SIZE). The text becomes its name. Throws
+/// Error if the size is not an integer or is out of range.
+Scene make_scene(const std::string& text, const BuiltInScene& scene);
 
 /// Whether a text names a built-in scene, as NAME or NAME@SIZE; the size is not checked.
 bool is_built_in_scene(const std::string& text);
