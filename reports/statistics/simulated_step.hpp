@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// What a step has shown. The answers are those of all rounds in which the subject was asked about its motion.
+/// The results of a step. The subject's answers are counted over all rounds of the step.
 struct SimulatedStep {
   std::uint64_t queries = 0;  ///< pairs that the subject answered
   std::uint64_t unanswered =
