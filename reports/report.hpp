@@ -18,6 +18,7 @@ struct ReportContext {
   std::vector<Campaign> baseline = {};  ///< earlier campaigns, the oldest first
   std::vector<Hunt> hunts = {};         ///< hunts for known defects
   std::string audit = {};               ///< audit of rounding constants, the JSON that nearmiss audit writes
+  std::string paper = {};               ///< the paper's claims, the JSON that nearmiss paper writes
   std::vector<Environment> environments = {};
   Failures failing = usual_failures();  ///< the failures that count
 };

@@ -241,6 +241,8 @@ constexpr std::array registry{
     entry<Wang<WangOptions{true, VeCulling::per_root}>>("wang-scalar", "the same, one query at a time"),
     entry<WangEps>("wang-eps",
                    "the same with a fixed interval: the paper's square root of epsilon, or wang-eps:h=TIME"),
+    entry<Wang<WangOptions{false, VeCulling::per_root}>>("wang-no-planes",
+                                                         "wang-scalar without plane culling"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
     entry<Wang<WangOptions{true, VeCulling::per_root}, TightTolerances>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),

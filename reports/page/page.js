@@ -224,6 +224,16 @@ function drawPower() {
   ], rows, true);
 }
 
+function drawPaper() {
+  if (!report.paper) return;
+  show("paper-section");
+  fillTable(element("paper"), [
+    text("claim", "name"), text("section", "section"), text("the paper says", "says"),
+    { ...text("verdict", "verdict"), bad: (r) => r.verdict === "does not hold" },
+    text("we measure", "measured"), { title: "commands", text: (r) => r.commands.join("; ") },
+  ], report.paper.claims);
+}
+
 function drawEnvironments() {
   if (!report.environments) return;
   show("environments-section");
@@ -272,7 +282,7 @@ function drawPart(draw) {
   }
 }
 for (const draw of [drawHead, drawScorecard, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawSimulations, drawTimes, drawSlowest,
-  drawDeciders, drawOracle, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
+  drawDeciders, drawOracle, drawPaper, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
   drawPart(draw);
 for (const id of ["by-class", "by-family"]) element(id).addEventListener("change", drawCounts);
 element("by-step").addEventListener("change", drawScenes);

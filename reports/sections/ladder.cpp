@@ -61,7 +61,8 @@ LadderPlace place_of(const std::string& subject) {
     place.unit = claimed_distance("wang", double_exponent);
   else if (name == "wang-tight")
     place.unit = claimed_distance("wang-tight", *exponent);
-  else if (name == "wang" || name == "wang-scalar" || name == "wang-eps" || name == "wang-plain")
+  else if (name == "wang" || name == "wang-scalar" || name == "wang-eps" || name == "wang-plain" ||
+           name == "wang-no-planes")
     place.unit = claimed_distance("wang", *exponent);
   return place;
 }

@@ -6,7 +6,15 @@ import numpy as np
 
 ALGORITHMS = ('wang', 'wang-tight')  # algorithms of the ladder of precisions
 EPSILONS = {'': -52, 'double': -52, 'float': -23, 'dd': -102}
-AS_WANG = ('basic', 'basic-plain', 'wang', 'wang-scalar', 'wang-eps', 'wang-plain')
+AS_WANG = (
+    'basic',
+    'basic-plain',
+    'wang',
+    'wang-scalar',
+    'wang-eps',
+    'wang-no-planes',
+    'wang-plain',
+)
 
 
 def exponent(scalar):

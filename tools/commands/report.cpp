@@ -22,15 +22,17 @@ namespace {
 
 struct Options {
   std::vector<std::filesystem::path> stores, baseline;
-  std::filesystem::path folder, power, audit, environments;
+  std::filesystem::path folder, power, audit, paper, environments;
   FailOnOption fail_on;
 };
 
-/// The JSON that nearmiss audit --json writes. Throws Error if the file is something else.
-std::string load_audit(const std::filesystem::path& file) {
+/// The JSON that a subcommand writes with --json, with these lists. Throws Error if the file is something else.
+std::string load_tables(const std::filesystem::path& file, const char* command,
+                        std::initializer_list<const char*> tables) {
   std::string text;
-  read_json_file(file, "what nearmiss audit --json keeps", [&](const nlohmann::ordered_json& json) {
-    for (const char* table : {"constants", "tolerances"})
+  const std::string expected = fmt::format("what nearmiss {} --json keeps", command);
+  read_json_file(file, expected, [&](const nlohmann::ordered_json& json) {
+    for (const char* table : tables)
       json.at(table).get_ref<const nlohmann::ordered_json::array_t&>();  // throws if it is not a list
     text = json_text(json);
   });
@@ -62,7 +64,9 @@ int run(const Options& options) {
   ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
-  if (!options.audit.empty()) context.audit = load_audit(options.audit);
+  if (!options.audit.empty())
+    context.audit = load_tables(options.audit, "audit", {"constants", "tolerances"});
+  if (!options.paper.empty()) context.paper = load_tables(options.paper, "paper", {"claims"});
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics, context.failing));
@@ -96,6 +100,8 @@ void add_report(CLI::App& app, int& exit_code) {
       ->type_name("DB");
   add_file("--power", options->power, "Show the power of detection, from nearmiss power --json");
   add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");
+  add_file("--paper", options->paper,
+           "Show the paper's claims beside our results, from nearmiss paper --json");
   add_file("--environments", options->environments,
            "Show which compilers, flags and modes keep the guarantee, from tools/environments");
   options->fail_on.add_to(*command);

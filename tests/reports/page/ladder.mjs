@@ -34,7 +34,8 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
 export async function showsTheLadderAndTheAudit(browser) {
   run("ladder", "--scalar", "float,p40,p64", "--cases", "320", "--db", "ladder.db");
   run("audit", "--json", "audit.json");
-  run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json");
+  run("paper", "constants", "planes", "gpu", "--json", "paper.json");
+  run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json", "--paper", "paper.json");
   const page = await open(browser, pageOf("ladder"));
   assert.equal(await count(page, "#ladder tbody tr"), 6);
   assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
@@ -44,6 +45,8 @@ export async function showsTheLadderAndTheAudit(browser) {
   const origins = new Set(report.ladder.fits.map((fit) => fit.origin).filter((origin) => origin !== ""));
   assert.ok(origins.size > 1);
   assert.deepEqual(new Set(await page.locator("#ladder-origins tbody td:first-child").allTextContents()), origins);
+  assert.equal(await count(page, "#paper tbody tr"), 3);
+  assert.match(await page.locator("#paper").textContent(), /nearly one third pass plane culling/);
   assert.ok((await count(page, "#audit tbody tr")) > 50);
   assert.ok((await count(page, "#audit td.bad")) >= 2);
   assert.match(await page.locator("#audit").textContent(), /not proven by Theorem 4\.1: relative positions/);

@@ -1,0 +1,31 @@
+// What happens to random pairs on their way through the paper's algorithms.
+#pragma once
+
+#include <cstdint>
+
+#include "ccd/query/query.hpp"
+#include "fuzz/stop.hpp"
+
+namespace nearmiss {
+
+/// Counts of the queries of one kind.
+struct RandomPairs {
+  std::uint64_t queries = 0;
+  std::uint64_t boxes_meet = 0;   ///< the boxes that the primitives sweep
+  std::uint64_t not_culled = 0;   ///< by planes
+  std::uint64_t vertex_edge = 0;  ///< vertex-edge tests without the culling of §5, all those of a pair
+  std::uint64_t candidates = 0;   ///< their valid candidates: times in [0, 1] in the set T of Algorithm 2
+  double bounds = 0;              ///< sum of B divided by the longest edge at t = 0
+
+  [[nodiscard]] double part(std::uint64_t some) const {
+    return static_cast<double>(some) / static_cast<double>(queries);
+  }
+};
+
+/// Counts the first queries of the family `uniform` that have a kind, with all velocities multiplied by
+/// `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis. Throws Stopped if the
+/// stop is due.
+RandomPairs count_random_pairs(Kind kind, double speed, std::uint64_t queries, std::uint64_t seed,
+                               const Stop& stop);
+
+}  // namespace nearmiss

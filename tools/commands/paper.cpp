@@ -1,0 +1,179 @@
+// nearmiss paper: measures the paper's quantitative claims.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <sstream>
+
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "reports/text/json.hpp"
+#include "reports/text/text.hpp"
+#include "tools/commands.hpp"
+#include "tools/commit.hpp"
+#include "tools/json_output.hpp"
+#include "tools/paper/claims.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+using paper::Claim;
+using paper::Measured;
+using paper::Results;
+
+struct Options {
+  std::vector<std::string> names;
+  bool list = false, quiet = false;
+  JsonOutput json;
+};
+
+/// Until its end, what is written to a standard stream goes to another file.
+class Redirection {
+ public:
+  Redirection(std::FILE* stream, int to) : stream_(stream) {
+    std::fflush(stream_);
+    kept_ = fcntl(fileno(stream_), F_DUPFD_CLOEXEC, 3);
+    if (kept_ < 0 || dup2(to, fileno(stream_)) < 0)
+      throw Error("found no free file descriptor, expected one");
+  }
+  Redirection(const Redirection&) = delete;
+  Redirection& operator=(const Redirection&) = delete;
+  ~Redirection() {
+    std::fflush(stream_);
+    dup2(kept_, fileno(stream_));
+    close(kept_);
+  }
+
+ private:
+  std::FILE* stream_;
+  int kept_;
+};
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+std::string contents(std::FILE* file) {
+  std::string text;
+  std::rewind(file);
+  for (char buffer[1 << 16]; const std::size_t size = std::fread(buffer, 1, sizeof buffer, file);)
+    text.append(buffer, size);
+  return text;
+}
+
+/// Runs a subcommand in this process, and returns what it writes with --json -. Throws Error if it fails, and
+/// Stopped if it is interrupted.
+ordered_json results_of(std::string_view command) {
+  int exit_code = exit_fine;
+  CLI::App app;
+  for (const auto add : {add_audit, add_bench, add_fuzz, add_simulate, add_tightness}) add(app, exit_code);
+  const File output(std::tmpfile(), std::fclose);
+  const File nothing(std::fopen("/dev/null", "w"), std::fclose);
+  if (!output || !nothing) throw Error("found no temporary file, expected one");
+  {
+    const Redirection results(stdout, fileno(output.get()));
+    const Redirection text(stderr, fileno(nothing.get()));
+    app.parse(fmt::format("{} --json -", command));
+  }
+  if (exit_code == exit_interrupted) throw Stopped();
+  return ordered_json::parse(contents(output.get()));
+}
+
+/// The commands of a claim, as a user types them.
+std::vector<std::string> commands_of(const Claim& claim) {
+  std::vector<std::string> commands;
+  for (const std::string_view command : claim.commands)
+    commands.push_back(fmt::format("nearmiss {}", command));
+  if (commands.empty()) commands.push_back(fmt::format("nearmiss paper {}", claim.name));
+  return commands;
+}
+
+std::vector<const Claim*> chosen(const std::vector<std::string>& names) {
+  std::vector<const Claim*> all;
+  std::vector<std::string_view> known;
+  for (const Claim& claim : paper::claims()) {
+    known.push_back(claim.name);
+    if (names.empty() || std::ranges::count(names, claim.name) > 0) all.push_back(&claim);
+  }
+  for (const std::string& name : names)
+    if (std::ranges::count(known, name) == 0)
+      throw Error(
+          fmt::format("found the claim '{}', expected some of {}", excerpt(name), fmt::join(known, ", ")));
+  return all;
+}
+
+void list(std::FILE* out) {
+  for (const Claim& claim : paper::claims())
+    fmt::print(out, "{} ({}): {}\n    {}\n", claim.name, claim.section, claim.says,
+               fmt::join(commands_of(claim), "\n    "));
+}
+
+void print(std::FILE* out, const Claim& claim, const Measured& measured) {
+  fmt::print(out, "{}: {}\n  {} says: {}\n  measured: {}\n", claim.name, name(measured.judgement),
+             claim.section, claim.says, measured.text);
+  std::fflush(out);
+}
+
+ordered_json json_of(const Claim& claim, const Measured& measured) {
+  return {{"name", claim.name},
+          {"section", claim.section},
+          {"says", claim.says},
+          {"measured", measured.text},
+          {"verdict", name(measured.judgement)},
+          {"commands", commands_of(claim)}};
+}
+
+int run(const Options& options) {
+  const auto which = chosen(options.names);
+  options.json.expect_writable();
+  const Stop stop(interrupted());
+  Progress progress(options.quiet);
+  std::map<std::string_view, ordered_json> known;  // claims share commands
+  ordered_json json{{"run", run_info("paper")}, {"claims", ordered_json::array()}};
+  json["run"].update(ordered_json(environment()));
+  double done = 0;
+  try {
+    for (const Claim* claim : which) {
+      stop_on_signals();  // each command ends this when it is done
+      progress.show(std::string(claim->name), done++ / static_cast<double>(which.size()));
+      Results results;
+      for (const std::string_view command : claim->commands) {
+        if (!known.contains(command)) known.emplace(command, results_of(command));
+        results.push_back(known.at(command));
+      }
+      const Measured measured = claim->measure(results, stop);
+      print(options.json.text(), *claim, measured);
+      json["claims"].push_back(json_of(*claim, measured));
+    }
+  } catch (const Stopped&) {  // the claims so far are still written
+  }
+  end_on_signals();
+  options.json.write(json);
+  return stop.is_requested() ? exit_interrupted : exit_fine;
+}
+
+}  // namespace
+
+void add_paper(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "paper", "Measure each quantitative claim of the paper: what it says, what we find, does it hold");
+  command->add_option("CLAIM", options->names, "Names of claims; all of them if there is none");
+  command->add_flag("--list", options->list, "List the claims, and the commands that measure them");
+  options->json.add_to(*command, "Write the table as JSON, for nearmiss report --paper");
+  command->add_flag("-q,--quiet", options->quiet, "Show no progress");
+  command->footer("\nThe exit code is 0 whether claims hold or not.");
+  command->callback([options, &exit_code] {
+    if (options->list) return list(options->json.text());
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,40 @@
+// The quantitative claims of the paper, and how nearmiss measures each of them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/stop.hpp"
+
+namespace nearmiss::tools::paper {
+
+/// What a measurement says about a claim.
+enum class Judgement { holds, holds_with_condition, does_not_hold, not_measured };
+
+/// As the table shows it: "holds", "holds with a condition", "does not hold", "cannot be measured here".
+std::string_view name(Judgement judgement);
+
+struct Measured {
+  std::string text;  ///< with all figures, and the condition if there is one
+  Judgement judgement = Judgement::not_measured;
+};
+
+/// What a claim's commands wrote as JSON, in their order.
+using Results = std::vector<nlohmann::ordered_json>;
+
+struct Claim {
+  std::string_view name;     ///< unique, a word on the command line
+  std::string_view section;  ///< of the paper
+  std::string_view says;
+  /// The subcommands of nearmiss that measure it, without --json. If there is none, `measure` does it itself.
+  std::vector<std::string_view> commands;
+  Measured (*measure)(const Results& results, const Stop& stop);
+};
+
+/// All claims, in the order of the paper's sections.
+std::span<const Claim> claims();
+
+}  // namespace nearmiss::tools::paper
