@@ -25,6 +25,8 @@ class Background {
                                 NEARMISS_EXECUTABLE + " " + arguments + " >out.txt 2>error.txt";
     process_ = fork();
     if (process_ == 0) {
+      // A shell that starts the tests in the background lets them ignore SIGINT.
+      for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(127);
     }
