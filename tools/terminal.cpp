@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -54,6 +55,13 @@ std::string bar(std::optional<double> done) {
   return fmt::format("[{:.<{}}] {:3.0f} % ", std::string(filled, '#'), width, 100 * part);
 }
 
+/// Whether standard error takes text now. A terminal that the user has stopped, with ^S, does not, and a program
+/// that waits for it can neither save results nor end.
+bool takes_text() {
+  pollfd error{STDERR_FILENO, POLLOUT, 0};
+  return poll(&error, 1, 0) == 1 && (error.revents & POLLOUT) != 0;
+}
+
 /// Cuts a line to the width of the terminal, so that it can be overwritten.
 std::string cut(std::string line) {
   winsize size{};
@@ -86,7 +94,7 @@ Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-  if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
+  if (shown_ && terminal_ && takes_text()) fmt::print(stderr, "\r\033[K");
 }
 
 bool Progress::due() const {
@@ -96,7 +104,7 @@ bool Progress::due() const {
 }
 
 void Progress::show(const std::string& line, std::optional<double> done) {
-  if (quiet_) return;
+  if (quiet_ || !takes_text()) return;
   if (terminal_)
     fmt::print(stderr, "\r\033[K{}", cut(bar(done) + line));
   else

@@ -19,6 +19,11 @@ constexpr ScaledName split_scalar(std::string_view name) {
   return {name.substr(0, colon), name.substr(colon + 1)};
 }
 
+namespace ladder {
+/// The numbers of bits of the scalars p16 to p256.
+inline constexpr int fewest_bits = 16, most_bits = 256;
+}  // namespace ladder
+
 /// The exponent in ε = 2^exponent for the scalar of this name; nothing if the name is unknown.
 inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
   if (scalar.empty() || scalar == "double") return -52;
@@ -28,7 +33,7 @@ inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
   const char* const end = scalar.data() + scalar.size();
   if (scalar.front() != 'p') return std::nullopt;
   const auto [rest, error] = std::from_chars(scalar.data() + 1, end, bits);
-  if (error != std::errc() || rest != end || bits < 2) return std::nullopt;
+  if (error != std::errc() || rest != end || bits < 2 || bits > ladder::most_bits) return std::nullopt;
   return 1 - bits;
 }
 

@@ -1,4 +1,5 @@
 // A plug-in that acts on the processes around it reaches none of them, with or without its own PID namespace.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/capability.h>
 #include <sched.h>
@@ -184,6 +185,16 @@ TEST_P(Containment, APluginHasNoPrivilegesExceptOnFiles) { EXPECT_TRUE(refuses("
 
 TEST_P(Containment, APluginHasItsOwnNamespaceIfTheSystemGrantsOne) {
   EXPECT_EQ(refuses("escaping_namespace"), GetParam() && grants_namespaces());
+}
+
+TEST_P(Containment, TheKeyringsOfTheUserAreOutOfReach) { EXPECT_TRUE(refuses("escaping_keyrings")); }
+
+TEST_P(Containment, TheTerminalOfTheUserIsOutOfReach) {
+  const int ours = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0);
+  setenv("NEARMISS_TERMINAL", ptsname(ours), 1);
+  EXPECT_TRUE(refuses("escaping_terminal"));
+  close(ours);
 }
 
 /// The number of System V segments that this process sees.

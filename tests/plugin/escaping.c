@@ -4,6 +4,7 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/keyctl.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdio.h>
@@ -19,6 +20,7 @@
 #include <sys/syscall.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include "tests/plugin/one_by_one.h"
@@ -114,6 +116,20 @@ static int attempt(void) {
   if (shmget(IPC_PRIVATE, 1 << 20, IPC_CREAT | 0600) < 0 || statvfs("/dev/shm", &all) != 0) return 0;
   const int file = shm_open("/nearmiss-left", O_CREAT | O_RDWR, 0600);
   return file >= 0 && posix_fallocate(file, 0, 1L << 31) == EFBIG && all.f_blocks * all.f_frsize == 1 << 30;
+}
+#elif defined(KEYRINGS)
+static int attempt(void) {
+  int done = syscall(SYS_add_key, "user", "nearmiss-left", "x", 1, KEY_SPEC_USER_KEYRING) >= 0;
+  done += syscall(SYS_request_key, "user", "nearmiss", NULL, 0) >= 0 || errno != EPERM;
+  done += syscall(SYS_keyctl, KEYCTL_GET_KEYRING_ID, KEY_SPEC_SESSION_KEYRING, 1) >= 0;
+  return done == 0;
+}
+#elif defined(TERMINAL)
+/* Tries to stop the output of a terminal, or to change its settings. */
+static int attempt(void) {
+  const int terminal = open(getenv("NEARMISS_TERMINAL"), O_RDWR | O_NOCTTY);
+  struct termios settings = {0};
+  return terminal < 0 || (tcflow(terminal, TCOOFF) != 0 && tcsetattr(terminal, TCSANOW, &settings) != 0);
 }
 #elif defined(LEAVE)
 static int attempt(void) {

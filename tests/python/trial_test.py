@@ -268,6 +268,15 @@ import nearmiss
             with self.assertRaisesRegex(error, 'mine returned .*' + message):
                 nearmiss.trial(subject, 100)
 
+    def test_refuses_masked_answers(self):
+        for what, answer, time in (
+            ('answer', lambda n: np.ma.masked_all(n, bool), 'none'),
+            ('times', lambda n: (np.ones(n, bool), np.ma.masked_all(n)), 'estimate'),
+        ):
+            subject = nearmiss.Subject(lambda kind, x, h: answer(len(x)), 'mine', time)
+            with self.assertRaisesRegex(ValueError, f'the {what} of mine has masked elements'):
+                nearmiss.trial(subject, 100)
+
     def test_takes_one_name_for_several(self):
         subject = nearmiss.Subject(never, kinds='ee')
         result = nearmiss.trial(subject, 100, 'uniform', shrunk=0)
@@ -306,6 +315,7 @@ import nearmiss
     def test_refuses_what_it_does_not_know(self):
         for message, arguments in (
             ('unknown subject', ['bassic']),
+            ("found the plug-in './mine.so', expected a function", ['./mine.so']),
             ('unknown family', [never, 100, ['unifrom']]),
             (r"found the family 'uniform\\x00', expected printable", [never, 1, 'uniform\0']),
             ('expected different ones', [[never, never]]),

@@ -39,7 +39,13 @@ namespace py = pybind11;
 
 /// The subject for an object of the Python class Subject, or the built-in subject for a name.
 std::unique_ptr<Subject> subject_of(const py::object& each) {
-  if (py::isinstance<py::str>(each)) return make_built_in(each.cast<std::string>());
+  if (py::isinstance<py::str>(each)) {
+    const auto name = each.cast<std::string>();
+    if (plugin_named(name))
+      throw Error("found the plug-in '" + excerpt(name) +
+                  "', expected a function or the name of a built-in subject; nearmiss fuzz runs plug-ins");
+    return make_built_in(name);
+  }
   DetectorInfo info;
   info.name = each.attr("name").cast<std::string>();
   if (const std::string fault = fault_of_name(info.name); !fault.empty()) throw Error("found " + fault);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ccd/query/scalar_name.hpp"
 #include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
@@ -25,7 +26,6 @@ struct Scalar {
 /// The scalar with this number of bits: "p40".
 Scalar bits_scalar(int bits);
 
-inline constexpr int fewest_bits = 16, most_bits = 256;
 
 }  // namespace ladder
 

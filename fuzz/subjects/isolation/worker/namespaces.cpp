@@ -42,6 +42,7 @@ void mount_own_folders(std::uint64_t bytes) {
   mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC | MS_RDONLY, nullptr);
   const std::string options = "mode=1777" + (bytes == 0 ? "" : ",size=" + std::to_string(bytes));
   mount("tmpfs", "/dev/shm", "tmpfs", MS_NOSUID | MS_NODEV, options.c_str());
+  mount("devpts", "/dev/pts", "devpts", MS_NOSUID | MS_NOEXEC, "newinstance,ptmxmode=0666");
 }
 
 }  // namespace nearmiss::isolation

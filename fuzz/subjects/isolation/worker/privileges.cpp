@@ -119,6 +119,17 @@ void drop_privileges() {
   syscall(SYS_capset, &header, sets.data());
 }
 
+void keep_out_of_keyrings_and_terminals() {
+  Filter filter;
+  for (const int call : {SYS_add_key, SYS_request_key, SYS_keyctl}) filter.forbid(call);
+  // TCSETS2 and its two successors, on x86-64 and AArch64; the header that names them excludes others.
+  constexpr int set_other_speeds = 0x402c542b;
+  for (const int command : {TCXONC, TCSETS, TCSETSW, TCSETSF, TCSETA, TCSETAW, TCSETAF, TIOCSTI,
+                            set_other_speeds, set_other_speeds + 1, set_other_speeds + 2})
+    filter.forbid(SYS_ioctl, 1, command);
+  filter.apply();
+}
+
 void confine_to_itself() {
   const pid_t self = getpid();
   Filter filter;

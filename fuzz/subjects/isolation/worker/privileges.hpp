@@ -8,6 +8,11 @@ namespace nearmiss::isolation {
 /// supervisor.
 void drop_privileges();
 
+/// Keeps this process, and all that it starts, from the keyrings of the user (keyrings(7)), and from settings of
+/// terminals: it cannot stop the output of the user's terminal. Call drop_privileges() first. Does nothing if the
+/// kernel has no such filters, or on other machines than x86-64 and AArch64.
+void keep_out_of_keyrings_and_terminals();
+
 /// Limits this process, and all that it starts: they can send signals only to this process, cannot change the
 /// priority, processors or limits of any other process, cannot trace any, and cannot leave their process group.
 /// Meant for a process without a PID namespace of its own. Call drop_privileges() first; no privilege is

@@ -95,6 +95,7 @@ int run_plugin(const Assignment& work) {
   close(status_socket);
   drop_privileges();
   keep_out_of_other_processes();
+  keep_out_of_keyrings_and_terminals();
   if (!work.own_namespace) confine_to_itself();
   prctl(PR_SET_DUMPABLE, 1);
   return answer_requests(work.plugin, work.bytes);

@@ -11,7 +11,7 @@ from typing import Any, Callable, Iterable, Literal, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from nearmiss._queries import KindLike, kind_of
+from nearmiss._queries import KindLike, _expect_no_mask, kind_of
 
 _TIME_SORTS = ('none', 'estimate', 'lower-bound')
 
@@ -71,11 +71,13 @@ class Subject:
                 raise TypeError(
                     f'{self.name} returned a {type(answer).__name__}, expected (bools, times)'
                 )
+            _expect_no_mask(answer[1], f'the times of {self.name}')
             answer, times = answer[0], np.asarray(answer[1])
             if times.dtype.kind not in 'fiu' or times.dtype.itemsize > 8:
                 raise TypeError(
                     f'{self.name} returned times of type {times.dtype}, expected float64'
                 )
+        _expect_no_mask(answer, f'the answer of {self.name}')
         hits = np.asarray(answer)
         if hits.dtype != np.bool_:
             raise TypeError(f'{self.name} returned answers of type {hits.dtype}, expected bool')
