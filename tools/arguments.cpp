@@ -17,6 +17,7 @@
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/simulation/simulation_family.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "tools/values.hpp"
 
@@ -200,13 +201,13 @@ std::vector<Family> different(std::vector<Family> found, std::string_view option
 }  // namespace
 
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
-                                  std::span<const Family> all) {
+                                  std::span<const Family> all, const Stop& stop) {
   std::vector<Family> found;
   for (const std::string& name : names)
     if (const auto group = group_of_families(name, all))
       found.insert(found.end(), group->begin(), group->end());
     else
-      found.push_back(find_family(name, known));
+      found.push_back(find_any_family(name, stop, known));
   return different(std::move(found), "--family");
 }
 

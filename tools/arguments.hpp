@@ -87,10 +87,10 @@ void expect_printable(const std::string& subject);
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
-/// Finds the families NAME, NAME@VALUE and so on; "all" stands for those in `all`, "vertices" for those of
-/// vertices and edges. Throws Error.
+/// Finds the families NAME, NAME@VALUE and so on (find_any_family); "all" stands for those in `all`, "vertices" for
+/// those of vertices and edges. Throws Error and Stopped.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
-                                  std::span<const Family> all);
+                                  std::span<const Family> all, const Stop& stop);
 
 /// Makes the families NAME@VALUE of the sweeps of these families; "all" and "vertices" stand for those that have a
 /// parameter. Throws Error.

@@ -58,20 +58,6 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
   return line + ", " + show_duration(std::max(left, {})) + " left";
 }
 
-/// The family of the pairs of a mesh. Throws Stopped if the user ends the command, and Error if the time
-/// limit ends before the pairs are found.
-Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
-  const MovingMesh mesh = moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0);
-  try {
-    return mesh_family(mesh, stop);
-  } catch (const Stopped&) {
-    if (stop.is_requested()) throw;
-    throw Error(fmt::format(
-        "--time: found {}, expected more time: the mesh has more pairs than can be collected in it",
-        excerpt(options.time)));
-  }
-}
-
 /// The kinds chosen with --kind, or else those that a subject decides.
 std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& subjects) {
   if (options.kinds.empty()) {
@@ -95,7 +81,13 @@ Family with_kinds(const CampaignOptions& options, const Family& family, std::spa
   return family;
 }
 
-/// The families chosen with --family, --sweep, --mesh and --search.
+/// The family of the pairs of a mesh.
+Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
+  return mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0), stop);
+}
+
+/// The families chosen with --family, --sweep, --mesh and --search. Throws Error, and Stopped if the stop is due
+/// before the pairs of meshes and simulations are known.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
   const std::vector<Kind> asked = chosen_kinds(options, subjects);
@@ -116,7 +108,7 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   std::erase_if(all, [&](const Family& family) {
     return !of_kinds(family, asked) || (asks_for_contact && family.has_separation);
   });
-  auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
+  auto chosen = options.sweeps.empty() ? find_families(options.families, known, all, stop)
                                        : find_sweeps(options.sweeps, options.steps, known, all);
   const bool are_named = !options.sweeps.empty() || options.families != CampaignOptions().families;
   for (Family& family : chosen) {
@@ -133,6 +125,19 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
       if (const auto some = of_kinds(family, asked); some && !(asks_for_contact && family.has_separation))
         chosen.push_back(*some);
   return chosen;
+}
+
+/// Those of chosen_families(). Throws Stopped if the user ends the command, and Error if the time limit does.
+std::vector<Family> families_in_time(const CampaignOptions& options, const Subjects& subjects,
+                                     const Stop& stop) {
+  try {
+    return chosen_families(options, subjects, stop);
+  } catch (const Stopped&) {
+    if (stop.is_requested()) throw;
+    throw Error(fmt::format(
+        "--time: found {}, expected more time: the pairs of meshes and simulations take longer to collect",
+        excerpt(options.time)));
+  }
 }
 
 /// The short names of the kinds that a campaign asks: "vt,ee".
@@ -189,7 +194,7 @@ int record_campaign(const CampaignOptions& options) {
   if (!options.time.empty()) stop.limit(*(time = parse_duration(options.time, "--time")));
   const Subjects subjects = options.trial.make_subjects(stop);
   CampaignPlan plan;
-  plan.families = chosen_families(options, subjects, stop);
+  plan.families = families_in_time(options, subjects, stop);
   plan.seed = options.seed;
   plan.cases = options.cases;
   plan.first = options.first;

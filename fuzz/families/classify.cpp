@@ -122,6 +122,7 @@ bool is_extreme(const Query& query) {
 // --- degenerate queries ---------------------------------------------------------------------------------
 
 constexpr double nearly = 1e-6;
+constexpr std::string_view extreme = "extreme";
 
 /// The vertices at a time, their velocities, and the square of a small length.
 template <class Real>
@@ -287,40 +288,51 @@ bool is_coplanar_at_an_end(const Query& query, double length) {
   return false;
 }
 
-bool is_degenerate(const Query& query) {
+/// What makes a query degenerate, if it is not extreme: the first rule that holds.
+std::string_view degeneracy(const Query& query) {
   const auto [longest, shortest, fastest] = lengths<double>(query);
-  if (longest == 0 || fastest == 0) return true;
+  if (longest == 0 || fastest == 0) return "no size or no motion";
   if (filtered([&] { return edges_differ(1e3, lengths<Interval>(query)); },
                [&] { return edges_differ(1e3, lengths<Number>(query)); }))
-    return true;
+    return "lengths of edges";
   const double length = nearly * longest;
-  if (is_of_meshes(query.kind) && is_coplanar_at_an_end(query, length)) return true;
+  if (is_of_meshes(query.kind) && is_coplanar_at_an_end(query, length)) return "coplanar at an end";
   const double h = query.separation;
   const double change = h == 0 ? length : nearly * h;
   const Decision nearer = decide(with_separation(query, h == 0 ? 0 : h - change));
-  if (!nearer.collision) return comes_within(query, std::min(h + change, std::numeric_limits<double>::max()));
+  if (!nearer.collision)
+    return comes_within(query, std::min(h + change, std::numeric_limits<double>::max())) ? "just apart" : "";
 
   EarliestTime first(query, h == 0 ? nearer.known : KnownTimes{});
-  if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return true;
-  if (h > 0) return false;  // vertices and edges may be the closest features in general position, too
-  if (!is_of_meshes(query.kind)) return true;  // their contact is a coincidence
+  if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return "contact at an end";
+  if (h > 0) return "";  // vertices and edges may be the closest features in general position, too
+  if (!is_of_meshes(query.kind)) return "contact of vertices";  // a coincidence
   const auto root = [&] {
     if (nearer.known.exactly) return nearer.known.exactly->time;
     exact::Predicates predicates(query);
     return exact::first_contact(predicates)->time;
   };
-  return holds_at(first.enclosure(rough_time), root, query, length,
-                  [](const auto& moment, const auto& at_most) {
-                    return touches_border(moment, at_most) || is_multiple_root(moment, at_most);
-                  });
+  const auto holds = [&](const auto& rule) {
+    return holds_at(first.enclosure(rough_time), root, query, length, rule);
+  };
+  if (holds([](const auto& moment, const auto& at_most) { return touches_border(moment, at_most); }))
+    return "contact at a border";
+  return holds([](const auto& moment, const auto& at_most) { return is_multiple_root(moment, at_most); })
+             ? "multiple root"
+             : "";
 }
 
 }  // namespace
 
 QueryClass classify(const Query& query) {
+  const std::string_view reason = why_not_ordinary(query);
+  if (reason.empty()) return QueryClass::ordinary;
+  return reason == extreme ? QueryClass::extreme : QueryClass::degenerate;
+}
+
+std::string_view why_not_ordinary(const Query& query) {
   const PlainArithmetic guard;
-  if (is_extreme(query)) return QueryClass::extreme;
-  return is_degenerate(query) ? QueryClass::degenerate : QueryClass::ordinary;
+  return is_extreme(query) ? extreme : degeneracy(query);
 }
 
 }  // namespace nearmiss

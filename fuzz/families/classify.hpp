@@ -1,6 +1,8 @@
 // The class of a single query.
 #pragma once
 
+#include <string_view>
+
 #include "ccd/query/query.hpp"
 #include "reports/statistics/query_class.hpp"
 
@@ -11,6 +13,10 @@ namespace nearmiss {
 /// Intervals decide nearly all of them, and exact arithmetic the others, so the answer is exact for every
 /// query, also in a tie. A query with a coordinate that is not finite is extreme.
 QueryClass classify(const Query& query);
+
+/// "extreme", or the first rule of degenerate queries that holds, in a few words, such as "coplanar at an end"; ""
+/// for an ordinary query.
+std::string_view why_not_ordinary(const Query& query);
 
 /// Accepts the queries of class `of` whose exoticness is at most `most`. For example, it can refuse those
 /// degenerate queries in which vertices coincide.

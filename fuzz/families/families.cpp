@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
@@ -238,21 +239,19 @@ bool has_kind(const Family& family, Kind kind) {
 }
 
 void expect_kind(const Family& family, Kind kind, std::string_view where) {
-  if (!has_kind(family, kind))
-    throw Error(fmt::format("{}: found {}, expected {} or {} for the family {}", where, short_name(kind),
-                            short_name(family.kinds[0]), short_name(family.kinds[1]), family.name));
+  if (has_kind(family, kind)) return;
+  const int known = bit_of(family.kinds[0]) | bit_of(family.kinds[1]);
+  throw Error(fmt::format("{}: found {}, expected {} for the family {}", where, short_name(kind),
+                          names_of_kinds(known, " or "), family.name));
 }
 
 std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some) {
   Family chosen = family;
-  int count = 0;
+  std::set<Kind> found;
   for (const Kind kind : family.kinds)
-    if (std::ranges::find(some, kind) != some.end()) {
-      chosen.only = kind;
-      ++count;
-    }
-  if (count == 0) return std::nullopt;
-  if (count > 1) chosen.only.reset();
+    if (std::ranges::find(some, kind) != some.end()) found.insert(kind);
+  if (found.empty()) return std::nullopt;
+  chosen.only = found.size() == 1 ? std::optional(*found.begin()) : std::nullopt;
   return chosen;
 }
 

@@ -208,6 +208,18 @@ TEST(Classify, WithASeparationEdgesComeNearestInGeneralPositionToo) {
     EXPECT_TRUE(is_degenerate(with_separation(on_edge, h))) << h;  // near from the beginning
 }
 
+TEST(Classify, TheFirstRuleThatHoldsIsNamed) {
+  EXPECT_EQ(why_not_ordinary(falling_vertex(0.25, 0.25, 1, -1)), "");
+  EXPECT_EQ(why_not_ordinary(falling_vertex(0.25, 0.25, 501, -500)), "extreme");
+  EXPECT_EQ(why_not_ordinary(falling_vertex(2, 2, 1, 1)), "no size or no motion");
+  EXPECT_EQ(why_not_ordinary(long_edge(0)), "lengths of edges");
+  EXPECT_EQ(why_not_ordinary(falling_past({1, 0, 0})), "coplanar at an end");
+  EXPECT_EQ(why_not_ordinary(passing_vertex(5)), "just apart");
+  EXPECT_EQ(why_not_ordinary(reached_at(1e-6)), "contact at an end");
+  EXPECT_EQ(why_not_ordinary(falling_vertex(0.25, 0, 1, -1)), "contact at a border");
+  EXPECT_EQ(why_not_ordinary(turning_edge(0)), "multiple root");
+}
+
 // --- all families ---------------------------------------------------------------------------------------
 
 /// The same primitives, with their vertices in another order.

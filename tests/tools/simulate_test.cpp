@@ -73,5 +73,35 @@ TEST_F(CommandLine, SimulationsAreAddedUpOnlyIfTheyDiffer) {
               HasSubstr("c.db: found scene:sim:cloths@50 with exact, which another store has too"));
 }
 
+/// A campaign over what simulations ask: findings can be made again by their provenance.
+TEST_F(CommandLine, FuzzAsksWhatSimulationsAsk) {
+  const std::string families = "sim:hair@100:steps-per-frame=1,sim:cloths@50";
+  const auto findings_of = [&](const std::string& jobs) {
+    expect_code(1, "fuzz --family " + families +
+                       " --subject bullet-double,basic --cases 2000 -q --no-shrink --jobs " + jobs +
+                       " --db " + jobs + ".db");
+    EXPECT_EQ(report_of(jobs + ".db", 1)["findings"][0]["class"], "ordinary");
+    return read("report/findings.csv");
+  };
+  const std::string findings = findings_of("1");
+  EXPECT_EQ(findings, findings_of("3"));
+  const std::string provenance =
+      "sim:cloths@50:1:";  // bullet decides no pairs of edges, so hair is not asked
+  const std::size_t index = findings.find(provenance) + provenance.size();
+  const std::size_t end = findings.find('\n', index);
+  const std::string query = expect_code(0, "family sim:cloths@50 --kind vt --count 1 --seed 1 --first " +
+                                               findings.substr(index, findings.find(',', index) - index))
+                                .out;
+  EXPECT_TRUE((findings.substr(index, end - index) + "\n").ends_with("," + query)) << findings;
+  EXPECT_THAT(expect_code(0, "family sim:cloths@50 --classes --count 1000").out,
+              ContainsRegex("\nvt +ordinary +398 +79.6 % +16 +88.9 %\n"));
+  EXPECT_THAT(expect_code(0, "fuzz --help").out, HasSubstr("sim:knot "));
+  for (const char* command : {"fuzz --cases 10 --family ", "family --kind vt --count 1 "})
+    expect_refused(command + std::string("sim:knots"),
+                   {"family 'sim:knots': knots: found no scene of that name"});
+  expect_refused("fuzz --cases 10 --kind vt --family sim:hair@100:steps-per-frame=1",
+                 {"--kind: found vt, expected ee for the family sim:hair"});
+}
+
 }  // namespace
 }  // namespace nearmiss

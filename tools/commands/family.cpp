@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/families/coverage.hpp"
 #include "fuzz/families/crossed.hpp"
+#include "fuzz/simulation/simulation_family.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
@@ -25,7 +29,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::uint64_t first = 0;
   std::uint64_t count = 0;
-  bool factors = false, coverage = false;
+  bool factors = false, coverage = false, classes = false;
   std::string subject;
   PluginLimitOptions limits;
 };
@@ -42,6 +46,34 @@ void print_queries(const Options& options, const Family& family) {
     fmt::print("{}\n", options.factors ? crossed::to_text(crossed::levels_of(options.seed, index))
                                        : to_line(make_query(family, options.seed, index)));
   }
+}
+
+/// Prints how many of the queries, and how many of the collisions among them, belong to each class, or are
+/// degenerate by each rule.
+void print_classes(const Options& options, const Family& family) {
+  struct Count {
+    std::uint64_t queries = 0, collisions = 0;
+  };
+  std::map<Kind, Count> sums;
+  std::map<std::pair<Kind, std::string>, Count> counts;
+  for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
+    const Query query = make_query(family, options.seed, index);
+    const std::string_view reason = why_not_ordinary(query);
+    const int collision = collides(query) ? 1 : 0;
+    for (Count* each :
+         {&sums[query.kind], &counts[{query.kind, reason.empty() ? "ordinary" : std::string(reason)}]}) {
+      ++each->queries;
+      each->collisions += collision;
+    }
+  }
+  std::vector<std::vector<std::string>> rows{{"kind", "class or rule", "queries", "", "collisions", ""}};
+  for (const auto& [of, count] : counts) {
+    const Count& sum = sums[of.first];
+    rows.push_back({std::string(short_name(of.first)), of.second, with_separators(count.queries),
+                    percent(count.queries, sum.queries), with_separators(count.collisions),
+                    percent(count.collisions, sum.collisions)});
+  }
+  fmt::print("{}", columns(rows, 2));
 }
 
 void print_combinations(std::string_view name, const crossed::Combinations& combinations,
@@ -84,9 +116,10 @@ void print_common_factors(const Options& options, const Family& family) {
 }
 
 void run(const Options& options) {
-  const Family family = find_family(options.name);
+  const Family family = find_any_family(options.name);
   const char* needs_factors = options.factors ? "--factors" : options.coverage ? "--coverage" : "--missed-by";
   const bool is_plain = !options.factors && !options.coverage && options.subject.empty();
+  if (options.classes) return print_classes(options, family);
   if (!is_plain && family.name != "crossed")
     throw Error(fmt::format("found the family '{}', expected crossed with {}", family.name, needs_factors));
   if (is_plain && options.kind.empty()) throw CLI::RequiredError("--kind");
@@ -106,7 +139,8 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
       "family",
       "Print queries of a family, one a line, in the format that nearmiss oracle and nearmiss verdict read");
   command
-      ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
+      ->add_option("NAME", options->name,
+                   "The family, NAME, NAME@VALUE or sim:SCENE; nearmiss fuzz --help lists them")
       ->required();
   auto* kind =
       command
@@ -119,6 +153,13 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
                                   "kinds; crossed only")
                        ->excludes(kind);
   command
+      ->add_flag(
+          "--classes", options->classes,
+          "Print, for each kind, how many queries are ordinary and extreme, and how many are degenerate "
+          "by which rule (the first that holds)")
+      ->excludes(kind)
+      ->excludes(coverage);
+  command
       ->add_option("--missed-by", options->subject,
                    "Print which factors the collisions have in common that this subject misses; crossed only")
       ->excludes(kind)
@@ -129,8 +170,9 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
                  "Print each query's factors instead of the query; crossed only")
       ->needs(kind);
   add_seed_option(*command, options->seed);
-  add_count_option(*command, "--count", options->count, 1, most_queries,
-                   "Number of queries, of --kind or, with --coverage and --missed-by, of both kinds")
+  add_count_option(
+      *command, "--count", options->count, 1, most_queries,
+      "Number of queries, of --kind or, with --coverage, --classes and --missed-by, of both kinds")
       ->required()
       ->default_str("");
   add_count_option(*command, "--first", options->first, 0, most_queries,

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fuzz/families/families.hpp"
+#include "fuzz/simulation/simulation_name.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "reports/statistics/family_class.hpp"
 #include "tools/campaign_options.hpp"
@@ -23,6 +24,10 @@ std::string list_of_families() {
       lines += fmt::format("\n  {:<22}   {}, x from {} to {}", "", family.parameter->about,
                            family.parameter->lo, family.parameter->hi);
   }
+  for (const BuiltInScene& scene : simulated_scenes())
+    lines += fmt::format("\n  {:<22} {}: pairs of a simulation (nearmiss simulate): {}",
+                         std::string(simulation_prefix) + scene.name, name(QueryClass::ordinary),
+                         scene.description);
   return lines;
 }
 
@@ -75,7 +80,8 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   auto* family = command
                      ->add_option("--family", options->families,
                                   "Families of queries, separated by commas, or all, or vertices (v-NAME); "
-                                  "NAME@VALUE gives its parameter a value")
+                                  "NAME@VALUE gives its parameter a value; sim:SCENE asks what a "
+                                  "simulation asks its CCD, and is not in all")
                      ->delimiter(',')
                      ->capture_default_str()
                      ->type_name("all|A,B@VALUE,...");

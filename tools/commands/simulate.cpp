@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fstream>
 
 #include "ccd/query/error.hpp"
-#include "ccd/query/excerpt.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
-#include "fuzz/simulation/simulation.hpp"
+#include "fuzz/simulation/simulation_name.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
@@ -25,46 +23,13 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_steps = 10'000;
 
-/// Throws Error that names the option.
-double positive_number(const std::string& text, const std::string& option) {
-  const auto number = number_in(text);
-  if (!number || !(*number > 0) || !std::isfinite(*number))
-    throw Error(fmt::format("{}: found '{}', expected a positive number", option, excerpt(text)));
-  return *number;
-}
-
 struct Options {
-  std::string scene;
+  SimulationOptions simulation;
   TrialOptions trial{.subjects = {"basic", "wang", "exact"}};
-  std::string stiffness = "20", edge = "0.01", step = "5ms";
-  int steps_per_frame = 4;
   std::size_t steps = 0;
   bool list = false;
   fs::path frames;
   RecordOptions record;
-
-  /// Throws Error.
-  [[nodiscard]] Simulation simulation() const {
-    Material material;
-    material.stiffness = positive_number(stiffness, "--stiffness");
-    material.edge = positive_number(edge, "--edge");
-    return {simulated_scene(scene), material, parse_duration(step, "--step-time").count(), steps_per_frame};
-  }
-
-  /// The name under which the steps are counted: the scene with the options that change its motion, unless they
-  /// are the usual ones, such as "sim:knot:stiffness=100:step=2ms".
-  [[nodiscard]] std::string name() const {
-    const Options usual;
-    std::string all = "sim:" + scene;
-    const auto add = [&](std::string_view key, const auto& own, const auto& usual_value) {
-      if (own != usual_value) all += fmt::format(":{}={}", key, own);
-    };
-    add("stiffness", stiffness, usual.stiffness);
-    add("edge", edge, usual.edge);
-    add("step", step, usual.step);
-    add("steps-per-frame", steps_per_frame, usual.steps_per_frame);
-    return all;
-  }
 };
 
 void list_scenes(std::FILE* out) {
@@ -75,15 +40,13 @@ void list_scenes(std::FILE* out) {
 
 /// The facts of a run, with every option that its results depend on.
 RunInfo run_info(const Options& options, const Subjects& subjects) {
-  RunInfo info = options.trial.run_info("simulate " + options.scene, subjects);
-  const auto note = [&](const std::string& fact, const std::string& option, const auto& value) {
-    note_option(info, fact, option, fmt::format("{}", value));
-  };
-  note("stiffness", "--stiffness", options.stiffness);
-  note("edge", "--edge", options.edge);
-  note("time step", "--step-time", options.step);
-  note("steps a frame", "--steps-per-frame", options.steps_per_frame);
-  if (options.steps > 0) note("steps", "--steps", options.steps);
+  const SimulationOptions& of = options.simulation;
+  RunInfo info = options.trial.run_info("simulate " + of.scene, subjects);
+  note_option(info, "stiffness", "--stiffness", of.stiffness);
+  note_option(info, "edge", "--edge", of.edge);
+  note_option(info, "time step", "--step-time", of.step);
+  note_option(info, "steps a frame", "--steps-per-frame", of.steps_per_frame);
+  if (options.steps > 0) note_option(info, "steps", "--steps", fmt::format("{}", options.steps));
   return info;
 }
 
@@ -145,7 +108,7 @@ void simulate(const Options& options, Simulation simulation, const Subjects& sub
   using Clock = std::chrono::steady_clock;
   const std::string name = subject.front()->name();
   const std::size_t steps = options.steps > 0 ? options.steps : simulation.steps();
-  const Scene named{.name = options.name(), .frames = steps + 1, .mesh = {}, .points = {}};
+  const Scene named{.name = options.simulation.name(), .frames = steps + 1, .mesh = {}, .points = {}};
   Trials trials(subject, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
                 [&](TrialResult&& found) { record.add(std::move(found)); });
   SceneTrial trial(named, LeaveOut::boxes, trials);
@@ -182,16 +145,17 @@ int run(const Options& options) {
     throw Error("--versions: found simulations, in which each subject is asked other queries");
   if (std::error_code error; !options.frames.empty() && fs::exists(options.frames, error))
     throw Error(fmt::format("{}: exists already, expected a new folder", options.frames.string()));
-  const Simulation simulation = options.simulation();  // bad options are refused before any work
+  const Simulation simulation = options.simulation.simulation();  // bad options are refused before any work
   const Stop stop(interrupted());
   Subjects subjects = options.trial.make_subjects(stop);
   Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
   std::FILE* const text = options.record.json.text();
   const MovingMesh& mesh = simulation.motion();
-  fmt::print(text, "{}: {}, {}, {}, steps of {}, edges of {} m, springs of {} N/m\n", options.scene,
-             counted(mesh.start.size(), "vertex", "vertices"),
+  fmt::print(text, "{}: {}, {}, {}, steps of {}, edges of {} m, springs of {} N/m\n",
+             options.simulation.scene, counted(mesh.start.size(), "vertex", "vertices"),
              counted(mesh.triangles.size(), "triangle", "triangles"),
-             counted(mesh.edges.size(), "edge", "edges"), options.step, options.edge, options.stiffness);
+             counted(mesh.edges.size(), "edge", "edges"), options.simulation.step, options.simulation.edge,
+             options.simulation.stiffness);
   SimulationProgress progress(options.record.quiet, subjects.size());
   for (std::size_t i = 0; i < subjects.size() && !stop.is_due(); ++i) {
     const std::string name = subjects[i]->name();
@@ -210,21 +174,24 @@ void add_simulate(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("simulate", "Simulate cloth or hair with each subject as its CCD");
   command->add_option(
-      "SCENE", options->scene,
+      "SCENE", options->simulation.scene,
       "NAME or NAME@SIZE, where SIZE is the approximate number of triangles, or of lines of hair");
   command->add_flag("--list", options->list, "List the scenes");
   options->trial.add_to(*command);
-  command->add_option("--stiffness", options->stiffness, "The stiffness of springs, in N/m")
+  command->add_option("--stiffness", options->simulation.stiffness, "The stiffness of springs, in N/m")
       ->capture_default_str()
       ->type_name("NUMBER");
-  command->add_option("--edge", options->edge, "The length of an edge, in m")
+  command->add_option("--edge", options->simulation.edge, "The length of an edge, in m")
       ->capture_default_str()
       ->type_name("NUMBER");
-  command->add_option("--step-time", options->step, "The time of a step")
+  command->add_option("--step-time", options->simulation.step, "The time of a step")
       ->capture_default_str()
       ->type_name("TIME");
-  add_count_option(*command, "--steps-per-frame", options->steps_per_frame, 1, 1000,
-                   "Steps from one frame of the scene to the next; held points move evenly between them");
+  command
+      ->add_option("--steps-per-frame", options->simulation.steps_per_frame,
+                   "Steps from one frame of the scene to the next; held points move evenly between them")
+      ->capture_default_str()
+      ->type_name("N");
   add_count_option(*command, "--steps", options->steps, 1, most_steps, "The number of steps")
       ->default_str("all frames");
   command
@@ -235,7 +202,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
   options->record.add_to(*command);
   command->callback([options, &exit_code] {
     if (options->list) return list_scenes(options->record.json.text());
-    if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    if (options->simulation.scene.empty()) throw CLI::RequiredError("SCENE");
     exit_code = run(*options);
   });
 }

@@ -1,16 +1,18 @@
-#include "tools/values.hpp"
+#include "reports/text/values.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <system_error>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
+#include "reports/text/text.hpp"
 
-namespace nearmiss::tools {
+namespace nearmiss {
 
 namespace {
 
@@ -75,4 +77,11 @@ std::uint64_t parse_size(std::string_view text, std::string_view option) {
   return *number << shift;
 }
 
-}  // namespace nearmiss::tools
+double parse_positive(std::string_view text, std::string_view option) {
+  const auto number = number_in(text);
+  if (!number || !(*number > 0) || !std::isfinite(*number))
+    throw Error(fmt::format("{}: found '{}', expected a positive number", option, excerpt(text)));
+  return *number;
+}
+
+}  // namespace nearmiss
