@@ -73,6 +73,20 @@ TEST_F(CommandLine, SimulationsAreAddedUpOnlyIfTheyDiffer) {
               HasSubstr("c.db: found scene:sim:cloths@50 with exact, which another store has too"));
 }
 
+/// fuzz/simulation/README.md: two misses of the textbook CCD are enough to tangle two cloths.
+TEST_F(CommandLine, SimulateFindsAClothThatATextbookCcdTangles) {
+  expect_code(1,
+              "simulate cloths@64 --stiffness 0.01 --step-time 10ms --steps 8 --subject basic,wang -q --json "
+              "run.json");
+  const json found = read_json("run.json")["simulations"]["scene:sim:cloths@64:stiffness=0.01:step=10ms"];
+  const json none(std::vector<int>(8, 0));
+  EXPECT_EQ(found["basic"]["false_negatives"], json({0, 0, 0, 0, 0, 2, 0, 0}));
+  EXPECT_EQ(found["basic"]["tangled"], json({0, 0, 0, 0, 0, 4, 4, 4}));
+  EXPECT_EQ(found["basic"]["unresolved"], none);
+  for (const char* counter : {"false_negatives", "tangled", "unresolved"})
+    EXPECT_EQ(found["wang"][counter], none) << counter;
+}
+
 /// A campaign over what simulations ask: findings can be made again by their provenance.
 TEST_F(CommandLine, FuzzAsksWhatSimulationsAsk) {
   const std::string families = "sim:hair@100:steps-per-frame=1,sim:cloths@50";
