@@ -11,7 +11,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/simulation/simulation_family.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
@@ -61,10 +61,10 @@ std::string named(std::string name, const SeparationOption& separation) {
 
 /// For each kind, the first `count` queries of a family that pass the box test.
 Input family_input(std::string_view name, std::uint64_t count, const SeparationOption& separation) {
-  const Family family = find_any_family(name);
+  const Family family = find_family(name);
   Input input{named(std::string(name), separation), {}};
   for (std::uint64_t index = 0;
-       std::ranges::any_of(family.kinds, [&](Kind kind) { return input.queries[kind].size() < count; });
+       std::ranges::any_of(kinds_of_meshes, [&](Kind kind) { return input.queries[kind].size() < count; });
        ++index) {
     const Query query = separation.apply(make_query(family, 1, index));
     if (auto& same = input.queries[query.kind]; same.size() < count && boxes_meet(query))

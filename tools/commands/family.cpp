@@ -59,11 +59,11 @@ void print_classes(const Options& options, const Family& family) {
   for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
     const Query query = make_query(family, options.seed, index);
     const std::string_view reason = why_not_ordinary(query);
-    const int collision = collides(query) ? 1 : 0;
+    const bool collision = collides(query);
     for (Count* each :
          {&sums[query.kind], &counts[{query.kind, reason.empty() ? "ordinary" : std::string(reason)}]}) {
       ++each->queries;
-      each->collisions += collision;
+      each->collisions += collision ? 1 : 0;
     }
   }
   std::vector<std::vector<std::string>> rows{{"kind", "class or rule", "queries", "", "collisions", ""}};
@@ -152,18 +152,20 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
                                   "Print which pairs and triples of factors occur in the queries of both "
                                   "kinds; crossed only")
                        ->excludes(kind);
-  command
-      ->add_flag(
-          "--classes", options->classes,
-          "Print, for each kind, how many queries are ordinary and extreme, and how many are degenerate "
-          "by which rule (the first that holds)")
-      ->excludes(kind)
-      ->excludes(coverage);
+  auto* classes =
+      command
+          ->add_flag(
+              "--classes", options->classes,
+              "Print how many of the queries of each kind, and of their collisions, are ordinary, extreme, "
+              "or degenerate by which rule (the first that holds)")
+          ->excludes(kind)
+          ->excludes(coverage);
   command
       ->add_option("--missed-by", options->subject,
                    "Print which factors the collisions have in common that this subject misses; crossed only")
       ->excludes(kind)
-      ->excludes(coverage);
+      ->excludes(coverage)
+      ->excludes(classes);
   options->limits.add_to(*command);
   command
       ->add_flag("--factors", options->factors,
