@@ -127,16 +127,15 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   return chosen;
 }
 
-/// Those of chosen_families(). Throws Stopped if the user ends the command, and Error if the time limit does.
-std::vector<Family> families_in_time(const CampaignOptions& options, const Subjects& subjects,
-                                     const Stop& stop) {
+/// Does work that comes before the first query. Throws Stopped if the user ends the command, and Error if the time
+/// limit does; the message contains `why`.
+template <class Work>
+auto in_time(const CampaignOptions& options, const Stop& stop, std::string_view why, const Work& work) {
   try {
-    return chosen_families(options, subjects, stop);
+    return work();
   } catch (const Stopped&) {
     if (stop.is_requested()) throw;
-    throw Error(fmt::format(
-        "--time: found {}, expected more time: the pairs of meshes and simulations take longer to collect",
-        excerpt(options.time)));
+    throw Error(fmt::format("--time: found {}, expected more time: {}", excerpt(options.time), why));
   }
 }
 
@@ -192,9 +191,11 @@ int record_campaign(const CampaignOptions& options) {
   Stop stop(interrupted());
   TimeLimit time;
   if (!options.time.empty()) stop.limit(*(time = parse_duration(options.time, "--time")));
-  const Subjects subjects = options.trial.make_subjects(stop);
+  const Subjects subjects = in_time(options, stop, "the CCDs take longer to load",
+                                    [&] { return options.trial.make_subjects(stop); });
   CampaignPlan plan;
-  plan.families = families_in_time(options, subjects, stop);
+  plan.families = in_time(options, stop, "the pairs of meshes and simulations take longer to collect",
+                          [&] { return chosen_families(options, subjects, stop); });
   plan.seed = options.seed;
   plan.cases = options.cases;
   plan.first = options.first;

@@ -88,8 +88,9 @@ ordered_json scorecard_json(const Statistics& statistics, const std::vector<Show
     row["faults"] = counts_json(all).at("faults");
     add_measures(row["times"], {"median_ns", "q99_ns"}, all);
     row["classes"] = ordered_json::object();
-    for (const auto& [key, sum] : by_class)
-      if (key.first == each.subject) row["classes"][std::string(name(key.second))] = rates_json(sum);
+    for (auto of = by_class.lower_bound({each.subject, QueryClass()});
+         of != by_class.end() && of->first.first == each.subject; ++of)
+      row["classes"][std::string(name(of->first.second))] = rates_json(of->second);
     row["finding"] = each.clean ? ordered_json() : index_of_simplest(each.subject, findings, failing);
     if (since) row["since"] = changes_of(each.subject, *since);
     json.push_back(std::move(row));

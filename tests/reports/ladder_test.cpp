@@ -25,7 +25,7 @@ TEST(ScalarName, GivesEpsilon) {
   EXPECT_EQ(epsilon_exponent_of("float"), -23);
   EXPECT_EQ(epsilon_exponent_of(""), -52);
   EXPECT_EQ(epsilon_exponent_of("p40"), -39);
-  for (const char* other : {"p", "p1", "p40x", "half", "-3"})
+  for (const char* other : {"p", "p1", "p257", "p999999999", "p40x", "half", "-3"})
     EXPECT_EQ(epsilon_exponent_of(other), std::nullopt);
   EXPECT_EQ(split_scalar("wang-tight:p40@0.5").algorithm, "wang-tight");
   EXPECT_EQ(split_scalar("wang-tight:p40@0.5").scalar, "p40");

@@ -1,7 +1,9 @@
 // Tests the command line with failures during the work.
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <stdlib.h>
 #include <sys/stat.h>
+#include <termios.h>
 
 #include "tests/reports/stored.hpp"
 #include "tests/tools/background.hpp"
@@ -14,6 +16,24 @@ using nlohmann::json;
 using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
+
+// ^S stops the output of a terminal. The campaign shows progress there, and ends all the same.
+TEST_F(CommandLine, AStoppedTerminalStopsNothing) {
+  const int ours = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0);
+  const std::string terminal = ptsname(ours);
+  const int side = open(terminal.c_str(), O_RDWR | O_NOCTTY);
+  ASSERT_EQ(tcflow(side, TCOOFF), 0);
+  expect_code(0, "fuzz --subject wang --time 1s --db a.db", "timeout -s KILL 60", "2>" + terminal);
+  EXPECT_GT(report_of("a.db")["runs"][0]["cases_done"], 0);
+  close(side);
+  close(ours);
+}
+
+TEST_F(CommandLine, APluginThatLoadsLongerThanTheCampaignMayTakeIsNoInterrupt) {
+  expect_refused("fuzz --subject wang,'pipe:sleep 60' --time 1s --db new.db",
+                 {"--time: found 1s, expected more time: the CCDs take longer to load"});
+}
 
 TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   write("q.vt", hit + "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p-1074  0 0 0  1 0 0  0 1 0\n");

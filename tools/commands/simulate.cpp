@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <set>
 
 #include "ccd/query/error.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/simulation/simulation_name.hpp"
+#include "reports/campaign/finding_case.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
@@ -50,14 +52,29 @@ RunInfo run_info(const Options& options, const Subjects& subjects) {
   return info;
 }
 
+/// The folder of a subject's meshes: its name as far as it is part of a valid file name.
+std::string folder_name(const std::string& subject) {
+  const std::string name = file_name(subject);
+  return name.find_first_not_of('.') == std::string::npos ? "_" + name : name;
+}
+
+/// Throws Error if two subjects would have the same folder.
+void expect_folders(const Subjects& subjects) {
+  std::set<std::string> folders;
+  for (const auto& each : subjects)
+    if (!folders.insert(folder_name(each->name())).second)
+      throw Error(
+          fmt::format("--frames: found two subjects with the folder {}, expected different ones; "
+                      "NEW_NAME=SUBJECT gives a name",
+                      folder_name(each->name())));
+}
+
 /// Writes the mesh after each step to FOLDER/SUBJECT/STEP.obj; step 0 is the start.
 class Frames {
  public:
   Frames(const fs::path& folder, const std::string& subject) {
     if (folder.empty()) return;
-    std::string name = subject;
-    std::replace(name.begin(), name.end(), '/', '_');
-    folder_ = folder / name;
+    folder_ = folder / folder_name(subject);
     std::error_code error;
     if (fs::create_directories(folder_, error); error)
       throw Error(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
@@ -148,6 +165,7 @@ int run(const Options& options) {
   const Simulation simulation = options.simulation.simulation();  // bad options are refused before any work
   const Stop stop(interrupted());
   Subjects subjects = options.trial.make_subjects(stop);
+  if (!options.frames.empty()) expect_folders(subjects);
   Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
   std::FILE* const text = options.record.json.text();
   const MovingMesh& mesh = simulation.motion();
