@@ -19,6 +19,7 @@
 
 #include "ccd/query/arithmetic.hpp"
 #include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
