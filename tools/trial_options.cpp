@@ -22,8 +22,10 @@ namespace nearmiss::tools {
 
 void TrialOptions::add_to(CLI::App& command) {
   add_subject_option(command, subjects);
-  command.add_flag("--beyond-contract", beyond_contract,
-                   "Also ask subjects queries beyond their contracts, and count these apart");
+  command.add_flag(
+      "--beyond-contract", beyond_contract,
+      "Also ask subjects queries beyond their contracts; failures there are shown apart, and do not "
+      "count");
   limits.add_to(command);
   add_comparison_options(command, comparison);
   command.add_flag("--no-shrink", no_shrink, "Keep findings as they are, instead of simplifying them");

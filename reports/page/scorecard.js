@@ -91,6 +91,10 @@ const againCell = ({ finding, clean }) => {
   return [button, " ", link];
 };
 
+/** Whether the subject failed; beyond its contract, nothing is a failure. */
+const markCell = ({ clean, beyond_contract: isBeyond }) => made("span", isBeyond ? "–" : clean ? "ok" : "FAIL",
+  { class: "mark", ...(isBeyond ? { title: "does not count: the contract excludes these queries" } : {}) });
+
 /** The subject's name, which links to its findings, or to its counts if it has no findings. */
 function subjectCell({ subject, finding }) {
   const link = made("a", subject, { href: finding === null ? "#counts-section" : "#findings-section", title: subject });
@@ -100,11 +104,11 @@ function subjectCell({ subject, finding }) {
 
 /**
  * Sorts the failed subjects by their rates of misses, ordinary misses first; then the others by their run
- * times.
+ * times, and at last those that are asked beyond their contracts.
  */
 function inOrder(verdicts) {
   const rates = ({ classes }) => ["ordinary", "degenerate", "extreme", "unclassified"].map((name) => -(classes[name]?.false_negative_rate ?? 0));
-  const key = (verdict) => [verdict.clean ? 1 : 0, ...rates(verdict), -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
+  const key = (verdict) => [verdict.beyond_contract ? 2 : verdict.clean ? 1 : 0, ...rates(verdict), -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
   return [...verdicts].sort((a, b) => {
     const [x, y] = [key(a), key(b)];
     const i = x.findIndex((each, k) => each !== y[k]);
@@ -112,12 +116,14 @@ function inOrder(verdicts) {
   });
 }
 
+const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
+
 /**
  * The rows of clean subjects that are folded into one row if there are many: those on the ladder, and also
  * the others if these are still many.
  */
 function foldedRows(rows) {
-  const good = rows.filter(({ clean }) => clean);
+  const good = rows.filter(isGood);
   if (good.length <= fewSubjects) return [];
   return good.filter(isNoRung).length <= fewSubjects ? good.filter((row) => !isNoRung(row)) : good;
 }
@@ -127,7 +133,7 @@ function drawScorecard() {
   element("verdicts").toggleAttribute("hidden", rows.length === 0 && !report.oracle.complaint);
   const hasTimes = rows.some(({ counts }) => counts.times_promised > 0);
   const columns = [
-    ["", ({ clean }) => made("span", clean ? "ok" : "FAIL", { class: "mark" })],
+    ["", markCell],
     ["subject", subjectCell],
     ["missed collisions", missedCell],
     ...(hasTimes ? [["late times", ({ counts }) => (counts.times_promised === 0 ? "–"
@@ -138,7 +144,7 @@ function drawScorecard() {
     ...(report.baseline ? [["since the baseline", changeCell]] : []),
     ...(report.findings.length > 0 ? [["simplest failure", againCell]] : []),
   ];
-  const line = (verdict) => made("tr", columns.map(([title, content, name = ""]) => made("td", content(verdict), { "data-title": title, class: name })), { class: verdict.clean ? "verdict" : "verdict bad" });
+  const line = (verdict) => made("tr", columns.map(([title, content, name = ""]) => made("td", content(verdict), { "data-title": title, class: name })), { class: `verdict${verdict.beyond_contract ? " beyond" : verdict.clean ? "" : " bad"}` });
   const table = element("scorecard");
   table.createTHead().insertRow().append(...columns.map(([title]) => made("th", title || made("span", "verdict", { class: "unseen" }), { scope: "col" })));
   const wide = (content, attributes) => made("tr", made("td", content, { colspan: columns.length }), attributes);
@@ -149,7 +155,7 @@ function drawScorecard() {
   table.append(body);
   if (folded.length === 0) return;
   const rest = made("tbody", folded.map(line), { hidden: "", id: "clean-subjects" });
-  const others = folded.length < rows.filter(({ clean }) => clean).length ? "others" : "subjects";
+  const others = folded.length < rows.filter(isGood).length ? "others" : "subjects";
   const toggle = made("button", `${folded.length} ${others} did not fail`, { type: "button", "aria-expanded": "false", "aria-controls": "clean-subjects" });
   toggle.addEventListener("click", () => toggle.setAttribute("aria-expanded", String(!rest.toggleAttribute("hidden"))));
   body.append(wide([made("span", "ok", { class: "mark" }), " ", toggle], { class: "verdict" }));

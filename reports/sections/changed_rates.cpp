@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "corpus/query_text.hpp"
+#include "reports/statistics/failure.hpp"
 #include "reports/statistics/family.hpp"
 
 namespace nearmiss {
@@ -40,7 +41,7 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
                                         double risk) {
   std::vector<ChangedRate> pairs;
   for (const auto& [key, counts] : now.counts) {
-    if (!is_random(key.family)) continue;
+    if (!is_random(key.family) || is_beyond_contract(key.subject)) continue;
     const auto rates = rates_of(counts);
     std::vector<std::vector<Proportion>> earlier(rates.size());
     for (const Campaign& each : baseline)

@@ -239,7 +239,8 @@ void find_new(const Statistics& now, std::span<const Campaign> baseline, const S
   const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
   const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
   for (const auto& [signature, count] : now.seen) {
-    if (std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
+    if (is_beyond_contract(signature.subject) ||
+        std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
       continue;
     const bool is_unseen = before.times_seen(signature) == 0;
     const bool fails_anyway =
@@ -266,7 +267,8 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, All
   std::vector<Signature> candidates;
   for (const auto& [signature, count] : before.seen) {
     seen_before[{signature.what, signature.subject}] += count;
-    if (now.times_seen(signature) == 0) candidates.push_back(signature);
+    if (now.times_seen(signature) == 0 && !is_beyond_contract(signature.subject))
+      candidates.push_back(signature);
   }
   const double level = level_of(risk, candidates.size() + seen_before.size());
   for (const Signature& each : candidates) {

@@ -81,6 +81,7 @@ ordered_json scorecard_json(const Statistics& statistics, const std::vector<Show
     const CountsSum& all = by_subject.at(each.subject);
     ordered_json row{{"subject", each.subject},
                      {"clean", each.clean},
+                     {"beyond_contract", is_beyond_contract(each.subject)},
                      {"failures", names_of(each.failures)},
                      {"text", each.text}};
     row.update(place_json(place_of(each.subject)));
@@ -91,7 +92,9 @@ ordered_json scorecard_json(const Statistics& statistics, const std::vector<Show
     for (auto of = by_class.lower_bound({each.subject, QueryClass()});
          of != by_class.end() && of->first.first == each.subject; ++of)
       row["classes"][std::string(name(of->first.second))] = rates_json(of->second);
-    row["finding"] = each.clean ? ordered_json() : index_of_simplest(each.subject, findings, failing);
+    row["finding"] = each.clean && !is_beyond_contract(each.subject)
+                         ? ordered_json()
+                         : index_of_simplest(each.subject, findings, failing);
     if (since) row["since"] = changes_of(each.subject, *since);
     json.push_back(std::move(row));
   }

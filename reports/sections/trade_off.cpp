@@ -19,7 +19,7 @@ bool is_timed(const Counts& counts) { return counts.times.queries() != 0; }
 Subjects timed_subjects(const Statistics& statistics) {
   Subjects subjects;
   for (const auto& [key, counts] : statistics.counts)
-    if (is_timed(counts)) subjects.insert(key.subject);
+    if (is_timed(counts) && !is_beyond_contract(key.subject)) subjects.insert(key.subject);
   return subjects;
 }
 

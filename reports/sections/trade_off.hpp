@@ -33,8 +33,8 @@ struct TradeOff {
   }
 };
 
-/// A TradeOff for each timed subject, in the order of their names. If no family was asked of all subjects,
-/// only the largest set of subjects with a common family is compared.
+/// A TradeOff for each timed subject, in the order of their names, except those beyond their contracts. If no
+/// family was asked of all subjects, only the largest set of subjects with a common family is compared.
 std::vector<TradeOff> trade_offs(const Statistics& statistics);
 
 /// The Pareto front of the sound subjects, fastest first. A subject is on the front unless another sound

@@ -33,7 +33,8 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics,
 /// The failures of the oracle, in a line; "" without failures.
 std::string oracle_complaint(const Statistics& statistics);
 
-/// A line for each subject, " ok  NAME: ..." or "FAIL NAME: ...", and one for the oracle if it failed.
+/// A line for each subject, " ok  NAME: ...", "FAIL NAME: ..." or, beyond a contract, " --  NAME: ...", and one
+/// for the oracle if it failed.
 std::string verdict_lines(const Statistics& statistics, const Failures& failing);
 
 }  // namespace nearmiss

@@ -153,7 +153,8 @@ Failures failures_of(const std::string& subject, const Counts& counts) {
   Failures found;
   for (const FailureInfo& each : infos)
     if (each.count(counts) > 0) found.insert(each.kind);
-  if (subject.ends_with(beyond_contract)) found.erase(FailureKind::unjudged);
+  if (is_beyond_contract(subject))
+    for (const FailureKind each : {FailureKind::unjudged, FailureKind::contract}) found.erase(each);
   return found;
 }
 
@@ -168,8 +169,9 @@ std::map<std::string, Failures> failures_by_subject(const Statistics& statistics
 
 bool has_failed(const Statistics& statistics, const Failures& failing) {
   const auto failures = failures_by_subject(statistics);
-  return std::any_of(failures.begin(), failures.end(),
-                     [&](const auto& each) { return !in_common(each.second, failing).empty(); });
+  return std::any_of(failures.begin(), failures.end(), [&](const auto& each) {
+    return !is_beyond_contract(each.first) && !in_common(each.second, failing).empty();
+  });
 }
 
 }  // namespace nearmiss

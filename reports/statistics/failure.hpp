@@ -68,18 +68,19 @@ FailureKind failure_of(const Signature& signature);
 /// The sort of finding that a failure makes; nothing if it makes none.
 std::optional<Finding::What> finding_of(FailureKind kind);
 
-/// The end of the name of a subject that is asked only queries that break its contract. It is no failure if
-/// such a subject is asked nothing.
+/// The end of the name of a subject that is asked only queries that break its contract. It has promised nothing
+/// about these, so its failures are shown, but they neither count nor raise an alarm.
 inline constexpr std::string_view beyond_contract = " (beyond contract)";
+inline bool is_beyond_contract(std::string_view subject) { return subject.ends_with(beyond_contract); }
 
-/// The failures in a subject's counters.
+/// The failures in a subject's counters. Beyond a contract, queries that are not asked are no failure.
 Failures failures_of(const std::string& subject, const Counts& counts);
 
 /// The failures of each subject, an empty set if it has none; and those of the oracle, under the name "", if
 /// it failed.
 std::map<std::string, Failures> failures_by_subject(const Statistics& statistics);
 
-/// Whether one of `failing` is in the statistics. Exit code 1 means this.
+/// Whether one of `failing` is in the statistics, beyond contracts excepted. Exit code 1 means this.
 bool has_failed(const Statistics& statistics, const Failures& failing = usual_failures());
 
 }  // namespace nearmiss

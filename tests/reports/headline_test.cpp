@@ -89,6 +89,21 @@ TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   EXPECT_THAT(headline(slow.statistics, changes(slow, good), all_failures()).alarms, SizeIs(2));
 }
 
+TEST(Headline, NothingBeyondAContractAlarmsOrIsWorse) {
+  const CountsKey within{"a", Kind::edge_edge, "uniform"};
+  const CountsKey beyond{"a (beyond contract)", Kind::edge_edge, "uniform"};
+  const Campaign good = campaign("1", {{within, counts(9, 5, 0, 0)}, {beyond, counts(9000, 5000, 0, 0)}});
+  Campaign bad = good;
+  bad.statistics.counts[beyond].false_negatives = 5000;
+  bad.statistics.seen[{Finding::What::false_negative, beyond.subject, "ee"}] = 5000;
+  for (const auto& [now, before] : {std::pair(bad, good), {good, bad}, {bad, bad}}) {
+    const Headline line = headline(now.statistics, changes(now, before));
+    EXPECT_TRUE(line.clean);
+    EXPECT_THAT(line.alarms, IsEmpty());
+    EXPECT_EQ(line.text, "a did not fail; nothing worse since the baseline.");
+  }
+}
+
 TEST(Headline, SaysThatThereIsNothingToCompareOrToJudge) {
   const Campaign before = campaign("1", {{{"a", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)}});
   const Campaign now = campaign("2", {{{"b", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)}});

@@ -8,7 +8,7 @@ import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes, showsSimulations } from "./page/scenes.mjs";
 import { everyReportFollowsItsSchema } from "./page/schema.mjs";
 import { removeFolder } from "./page/session.mjs";
-import { drawsAMixOfRuns, drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
+import { drawsAMixOfRuns, drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects, showsWhatIsBeyondAContract } from "./page/subjects.mjs";
 import { fitsEveryMedium, showsEnvironments, showsThePowerOfDetection } from "./page/tables.mjs";
 import { showsSeparations, showsTimesOfImpact, showsWhichTimesAreLate } from "./page/times.mjs";
 
@@ -41,6 +41,7 @@ try {
   await showsAChoiceOfManySubjects(browser);
   await drawsManySubjectsWithoutALadder(browser);
   await drawsAMixOfRuns(browser);
+  await showsWhatIsBeyondAContract(browser);
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
   await showsWhereCollisionsAreMissed(browser);

@@ -137,10 +137,20 @@ TEST(Verdicts, NothingAskedAndNothingAnsweredAreNoPass) {
   EXPECT_EQ(
       line_of(with(with(counts(9, 0, 0, 0), Fault::time, 3), Fault::not_asked, 6)),
       "FAIL mine: NO ANSWER IN TIME, SLOW in 9 queries (3 over the time limit, 6 not asked after that)\n");
-  Statistics statistics;  // no query is beyond the contract; that is no failure
-  statistics.counts[{"mine (beyond contract)", Kind::edge_edge, "f"}] =
-      with(counts(9, 0, 0, 0), Fault::contract, 9);
-  EXPECT_FALSE(has_failed(statistics));
+}
+
+TEST(Verdicts, NothingFailsBeyondAContract) {
+  const std::string name = "mine (beyond contract)";
+  Statistics statistics;
+  Counts& of = statistics.counts[{name, Kind::edge_edge, "f"}] =
+      with(counts(9, 0, 0, 0), Fault::contract, 9);  // no query is beyond the contract
+  EXPECT_THAT(failures_of(name, of), IsEmpty());
+  of = with(with(counts(9, 5, 2, 0), Fault::contract, 1), Fault::crash, 1);
+  EXPECT_THAT(failures_of(name, of), ElementsAre(FailureKind::miss, FailureKind::fault));
+  EXPECT_FALSE(has_failed(statistics, all_failures()));
+  EXPECT_EQ(
+      verdict_lines(statistics, all_failures()),
+      " --  mine (beyond contract): MISSED ee 2 of 5; NO ANSWER (1 crash) ee 1 of 9; no false positive\n");
 }
 
 TEST(Verdicts, SlowQueriesFailOnRequest) {

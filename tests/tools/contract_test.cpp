@@ -39,6 +39,27 @@ TEST_F(CommandLine, MissesBeyondAContractDoNotCount) {
   EXPECT_TRUE(read_json("a.json")[0]["failure"].is_null());
 }
 
+// Root parity misses contact with an even number of roots, about which it promises nothing.
+TEST_F(CommandLine, FailuresBeyondAContractAreShownButNeverCount) {
+  const std::string fuzz = "fuzz --family small-integer --cases 4000 --subject parity --beyond-contract";
+  expect_code(0, fuzz + " --seed 2 --db before.db");
+  const Output asked = expect_code(0, fuzz + " --db a.db");
+  EXPECT_THAT(asked.out, HasSubstr(" ok  parity: no miss in "));
+  EXPECT_THAT(asked.out, HasSubstr(" --  parity (beyond contract): MISSED "));
+  for (const std::string with : {"", " --baseline before.db", " --fail-on unknown,slow"}) {
+    expect_code(0, "report a.db -o report" + with);
+    const auto report = read_json("report/report.json");
+    EXPECT_TRUE(report["headline"]["clean"]) << with;
+    EXPECT_TRUE(report["headline"]["alarms"].empty()) << with;
+    const auto& beyond = report["verdicts"][1];
+    EXPECT_EQ(beyond["subject"], "parity (beyond contract)");
+    EXPECT_TRUE(beyond["beyond_contract"]);
+    EXPECT_EQ(beyond["failures"], nlohmann::json{"miss"});
+    EXPECT_FALSE(beyond["finding"].is_null());
+    EXPECT_FALSE(report["error_against_time"]["subjects"].contains("parity (beyond contract)"));
+  }
+}
+
 TEST_F(CommandLine, AResumeAsksTheSameSideOfAContract) {
   const std::string fuzz =
       "fuzz --family small-integer --subject " + plugin("several") + ":narrow-apart --db a.db";

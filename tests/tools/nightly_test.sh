@@ -46,6 +46,9 @@ chmod +x build/release/nearmiss
 mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # neither of these folders is a night
 night 0 --subject wang
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
+# Root parity is asked, too. What it cannot see is shown, but raises no alarm in any night.
+expect_said '^ ok  parity: no miss in [1-9]'
+expect_said '^ --  parity \(beyond contract\): MISSED '
 night 1 --subject wang,basic
 expect_said '^not in the baseline: basic$'
 expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
@@ -57,6 +60,9 @@ night 1 --subject=wang,basic
 expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z .version .*., last seen 20.*Z .version .*.$'
 seen=$(sed -nE 's/^lasting: .*, first seen ([^ ]*) .*, last seen .*/\1/p' "$folder/said" | sort -u)
 expect "expected that all were first seen in the second night, at $began, found $seen" test "$seen" = "$began"
+# A night that has root parity on trial asks it only as any other subject.
+night 0 --subject wang,parity
+expect "expected no sample for root parity" test ! -e "$folder/the nights/last/parity.db"
 # With --baseline 1, the baseline is only the night before.
 night 0 --subject wang
 night 1 --subject wang,basic --baseline 1

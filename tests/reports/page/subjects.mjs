@@ -67,6 +67,17 @@ export async function showsAChoiceOfManySubjects(browser) {
   await page.close();
 }
 
+/** What root parity misses beyond its contract is shown, with an example, but as no failure. */
+export async function showsWhatIsBeyondAContract(browser) {
+  const page = await open(browser, makeReport("beyond", ["--cases", "4000", "--family", "small-integer", "--subject", "wang,parity", "--beyond-contract"]));
+  assert.equal(jsonOf("beyond").headline.clean, true);
+  assert.equal(await count(page, "#scorecard .verdict.bad"), 0);
+  const last = page.locator("#scorecard .verdict").last();
+  assert.match(await last.textContent(), /^–parity \(beyond contract\).*[1-9]\d* of [1-9]/);
+  assert.equal(await last.locator("button.copy").count(), 1);
+  await page.close();
+}
+
 /**
  * The first chart shows every subject. If there are more subjects than colours, the clean ones are chosen
  * first.
