@@ -9,15 +9,16 @@
 namespace nearmiss {
 
 /// Solves F(t) = 0 as well as the scalar allows and applies the barycentric test at each root. It guarantees
-/// nothing: a root that rounding hides, or a weight that rounding moves outside, is a miss.
-template <Kind kind, class T, bool plane_culling>
+/// nothing: a root that rounding hides, or a weight that rounding moves outside, is a miss. `Wide` is the scalar
+/// of normals and weights.
+template <Kind kind, class T, bool plane_culling, class Wide = T>
 Verdict basic(const Query& query) {
   if (plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
   Pair<kind, T> pair;  // without a bound B, and so without normalisation
   form_vectors(query, pair);
   const auto roots = solve_cubic(coplanarity(pair), T(0));
   for (const T& t : roots)
-    if (Configuration<kind, T>(pair, t).inside())
+    if (Configuration<kind, T, Wide>(pair, t).inside())
       return Verdict::accepted(Stage::proximity, static_cast<double>(t));
   return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::tests);
 }

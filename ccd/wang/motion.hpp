@@ -41,7 +41,11 @@ struct Moving {
 
   [[nodiscard]] auto x() const { return xv.template head<3>().matrix(); }
   [[nodiscard]] auto v() const { return xv.template tail<3>().matrix(); }
-  [[nodiscard]] Vector3<T> at(T t) const { return x() + t * v(); }
+  /// The position at a time, computed in a scalar that may have more digits.
+  template <class Wide = T>
+  [[nodiscard]] Vector3<Wide> at(const T& t) const {
+    return x().template cast<Wide>() + Wide(t) * v().template cast<Wide>();
+  }
 };
 
 /// The time in which a gap closes at a given speed, at most `most`; 0 if the gap is not positive.

@@ -15,15 +15,21 @@ namespace nearmiss {
 /// Vertex-triangle: the weights of x3 and x2 and their sum (1 minus the weight of x1), each times N·N. x01 =
 /// β x31 + α x21 gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: the weights α on x0x1 and
 /// β on x2x3. x20 = α x10 - β x32 gives N·(x20 × x32) = α N·N and N·(x20 × x10) = β N·N.
-template <Kind kind, class T>
+///
+/// Everything is computed in T, which may have more digits than the scalar of the pair.
+template <Kind kind, class Given, class T = Given>
 struct Configuration {
   Vector3<T> p, q, r, N;
   T NN;
   static constexpr int weight_count = has_triangle(kind) ? 3 : 2;
   std::array<T, weight_count> weights;
 
-  Configuration(const Pair<kind, T>& pair, T t)
-      : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(dot(N, N)) {
+  Configuration(const Pair<kind, Given>& pair, const Given& t)
+      : p(pair.p.template at<T>(t)),
+        q(pair.q.template at<T>(t)),
+        r(pair.r.template at<T>(t)),
+        N(q.cross(r)),
+        NN(dot(N, N)) {
     if constexpr (has_triangle(kind)) {
       weights[0] = dot(N, q.cross(p));
       weights[1] = dot(N, p.cross(r));
@@ -43,7 +49,7 @@ struct Configuration {
   }
 
   /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
-  [[nodiscard]] auto well_shaped(const Tolerances<T>& tol) const {
+  [[nodiscard]] auto well_shaped(const Tolerances<Given>& tol) const {
     using std::max;
     const T area = max_component(N);
     T longest = max(max_component(q), max_component(r));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "ccd/wang/cubic.hpp"
 #include "ccd/wang/proximity.hpp"
@@ -47,6 +48,19 @@ inline constexpr int weight_error = 1160;
 /// 1427 is proven, and 1914 for this error and that of the weight together.
 inline constexpr int spread_error = 4400;
 
+/// The same bounds for a configuration in a wider scalar, whose operations have relative errors of at most 4 ε².
+/// The errors of the relative vectors remain: ε of a position and 3ε of a velocity, so k = 4 for x + t v, or 5
+/// for the p of edges. Then N and p × q have k = 8, or 9 with that p. A weight has k = 16 with B_f = 12 B⁴, or
+/// 17 for edges, the sum of two has 24 B⁴, and N·N has 12 B⁴ with k = 16: 36 · 16 = 576. All roundings in the
+/// wider scalar are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
+inline constexpr int weight_error_if_wide = 590;
+
+/// As for `spread_error`. The error of N is 3 · 2 B² · 8 ε = 48 B²ε, which contributes 48 · 6 √3 <= 499, and
+/// that of the edges 6 · 4 Bε, which contributes 24 · 6 √3 <= 250. W is not wider: 2183. Two conversions to the
+/// scalar of the pair, √3, four products, t ± h and the sum of both errors contribute 9 · 36 √3 <= 562. The sum
+/// is 3494, plus terms of second order.
+inline constexpr int spread_error_if_wide = 3550;
+
 namespace detail {
 
 // Whether |F̂| exceeds the threshold at t - h and t + h; a time outside [0, 1] needs no test.
@@ -66,19 +80,21 @@ T culling_threshold(T mu, T eps, T B) {
 inline constexpr int culling_doublings = 4;
 
 // The most by which a weight may move within h.
-template <Kind kind, class T>
-T weight_spread(const Configuration<kind, T>& configuration, T W, T h) {
-  const T edges = norm_1(configuration.q) + norm_1(configuration.r);
-  return norm_1(configuration.N) * edges * T(1.7320508075688775) * W * h;
+template <Kind kind, class T, class Wide>
+T weight_spread(const Configuration<kind, T, Wide>& configuration, T W, T h) {
+  const T edges = static_cast<T>(Wide(norm_1(configuration.q) + norm_1(configuration.r)));
+  return static_cast<T>(Wide(norm_1(configuration.N))) * edges * T(1.7320508075688775) * W * h;
 }
 
 // Whether a weight is outside [0, N·N] by more than its spread and its rounding error.
-template <Kind kind, class T>
-auto outside(const Configuration<kind, T>& configuration, T spread, T eps, T B) {
-  const T slack = spread + (weight_error + spread_error) * eps * B * B * B * B;
-  const auto beyond = [&](const T& w) { return (w < -slack) | (w > configuration.NN + slack); };
-  decltype(beyond(spread)) outside(false);
-  for (const T& w : configuration.weights) outside = outside | beyond(w);
+template <Kind kind, class T, class Wide>
+auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps, T B) {
+  constexpr int error =
+      std::is_same_v<T, Wide> ? weight_error + spread_error : weight_error_if_wide + spread_error_if_wide;
+  const T slack = spread + error * eps * B * B * B * B;
+  const auto beyond = [&](const Wide& w) { return (w < -slack) | (w > configuration.NN + slack); };
+  decltype(beyond(configuration.NN)) outside(false);
+  for (const Wide& w : configuration.weights) outside = outside | beyond(w);
   return outside;
 }
 
@@ -93,10 +109,11 @@ auto outside(const Configuration<kind, T>& configuration, T spread, T eps, T B) 
 /// is a convex combination of the velocities of its vertices). A weight is linear in p, so moving p by δ
 /// changes the weight by at most ‖N‖‖edge‖ δ. If a weight is farther outside [0, N·N] than that plus the
 /// rounding error, nothing touches at t0. The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the
-/// configuration's own lengths (‖·‖₁ >= ‖·‖₂). All this holds for any h in (0, 1].
-template <VeCulling culling, Kind kind, class T>
+/// configuration's own lengths (‖·‖₁ >= ‖·‖₂). All this holds for any h in (0, 1], and for a configuration in any
+/// scalar, since only the bounds of rounding errors depend on it.
+template <VeCulling culling, Kind kind, class T, class Wide>
 bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
-                        const Configuration<kind, T>& configuration, T t, const Tolerances<T>& tol) {
+                        const Configuration<kind, T, Wide>& configuration, T t, const Tolerances<T>& tol) {
   using std::abs;
   const T B = pair.B;
   const T eps = epsilon<T>();

@@ -118,14 +118,19 @@ auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& toler
 }
 
 // Algorithms 3 and 4 for a pair whose vectors are within B.
-template <Kind kind, class T, WangOptions options, class Rule>
+//
+// Normals and weights may be computed in a wider scalar, `Wide`. The proofs only need upper bounds of
+// their errors, so they hold for smaller errors, too: a true collision passes the area,
+// height and barycentric tests, or is so near their limits that the vertex-edge tests report it; and a pair that
+// passes them is within the same distance bound. `excludes_collision` has its own bounds for `Wide`.
+template <Kind kind, class T, WangOptions options, class Wide, class Rule>
 [[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
                                                  const Cubic<T>& F, const Rule& tolerances) {
   const Tolerances<T> tol = tolerances(pair.B);
   const auto roots = solve_cubic(F, tol.mu);
   bool culled = options.ve_culling != VeCulling::none;
   const auto proximity = [&](T t, bool root) {
-    const Configuration<kind, T> configuration(pair, t);
+    const Configuration<kind, T, Wide> configuration(pair, t);
     const bool well_shaped = configuration.well_shaped(tol);
     if (well_shaped && configuration.inside()) return true;
     culled =
@@ -146,13 +151,13 @@ template <Kind kind, class T, WangOptions options, class Rule>
 
 // Algorithms 3 and 4 for a pair that may need another frame or order of end points. A given B (§5) that is
 // smaller than the pair's own throws Error.
-template <Kind kind, class T, WangOptions options, class Rule>
+template <Kind kind, class T, WangOptions options, class Wide = T, class Rule>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
                                        const Rule& tolerances) {
   auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
   if (given) pair = with_given_bound(query, pair, *given);
   if (!bring_within_reach(query, pair)) return Verdict::rejected(Rejection::apart);
-  return wang_tests<kind, T, options>(query, pair, coplanarity(pair), tolerances);
+  return wang_tests<kind, T, options, Wide>(query, pair, coplanarity(pair), tolerances);
 }
 
 }  // namespace detail
@@ -161,7 +166,8 @@ template <Kind kind, class T, WangOptions options, class Rule>
 /// a scalar of 13 bits or more (§4 and constraints.hpp). A pair that it reports without a collision is within
 /// the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). If `given` is set, it replaces the pair's
 /// own B; a smaller value throws Error (§5). `tolerances(B)` gives the tolerances for a bound B.
-template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
+/// `Wide` is the scalar of normals and weights.
+template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances, class Wide = T>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt,
              const Rule& tolerances = {}) {
   if (options.plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
@@ -171,8 +177,8 @@ Verdict wang(const Query& query, const std::optional<double>& given = std::nullo
   if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, tolerances))
     return Verdict::rejected(Rejection::no_root);
   if (!detail::take_bound(pair, given))
-    return detail::wang_careful<kind, T, options>(query, given, tolerances);
-  return detail::wang_tests<kind, T, options>(query, pair, F, tolerances);
+    return detail::wang_careful<kind, T, options, Wide>(query, given, tolerances);
+  return detail::wang_tests<kind, T, options, Wide>(query, pair, F, tolerances);
 }
 
 }  // namespace nearmiss

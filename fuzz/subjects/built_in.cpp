@@ -14,6 +14,7 @@ std::vector<SubjectInfo> built_in_subjects() {
   infos.insert(infos.end(), exact.begin(), exact.end());
   infos.push_back(adaptive_info);
   infos.push_back(parity_info);
+  infos.push_back(dd_normals_info);
   return infos;
 }
 

@@ -10,7 +10,8 @@
 
 namespace nearmiss {
 
-/// The built-in subjects: those of ccd/, the exact subjects, `adaptive` and `parity`. `defects()` lists the defects.
+/// The built-in subjects: those of ccd/, the exact subjects, `adaptive`, `parity` and `wang:dd-normals`.
+/// `defects()` lists the defects.
 std::vector<SubjectInfo> built_in_subjects();
 
 /// Makes a built-in subject, "NAME:SCALAR" (ladder/scalars.hpp) or "defect:NAME" (defects.hpp). `given_bound`

@@ -23,8 +23,9 @@ Pair<Kind::vertex_triangle, double> unit_pair() {
 }
 
 /// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, whose first weight may be outside.
-Configuration<Kind::vertex_triangle, double> with_weight(double weight) {
-  Configuration<Kind::vertex_triangle, double> configuration(unit_pair(), 0.5);
+template <class Wide = double>
+Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
+  Configuration<Kind::vertex_triangle, double, Wide> configuration(unit_pair(), 0.5);
   configuration.q = {1, 0, 0};
   configuration.r = {0, 1, 0};
   configuration.N = {0, 0, 1};
@@ -49,9 +50,9 @@ constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
 /// The rounding errors of a weight and of the bound of its movement.
 constexpr double rounding = (1160 + 4400) * eps;
 
-template <VeCulling culling>
+template <VeCulling culling, class Wide = double>
 bool culled(double slope, double weight, double h = 0) {
-  return excludes_collision<culling>(unit_pair(), line(slope), with_weight(weight), 0.5, tolerances(h));
+  return excludes_collision<culling>(unit_pair(), line(slope), with_weight<Wide>(weight), 0.5, tolerances(h));
 }
 
 // For a line of slope 1, h is 4 * threshold. A weight may then move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
@@ -62,6 +63,15 @@ TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRoundi
     EXPECT_FALSE(culled<VeCulling::per_root>(1, outside - sign * 0x1p-50)) << outside;
     EXPECT_TRUE(culled<VeCulling::per_root>(1, outside + sign * 0x1p-50)) << outside;
   }
+}
+
+// In a wider scalar, only the errors of the relative vectors remain.
+TEST(VeCulling, WeightsInAWiderScalarNeedLessRoomForRounding) {
+  const double slack = 2 * std::sqrt(3.0) * 4 * threshold + (590 + 3550) * eps;
+  const auto is_culled = [](double weight) { return culled<VeCulling::per_root, long double>(1, weight); };
+  EXPECT_FALSE(is_culled(-slack + 0x1p-50));
+  EXPECT_TRUE(is_culled(-slack - 0x1p-50));
+  EXPECT_FALSE((culled<VeCulling::per_root>(1, -slack - 0x1p-50)));
 }
 
 TEST(VeCulling, TheFixedIntervalOfThePaperIsTheSquareRootOfEpsilon) {

@@ -8,6 +8,7 @@
 #include "ccd/subjects/subject.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/defects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
@@ -38,8 +39,9 @@ TEST(Corpus, TheOracleAgreesWithEveryRecordedTruth) {
 }
 
 TEST(Corpus, EveryWangReportsEveryCollision) {
-  for (const char* name : {"wang", "wang-eps", "wang-eps:h=0.001", "wang-plain", "wang-tight"}) {
-    const auto subject = make_subject(name);
+  for (const char* name :
+       {"wang", "wang-eps", "wang-eps:h=0.001", "wang-plain", "wang-tight", "wang:dd-normals"}) {
+    const auto subject = make_any_subject(name);
     for (const Case& each : corpus()) {
       if (each.query.separation > 0 && !subject->takes_separation(each.query.kind)) continue;
       EXPECT_GE(subject->decide(each.query).hit, *each.truth) << name << ", " << each.name;

@@ -180,11 +180,16 @@ std::vector<Batch> batches(std::uint64_t seed, std::uint64_t count) {
 
 class EveryScalar : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Ladder, EveryScalar, ::testing::ValuesIn([] {
-                           std::vector<std::string> names{"p16", "p17", "p24", "p40", "p100", "p150", "p256"};
+                           std::vector<std::string> names{"p16",  "p17",  "p24",  "p40",
+                                                          "p100", "p150", "p256", "dd-normals"};
                            for (const auto& scalar : named_scalars()) names.push_back(scalar.name);
                            return names;
                          }()),
-                         [](const auto& scalar) { return scalar.param; });
+                         [](const auto& scalar) {
+                           std::string name = scalar.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST_P(EveryScalar, MissesNothingAndReportsNothingBeyondItsBound) {
   const Subjects subjects = testing::one(make_any_subject("wang-tight:" + GetParam()));

@@ -17,8 +17,8 @@
 namespace nearmiss {
 namespace {
 
-TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAdaptiveAndParityButNoDefects) {
-  EXPECT_EQ(built_in_subjects().size(), subjects().size() + exact_subjects().size() + 2);
+TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAndThreeOthersButNoDefects) {
+  EXPECT_EQ(built_in_subjects().size(), subjects().size() + exact_subjects().size() + 3);
   for (const SubjectInfo& info : built_in_subjects())
     EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
   EXPECT_REFUSED(make_any_subject("wong"), "exact");

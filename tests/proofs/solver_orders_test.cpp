@@ -65,6 +65,20 @@ TEST(ProofsSolverOrders, CullingHasAllOrders) {
       holds(normal * edges * W * power(u + 1, 11) * root3 - RationalFunction(root3 * 36), u * spread_error));
 }
 
+// The relative vectors have errors of 4 u at a time, and the wider scalar has an epsilon of 4 u².
+TEST(ProofsSolverOrders, CullingInAWiderScalarHasAllOrders) {
+  const auto wide = [&](int roundings) { return power(u * u * 4 + 1, roundings); };
+  const auto weights = [&](int k) { return power(u + 1, k) * wide(20) - 1; };
+  EXPECT_TRUE(holds(weights(16) * 36, u * weight_error_if_wide));
+  EXPECT_TRUE(holds(weights(17) * 12 + weights(16) * 12, u * weight_error_if_wide));
+  const Fraction root3(1732050807568878, 1000000000000000);
+  const RationalFunction normal = (power(u + 1, 8) * wide(10) - 1) * 6 + 6;
+  const RationalFunction edges = (power(u + 1, 4) * wide(10) - 1) * 6 + 6;
+  const RationalFunction W = u * 36 + 1;
+  EXPECT_TRUE(holds(normal * edges * W * power(u + 1, 9) * root3 - RationalFunction(root3 * 36),
+                    u * spread_error_if_wide));
+}
+
 // Both sides are linear in S, so checking S = 0 and the coefficient of S is enough.
 TEST(ProofsSolverOrders, LeastPsiHasAllOrders) {
   const auto bounds = edge_bounds(u, 10, 9, 4);

@@ -16,6 +16,10 @@ ladder::Scalar scalar(std::string name) {
 
 }  // namespace
 
+ladder::Scalar ladder::double_with_wide_normals() {
+  return {"dd-normals", epsilon_exponent<double>, &make_scaled<double, MachineArithmetic, DoubleDouble>};
+}
+
 std::vector<ladder::Scalar> named_scalars() {
   return {scalar<float>("float"), scalar<double>("double"), scalar<DoubleDouble>("dd")};
 }

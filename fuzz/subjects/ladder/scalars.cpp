@@ -24,6 +24,7 @@ constexpr std::array<std::pair<std::string_view, Algorithm>, 3> algorithms{
 std::optional<ladder::Scalar> scalar_of(std::string_view name) {
   for (const ladder::Scalar& scalar : named_scalars())
     if (scalar.name == name) return scalar;
+  if (ladder::Scalar scalar = ladder::double_with_wide_normals(); scalar.name == name) return scalar;
   if (!name.starts_with('p')) return std::nullopt;
   const int bits = 1 - epsilon_exponent_of(name).value_or(1);
   if (bits < ladder::fewest_bits || bits > ladder::most_bits) return std::nullopt;

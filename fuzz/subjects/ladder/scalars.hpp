@@ -26,8 +26,14 @@ struct Scalar {
 /// The scalar with this number of bits: "p40".
 Scalar bits_scalar(int bits);
 
+/// double, with double-double for normals and weights: "dd-normals". It is no rung of the ladder, because its ε
+/// is that of double.
+Scalar double_with_wide_normals();
 
 }  // namespace ladder
+
+inline constexpr SubjectInfo dd_normals_info{
+    "wang:dd-normals", "wang-scalar with normals and barycentric weights in double-double, all but exact"};
 
 /// The scalars with a name, by ascending precision. "p16" to "p256" exist, too.
 std::vector<ladder::Scalar> named_scalars();

@@ -48,8 +48,9 @@ struct MachineArithmetic {
 };
 
 /// basic, wang or wang-tight with all arithmetic in T. Each call runs within an Arithmetic(exponent of ε). If
-/// T has fewer digits than a double, the subject rounds coordinates to T, and decides the rounded query.
-template <class T, class Arithmetic>
+/// T has fewer digits than a double, the subject rounds coordinates to T, and decides the rounded query. wang and
+/// wang-tight compute normals and weights in Wide.
+template <class T, class Arithmetic, class Wide>
 class Scaled final : public Subject {
  public:
   Scaled(std::string_view name, int epsilon_exponent, Algorithm algorithm, std::optional<double> given)
@@ -128,8 +129,9 @@ class Scaled final : public Subject {
     if (!is_of_meshes(query.kind))
       return wang_within<T>(seen.query, options.plane_culling, given, tolerances);
     return with_kind(query.kind, [&]<Kind kind>() {
-      return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen.query)
-                                            : wang<kind, T, options>(seen.query, given, tolerances);
+      return algorithm_ == Algorithm::basic
+                 ? basic<kind, T, true, Wide>(seen.query)
+                 : wang<kind, T, options, Rule, Wide>(seen.query, given, tolerances);
     });
   }
 
@@ -173,10 +175,10 @@ class Scaled final : public Subject {
   EitherTolerances tolerances_;
 };
 
-template <class T, class Arithmetic = MachineArithmetic>
+template <class T, class Arithmetic = MachineArithmetic, class Wide = T>
 std::unique_ptr<Subject> make_scaled(std::string_view name, int epsilon_exponent, Algorithm algorithm,
                                      std::optional<double> given) {
-  return std::make_unique<Scaled<T, Arithmetic>>(name, epsilon_exponent, algorithm, given);
+  return std::make_unique<Scaled<T, Arithmetic, Wide>>(name, epsilon_exponent, algorithm, given);
 }
 
 }  // namespace nearmiss::ladder
