@@ -59,7 +59,7 @@ inline constexpr int weight_error_if_wide = 590;
 /// that of the edges 6 · 4 Bε, which contributes 24 · 6 √3 <= 250. W is not wider: 2183. Two conversions to the
 /// scalar of the pair, √3, four products, t ± h and the sum of both errors contribute 9 · 36 √3 <= 562. The sum
 /// is 3494, plus terms of second order.
-inline constexpr int spread_error_if_wide = 3550;
+inline constexpr int spread_error_if_wide = 3700;
 
 namespace detail {
 
