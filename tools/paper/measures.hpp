@@ -28,6 +28,7 @@ Measured hair(const Results& results, const Stop& stop);
 Measured tolerances_do_not_save(const Results& results, const Stop& stop);
 Measured larger_B(const Results& results, const Stop& stop);
 Measured next_step(const Results& results, const Stop& stop);
+Measured exact_normals(const Results& results, const Stop& stop);
 Measured fast_math(const Results& results, const Stop& stop);
 Measured gpu(const Results& results, const Stop& stop);
 Measured peak(const Results& results, const Stop& stop);
