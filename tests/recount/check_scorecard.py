@@ -21,6 +21,7 @@ def check_scorecard(comparison, where, report, answers):
             'faults': {},
             'failures': failed,
             'clean': not set(failed) - ON_REQUEST,
+            'beyond_contract': subject.endswith(' (beyond contract)'),
         }
         comparison.entries('verdicts', own, row, expected)
         check_rates(comparison, own, row['counts'], Tally.of(answers, subject, KINDS))
