@@ -76,8 +76,9 @@ namespace {
 auto place_of(const Finding& finding, const Statistics& statistics) {
   const bool is_of_oracle = finding.subject.empty();
   const auto times_seen = statistics.times_seen(signature_of(finding));
-  const bool on_request = failure_info(failure_of(signature_of(finding))).on_request;
-  return std::tuple(!is_of_oracle, on_request, least_exotic_first(finding),
+  const bool seldom_counts =
+      failure_info(failure_of(signature_of(finding))).on_request || is_beyond_contract(finding.subject);
+  return std::tuple(!is_of_oracle, seldom_counts, least_exotic_first(finding),
                     std::numeric_limits<std::uint64_t>::max() - times_seen, signature_of(finding),
                     complexity(finding.shrunk));
 }

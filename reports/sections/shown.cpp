@@ -1,4 +1,5 @@
 #include "reports/sections/shown.hpp"
+#include "reports/statistics/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -113,7 +114,8 @@ std::optional<std::string> plugin_text(const Run& run, const std::string& subjec
 
 /// How the command line names a subject of a run, with the bound of the scene if the subject was asked with
 /// it.
-std::string text_of(const Run& run, const std::string& subject) {
+std::string text_of(const Run& run, std::string subject) {
+  if (is_beyond_contract(subject)) subject.resize(subject.size() - beyond_contract.size());
   const auto renamed = run.info.find(std::string(about_subject) + subject);
   std::string text = renamed == run.info.end() ? subject : renamed->second;
   if (text.ends_with(of_scene))
@@ -134,6 +136,7 @@ std::string replay_command(const Campaign& campaign, const ShownFinding& shown) 
   command += fmt::format(" --subject {}", shell_quoted(texts));
   if (!before.empty() && run->info.contains("versions"))
     command += fmt::format(" --versions {}", shell_quoted(before + "," + subject));
+  if (is_beyond_contract(subject)) command += " --beyond-contract";
   const bool has_plugin = plugin_text(*run, subject) || plugin_text(*run, before);
   for (const char* option : {"bound", "query-time", "query-memory"})
     if (const auto given = run->info.find(option);

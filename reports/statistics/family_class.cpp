@@ -83,7 +83,10 @@ std::optional<QueryClass> class_in_tables(std::string_view name) {
 }  // namespace
 
 QueryClass class_of(std::string_view family) {
-  if (family.starts_with("scene:") || family.starts_with("sim:")) return QueryClass::ordinary;
+  if (family.starts_with("scene:")) return QueryClass::ordinary;
+  if (family.starts_with("sim:"))  // those with options or sizes were not counted
+    return family.find_first_of("@~:", 4) == std::string_view::npos ? QueryClass::ordinary
+                                                                    : QueryClass::unclassified;
   const FamilyName name(family);
   // The vertices and edges of a family have its class, unless a table names them.
   const auto own = class_in_tables(name.base);

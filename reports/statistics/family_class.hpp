@@ -11,7 +11,8 @@
 
 namespace nearmiss {
 
-/// The class of a family by its name, NAME or NAME@VALUE. Scenes and simulations are ordinary.
+/// The class of a family by its name, NAME or NAME@VALUE. Scenes are ordinary, and so are simulations with the usual options;
+/// others are unclassified.
 QueryClass class_of(std::string_view family);
 
 /// Identifies the counters of a subject and kind over the families of a class.

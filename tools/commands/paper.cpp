@@ -109,10 +109,10 @@ std::vector<const Claim*> chosen(const std::vector<std::string>& names) {
   return all;
 }
 
-void list(std::FILE* out) {
-  for (const Claim& claim : paper::claims())
-    fmt::print(out, "{} ({}): {}\n    {}\n", claim.name, claim.section, claim.says,
-               fmt::join(commands_of(claim), "\n    "));
+void list(const std::vector<std::string>& names) {
+  for (const Claim* claim : chosen(names))
+    fmt::print("{} ({}): {}\n    {}\n", claim->name, claim->section, claim->says,
+               fmt::join(commands_of(*claim), "\n    "));
 }
 
 void print(std::FILE* out, const Claim& claim, const Measured& measured) {
@@ -166,12 +166,14 @@ void add_paper(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "paper", "Measure each quantitative claim of the paper: what it says, what we find, does it hold");
   command->add_option("CLAIM", options->names, "Names of claims; all of them if there is none");
-  command->add_flag("--list", options->list, "List the claims, and the commands that measure them");
+  auto* list_only =
+      command->add_flag("--list", options->list, "List the claims, and the commands that measure them");
   options->json.add_to(*command, "Write the table as JSON, for nearmiss report --paper");
+  list_only->excludes("--json");
   command->add_flag("-q,--quiet", options->quiet, "Show no progress");
   command->footer("\nThe exit code is 0 whether claims hold or not.");
   command->callback([options, &exit_code] {
-    if (options->list) return list(options->json.text());
+    if (options->list) return list(options->names);
     exit_code = run(*options);
   });
 }

@@ -15,6 +15,7 @@
 #include "reports/text/json_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"
+#include "tools/paper/claims.hpp"
 
 namespace nearmiss::tools {
 
@@ -26,17 +27,40 @@ struct Options {
   FailOnOption fail_on;
 };
 
-/// The JSON that a subcommand writes with --json, with these lists. Throws Error if the file is something else.
-std::string load_tables(const std::filesystem::path& file, const char* command,
-                        std::initializer_list<const char*> tables) {
+/// A list in JSON. Throws Error if there is none.
+const nlohmann::ordered_json& list_in(const nlohmann::ordered_json& json, const char* key) {
+  if (!json.is_object() || !json.contains(key) || !json[key].is_array())
+    throw Error(fmt::format("no list '{}'", key));
+  return json[key];
+}
+
+/// The JSON that nearmiss audit --json writes. Throws Error if the file is something else.
+std::string load_audit(const std::filesystem::path& file) {
   std::string text;
-  const std::string expected = fmt::format("what nearmiss {} --json keeps", command);
-  read_json_file(file, expected, [&](const nlohmann::ordered_json& json) {
-    for (const char* table : tables)
-      json.at(table).get_ref<const nlohmann::ordered_json::array_t&>();  // throws if it is not a list
+  read_json_file(file, "what nearmiss audit --json keeps", [&](const nlohmann::ordered_json& json) {
+    for (const char* table : {"constants", "tolerances"}) list_in(json, table);
     text = json_text(json);
   });
   return text;
+}
+
+/// The claims and the run of the JSON that nearmiss paper --json writes. Throws Error if the file is something else.
+std::string load_paper(const std::filesystem::path& file) {
+  nlohmann::ordered_json paper{{"run", nlohmann::ordered_json::object()},
+                               {"claims", nlohmann::ordered_json::array()}};
+  read_json_file(file, "what nearmiss paper --json keeps", [&](const nlohmann::ordered_json& json) {
+    for (const auto& claim : list_in(json, "claims")) {
+      if (!claim.is_object()) throw Error("a claim that is no object");
+      auto& row = paper["claims"].emplace_back();
+      for (const char* key : {"name", "section", "says", "measured", "verdict"})
+        row[key] = claim.at(key).get<std::string>();
+      if (!paper::judgement_named(row["verdict"].get<std::string>()))
+        throw Error(fmt::format("the verdict '{}'", row["verdict"].get<std::string>()));
+      row["commands"] = claim.at("commands").get<std::vector<std::string>>();
+    }
+    for (const auto& [fact, value] : json.at("run").items()) paper["run"][fact] = value.get<std::string>();
+  });
+  return json_text(paper);
 }
 
 /// Throws Error if the stores are so large that their report might take all memory: it needs about 20 bytes for
@@ -64,9 +88,8 @@ int run(const Options& options) {
   ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
-  if (!options.audit.empty())
-    context.audit = load_tables(options.audit, "audit", {"constants", "tolerances"});
-  if (!options.paper.empty()) context.paper = load_tables(options.paper, "paper", {"claims"});
+  if (!options.audit.empty()) context.audit = load_audit(options.audit);
+  if (!options.paper.empty()) context.paper = load_paper(options.paper);
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics, context.failing));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,10 +13,19 @@
 namespace nearmiss::tools::paper {
 
 /// What a measurement says about a claim.
-enum class Judgement { holds, holds_with_condition, does_not_hold, not_measured };
+enum class Judgement {
+  holds,
+  holds_with_condition,
+  does_not_hold,
+  answered,  ///< the paper asks, and claims nothing
+  not_measured
+};
 
-/// As the table shows it: "holds", "holds with a condition", "does not hold", "cannot be measured here".
+/// As the table shows it, such as "holds with a condition".
 std::string_view name(Judgement judgement);
+
+/// The judgement with this name; nothing if there is none.
+std::optional<Judgement> judgement_named(std::string_view name);
 
 struct Measured {
   std::string text;  ///< with all figures, and the condition if there is one

@@ -95,20 +95,11 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// About what the paper says, with room for noise.
+/// About what the paper says, with 3 % more for noise.
 constexpr double small_overhead = 1.05;
 
 std::string in_words(const Ratios& ratios) {
   return fmt::format("{:.2f} (vt) and {:.2f} (ee)", ratios.vt, ratios.ee);
-}
-
-/// Compares wang-scalar and wang with basic, all of which the results of nearmiss bench have.
-Measured overhead(const ordered_json& results, const std::string& input) {
-  const Ratios scalar = time_ratios(results, "wang-scalar", input);
-  const Ratios lanes = time_ratios(results, "wang", input);
-  return {fmt::format("{} times basic's time; wang, which decides several queries at once, {}",
-                      in_words(scalar), in_words(lanes)),
-          scalar.are_at_most(small_overhead) ? holds : with_condition_if(lanes.are_at_most(small_overhead))};
 }
 
 constexpr std::array<std::string_view, 4> scenes{"knot", "cloths", "spikes", "hair"};
@@ -157,23 +148,32 @@ Measured candidates(const Results& /*results*/, const Stop& stop) {
     return static_cast<double>(pairs.candidates) / static_cast<double>(pairs.vertex_edge);
   };
   std::vector<std::string> means;
-  double least = std::numeric_limits<double>::infinity();
+  bool always = true;
+  bool sometimes = false;
   for (const double speed : {1.0, 0.5, 0.2, 0.01}) {
     const auto [vt, ee] = pairs_at(speed, stop);
-    least = std::min({least, mean(vt), mean(ee)});
+    const double both = (mean(vt) + mean(ee)) / 2;
+    const bool about_seven = both > 6 && both < 8;
+    always = always && about_seven;
+    sometimes = sometimes || about_seven;
     means.push_back(fmt::format("{:.1f} and {:.1f} with velocities in ±{}", mean(vt), mean(ee), speed));
   }
-  return {fmt::format("vt and ee: {}", fmt::join(means, ", ")), with_condition_if(least < 8)};
+  return {fmt::format("vt and ee: {}; so the number depends on the motion", fmt::join(means, ", ")),
+          always ? holds : with_condition_if(sometimes)};
 }
 
 Measured boxes(const Results& /*results*/, const Stop& stop) {
   const auto [vt, ee] = pairs_at(0.5, stop);
   const auto [vt1, ee1] = pairs_at(1, stop);
-  const double mean = (vt.part(vt.boxes_meet) + ee.part(ee.boxes_meet)) / 2;
-  return {fmt::format("vt {:.2f}, ee {:.2f} with velocities in ±0.5; {:.2f}, {:.2f} in ±1",
-                      vt.part(vt.boxes_meet), ee.part(ee.boxes_meet), vt1.part(vt1.boxes_meet),
-                      ee1.part(ee1.boxes_meet)),
-          mean > 0.4 && mean < 0.6 ? holds : with_condition_if(vt.part(vt.boxes_meet) < 0.6)};
+  const auto is_half = [](double part) { return part > 0.4 && part < 0.6; };
+  const double vertex = vt.part(vt.boxes_meet);
+  const double edge = ee.part(ee.boxes_meet);
+  return {
+      fmt::format(
+          "with velocities in ±0.5, {:.2f} of the vertices and triangles and {:.2f} of the edges; {:.2f} and "
+          "{:.2f} in ±1",
+          vertex, edge, vt1.part(vt1.boxes_meet), ee1.part(ee1.boxes_meet)),
+      is_half(vertex) && is_half(edge) ? holds : with_condition_if(is_half(vertex))};
 }
 
 Measured planes(const Results& /*results*/, const Stop& stop) {
@@ -207,16 +207,21 @@ Measured constants(const Results& results, const Stop& /*stop*/) {
   int to_nearest = 0;
   int too_small = 0;
   for (const auto& row : results[0].at("constants")) {
-    if (row.at("section").get<std::string>().find("ccd/") != std::string::npos) continue;  // ours
+    const bool is_ours = row.at("section").get<std::string>().find("ccd/") != std::string::npos;
+    if (is_ours || row.at("quoted").is_null()) continue;
     ++quoted;
     to_nearest += row.at("needs_proof").get<bool>() ? 1 : 0;
     too_small += row.at("too_small").get<bool>() ? 1 : 0;
   }
-  return {fmt::format(
-              "of {} constants for our operations, {} hold by Theorem 4.1, {} only for rounding to nearest, "
-              "and {} are too small where end points of edges are beyond B (the tolerances have room for it)",
-              quoted, quoted - to_nearest - too_small, to_nearest, too_small),
-          too_small == 0 && to_nearest == 0 ? holds : holds_with_condition};
+  const bool have_room = tolerances(results[0], -52).at("paper_breaks").get<std::string>().empty();
+  return {fmt::format("of {} constants that the paper states, {} are large enough by Theorem 4.1 or by a "
+                      "derivation here, "
+                      "{} only for rounding to nearest, and {} are too small where end points of edges are "
+                      "beyond B. With "
+                      "what is proven in their place, the tolerances {} all constraints",
+                      quoted, quoted - to_nearest - too_small, to_nearest, too_small,
+                      have_room ? "satisfy" : "do not satisfy"),
+          too_small == 0 && to_nearest == 0 ? holds : with_condition_if(have_room)};
 }
 
 Measured closed_forms(const Results& results, const Stop& /*stop*/) {
@@ -237,13 +242,16 @@ Measured bound(const Results& results, const Stop& /*stop*/) {
     farthest.push_back(fmt::format("{:.3f} by {} tests", value, tests));
     largest = std::max(largest, value);
   }
-  return {fmt::format("farthest false positive found, in units of the bound: {}", fmt::join(farthest, ", ")),
-          holds_if(largest <= 1)};
+  return {
+      fmt::format(
+          "farthest false positive found, by its smallest distance in the step, in units of the bound: {}",
+          fmt::join(farthest, ", ")),
+      holds_if(largest <= 1)};
 }
 
 Measured order(const Results& results, const Stop& /*stop*/) {
   const double exponent = std::log2(in_B(results[0], -52) / in_B(results[0], -104)) / 52;
-  return {fmt::format("R, D and the bound are proportional to ε^{:.3f}, as §4 has them", exponent),
+  return {fmt::format("the distance bound is proportional to ε^{:.3f}, as §4 has it", exponent),
           holds_if(std::abs(exponent - 1.0 / 3) < 0.01)};
 }
 
@@ -274,7 +282,7 @@ Measured precisions(const Results& results, const Stop& /*stop*/) {
           "satisfy all constraints from {} on with the paper's constants, from {} on with those proven here",
           in_B(results[0], -63), in_B(results[0], -112), first_that_satisfy("paper_breaks_as_printed"),
           first_that_satisfy("paper_breaks")),
-      holds};
+      answered};
 }
 
 // --- §5: culling, time ----------------------------------------------------------------------------------------
@@ -298,16 +306,20 @@ Measured vertex_edge_culling(const Results& results, const Stop& /*stop*/) {
     texts.push_back(
         fmt::format("{:.2f} % and {:.2f} % {}", eliminated(subject, "vt"), eliminated(subject, "ee"), about));
   const auto is_enough = [&](const char* subject) {
-    return (eliminated(subject, "vt") + eliminated(subject, "ee")) / 2 > 99.9;
+    return eliminated(subject, "vt") > 99.9 && eliminated(subject, "ee") > 99.9;
   };
   return {fmt::format("of the tests of random pairs, vt and ee: {}", fmt::join(texts, ", ")),
-          is_enough("wang-eps") ? holds : with_condition_if(is_enough("wang-scalar"))};
+          holds_if(is_enough("wang-eps"))};
 }
 
 Measured animation_time(const Results& results, const Stop& /*stop*/) {
-  Measured slow = overhead(results[0], "uniform-slow");
-  slow.text = "slow random pairs: " + slow.text;
-  return slow;
+  const auto time = [&](const char* subject, const char* kind) {
+    return results[0].at("subjects").at(subject).at(kind).at("ns_per_query").get<double>();
+  };
+  const auto ratio = [&](const char* kind) { return time("wang-scalar", kind) / time("basic", kind); };
+  const Ratios scalar{ratio("vt"), ratio("ee")};
+  return {fmt::format("wang-scalar takes {} times basic's time in our knot", in_words(scalar)),
+          holds_if(scalar.are_at_most(small_overhead))};
 }
 
 Measured planeless_time(const Results& results, const Stop& /*stop*/) {
@@ -316,17 +328,25 @@ Measured planeless_time(const Results& results, const Stop& /*stop*/) {
           holds_if(scalar.are_at_most(small_overhead))};
 }
 
-Measured random_time(const Results& results, const Stop& /*stop*/) { return overhead(results[0], "uniform"); }
+Measured random_time(const Results& results, const Stop& /*stop*/) {
+  const Ratios scalar = time_ratios(results[0], "wang-scalar", "uniform");
+  return {
+      fmt::format("wang-scalar takes {} times basic's time; wang, which decides several queries at once, {}",
+                  in_words(scalar), in_words(time_ratios(results[0], "wang", "uniform"))),
+      holds_if(scalar.are_at_most(small_overhead))};
+}
 
 Measured exact_time(const Results& results, const Stop& /*stop*/) {
   const Ratios parity = time_ratios(results[0], "parity", "uniform");
   const Ratios exact = time_ratios(results[0], "exact", "uniform");
   return {
       fmt::format(
-          "root parity in rationals takes {:.0f} (vt) and {:.0f} (ee) times the time of wang-scalar after "
-          "the box test; exact, which has a filter, {:.1f} and {:.1f}. The paper's own figures give 13",
-          parity.vt, parity.ee, exact.vt, exact.ee),
-      exact.are_at_least(20) ? holds : with_condition_if(parity.are_at_least(20))};
+          "after the box test, exact decisions with a filter, as the paper's exact tests have one, take "
+          "{:.1f} "
+          "(vt) and {:.1f} (ee) times the time of wang-scalar; root parity in rationals, without a filter, "
+          "{:.0f} and {:.0f}. The paper's own figures give 13",
+          exact.vt, exact.ee, parity.vt, parity.ee),
+      holds_if(exact.are_at_least(20))};
 }
 
 // --- §5 and §6: simulations -----------------------------------------------------------------------------------
@@ -340,9 +360,25 @@ Measured more_positives(const Results& results, const Stop& /*stop*/) {
     most = std::max(most, ratio);
     changes.push_back(fmt::format("{} {:+.1f} %", scenes[i], 100 * (ratio - 1)));
   }
-  return {fmt::format("{} (simulations differ after the first false positive, so a number may be negative)",
-                      fmt::join(changes, ", ")),
-          holds_if(most <= 1.1)};
+  return {
+      fmt::format(
+          "{}. Simulations differ after the first false positive, so a number may be negative; with stiff "
+          "springs, the differences are larger (fuzz/simulation/README.md)",
+          fmt::join(changes, ", ")),
+      with_condition_if(most <= 1.1)};
+}
+
+Measured case_numbers(const Results& results, const Stop& /*stop*/) {
+  std::vector<std::string> changes;
+  double most = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const double change = static_cast<double>(simulated(results[i], scenes[i], "wang", "queries")) /
+                              static_cast<double>(simulated(results[i], scenes[i], "exact", "queries")) -
+                          1;
+    most = std::max(most, std::abs(change));
+    changes.push_back(fmt::format("{} {:+.1f} %", scenes[i], 100 * change));
+  }
+  return {fmt::format("{}", fmt::join(changes, ", ")), holds_if(most < 0.1)};
 }
 
 Measured basic_fails(const Results& results, const Stop& /*stop*/) {
@@ -359,43 +395,61 @@ Measured basic_fails(const Results& results, const Stop& /*stop*/) {
     const ordered_json& steps = cloths.at("simulations").at(fmt::format("scene:sim:{}", soft)).at(subject);
     return steps.at("tangled").back().get<std::uint64_t>();
   };
-  return {
-      fmt::format(
-          "basic misses {} of {} collisions in our four scenes. In small, soft cloths, it misses {} of {}, "
-          "and {} pairs stay tangled; {} with wang, {} with exact",
-          missed, with_separators(collisions), missed_soft,
-          with_separators(simulated(cloths, soft, "basic", "collisions")), tangled("basic"), tangled("wang"),
-          tangled("exact")),
-      holds_if(missed_soft > 0 && tangled("basic") > 0 && tangled("wang") == 0)};
+  return {fmt::format("basic misses {} of {} collisions in our four scenes. In small, soft cloths that a "
+                      "search found, it "
+                      "misses {} of {}, "
+                      "and {} pairs stay tangled; {} with wang, {} with exact",
+                      missed, with_separators(collisions), missed_soft,
+                      with_separators(simulated(cloths, soft, "basic", "collisions")), tangled("basic"),
+                      tangled("wang"), tangled("exact")),
+          with_condition_if(missed_soft > 0 && tangled("basic") > 0 && tangled("wang") == 0 &&
+                            static_cast<double>(missed) < 1e-3 * static_cast<double>(collisions))};
 }
 
 Measured hair(const Results& results, const Stop& /*stop*/) {
   const std::uint64_t missed = simulated(results[0], "hair", "basic", "false_negatives");
   return {fmt::format("basic misses {} of {} collisions of our hair", missed,
                       with_separators(simulated(results[0], "hair", "basic", "collisions"))),
-          holds_if(missed > 0)};
+          answered};
 }
 
 // --- §5 and §6: tolerances and B ------------------------------------------------------------------------------
 
 Measured tolerances_do_not_save(const Results& results, const Stop& /*stop*/) {
-  std::uint64_t fewest = ~std::uint64_t{0};
-  std::string list;
+  std::vector<std::uint64_t> missed;
+  std::vector<std::uint64_t> false_positives;
+  std::vector<std::string> list;
   for (const char* value : {"1e-9", "1e-6", "1e-3", "1e-1"}) {
     const std::string subject = fmt::format("bridson:thickness={}", value);
-    const std::uint64_t missed = count(results[0], subject, "false_negatives");
-    fewest = std::min(fewest, missed);
-    list += fmt::format("{} and {} with a thickness of {}, ", with_separators(missed),
-                        with_separators(count(results[0], subject, "false_positives")), value);
+    missed.push_back(count(results[0], subject, "false_negatives"));
+    false_positives.push_back(count(results[0], subject, "false_positives"));
+    list.push_back(fmt::format("{} and {} with a thickness of {}", with_separators(missed.back()),
+                               with_separators(false_positives.back()), value));
   }
+  const std::uint64_t by_wang = count(results[0], "wang", "false_negatives");
   return {
       fmt::format(
-          "missed of {} collisions in the families planar and sliver, and false positives: {}{} and {} by "
+          "missed of {} collisions in the families planar and sliver, and false positives: {}; {} and {} by "
           "wang",
-          with_separators(count(results[0], "wang", "collisions")), list,
-          count(results[0], "wang", "false_negatives"),
+          with_separators(count(results[0], "wang", "collisions")), fmt::join(list, ", "), by_wang,
           with_separators(count(results[0], "wang", "false_positives"))),
-      holds_if(fewest > 0 && count(results[0], "wang", "false_negatives") == 0)};
+      holds_if(std::ranges::min(missed) > 0 && std::ranges::is_sorted(false_positives) && by_wang == 0)};
+}
+
+Measured fewer_positives(const Results& results, const Stop& /*stop*/) {
+  const auto of = [&](const char* subject) { return count(results[0], subject, "false_positives"); };
+  const auto missed = [&](const char* subject) { return count(results[0], subject, "false_negatives"); };
+  std::vector<std::string> list;
+  for (const char* subject :
+       {"bridson:thickness=1e-9", "bridson:thickness=1e-6", "bridson:thickness=1e-3", "wang"})
+    list.push_back(fmt::format("{} by {}", with_separators(of(subject)), subject));
+  return {fmt::format(
+              "false positives in the families uniform and kilometres, where none of these misses anything "
+              "({} in all): {}. In degenerate families, wang has more (user-tolerances)",
+              missed("wang") + missed("bridson:thickness=1e-9") + missed("bridson:thickness=1e-6") +
+                  missed("bridson:thickness=1e-3"),
+              fmt::join(list, ", ")),
+          with_condition_if(of("wang") <= of("bridson:thickness=1e-6"))};
 }
 
 Measured larger_B(const Results& results, const Stop& /*stop*/) {
@@ -440,13 +494,12 @@ Measured exact_normals(const Results& results, const Stop& /*stop*/) {
     return ns / static_cast<double>(queries);
   };
   const double ratio = mean_ns("wang:dd-normals") / mean_ns("wang-scalar");
-  return {
-      fmt::format(
-          "normals and weights in double-double: {} false positives in place of {}, in {:.1f} times the "
-          "time; {} missed",
-          with_separators(sum("wang:dd-normals")), with_separators(sum("wang-scalar")), ratio,
-          count(results[0], "wang:dd-normals", "false_negatives")),
-      holds_if(static_cast<double>(sum("wang:dd-normals")) < 0.9 * static_cast<double>(sum("wang-scalar")))};
+  return {fmt::format(
+              "normals and weights in double-double: {} false positives in place of {}, in {:.1f} times the "
+              "time; {} missed",
+              with_separators(sum("wang:dd-normals")), with_separators(sum("wang-scalar")), ratio,
+              count(results[0], "wang:dd-normals", "false_negatives")),
+          answered};
 }
 
 Measured fast_math(const Results& /*results*/, const Stop& /*stop*/) {
@@ -456,6 +509,11 @@ Measured fast_math(const Results& /*results*/, const Stop& /*stop*/) {
 
 Measured gpu(const Results& /*results*/, const Stop& /*stop*/) {
   return {"nearmiss has no CCD for a GPU; a program may be one (pipe:COMMAND)", not_measured};
+}
+
+Measured micrometres(const Results& /*results*/, const Stop& /*stop*/) {
+  return {"the scenes of the paper are not public; 0.5 percent of an edge is 20 μm for edges of 4 mm",
+          not_measured};
 }
 
 Measured peak(const Results& /*results*/, const Stop& /*stop*/) {

@@ -23,14 +23,17 @@ Measured planeless_time(const Results& results, const Stop& stop);
 Measured random_time(const Results& results, const Stop& stop);
 Measured exact_time(const Results& results, const Stop& stop);
 Measured more_positives(const Results& results, const Stop& stop);
+Measured case_numbers(const Results& results, const Stop& stop);
 Measured basic_fails(const Results& results, const Stop& stop);
 Measured hair(const Results& results, const Stop& stop);
 Measured tolerances_do_not_save(const Results& results, const Stop& stop);
+Measured fewer_positives(const Results& results, const Stop& stop);
 Measured larger_B(const Results& results, const Stop& stop);
 Measured next_step(const Results& results, const Stop& stop);
 Measured exact_normals(const Results& results, const Stop& stop);
 Measured fast_math(const Results& results, const Stop& stop);
 Measured gpu(const Results& results, const Stop& stop);
+Measured micrometres(const Results& results, const Stop& stop);
 Measured peak(const Results& results, const Stop& stop);
 
 }  // namespace nearmiss::tools::paper
