@@ -92,6 +92,13 @@ PartFile::~PartFile() {
   forget(path_);
 }
 
+void PartFile::write_out() const {
+  const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  posix_fadvise(descriptor, 0, 0, POSIX_FADV_DONTNEED);
+  close(descriptor);
+}
+
 void PartFile::put_in_place() {
   std::error_code error;
   fs::rename(path_, place_, error);

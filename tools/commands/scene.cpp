@@ -74,7 +74,9 @@ class Export {
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
-      for (const Query& query : pairs.queries) files_.at(pairs.kind).out << to_line(query) << '\n';
+      File& file = files_.at(pairs.kind);
+      for (const Query& query : pairs.queries) file.out << to_line(query) << '\n';
+      file.write_out();
     };
     follow_plan(Plan(mesh, leave_out, jobs, is_over), write, {}, is_over);
   }
@@ -93,9 +95,20 @@ class Export {
   struct File {
     explicit File(const std::string& place) : name(place), part(place), out(part.path()) {}
 
+    /// Writes the file out when it has grown much.
+    void write_out() {
+      constexpr std::streamoff much = 64 << 20;
+      const std::streamoff size = out.tellp();
+      if (size - written_out < much) return;
+      out.flush();
+      part.write_out();
+      written_out = size;
+    }
+
     std::string name;
     PartFile part;
     std::ofstream out;
+    std::streamoff written_out = 0;
   };
 
   std::map<Kind, File> files_;
