@@ -20,6 +20,9 @@ using testing::counts;
 TEST(FamilyClass, IsThatOfTheNameWithoutItsParameter) {
   EXPECT_EQ(class_of("uniform"), QueryClass::ordinary);
   EXPECT_EQ(class_of("scene:cloth#3"), QueryClass::ordinary);
+  EXPECT_EQ(class_of("sim:cloths"), QueryClass::ordinary);
+  for (const char* other : {"sim:cloths@64", "sim:cloths:step=2ms", "sim:cloths~0.1"})
+    EXPECT_EQ(class_of(other), QueryClass::unclassified) << other;
   EXPECT_EQ(class_of("grazing"), QueryClass::degenerate);
   EXPECT_EQ(class_of("scale"), QueryClass::extreme);
   EXPECT_EQ(class_of("scale@-1074"), QueryClass::extreme);

@@ -55,7 +55,11 @@ TEST_F(CommandLine, FailuresBeyondAContractAreShownButNeverCount) {
     EXPECT_EQ(beyond["subject"], "parity (beyond contract)");
     EXPECT_TRUE(beyond["beyond_contract"]);
     EXPECT_EQ(beyond["failures"], nlohmann::json{"miss"});
-    EXPECT_FALSE(beyond["finding"].is_null());
+    const std::string replays = report["findings"].at(beyond["finding"].get<std::size_t>())["again"];
+    EXPECT_THAT(replays, ::testing::EndsWith(" --subject parity --beyond-contract"));
+    ASSERT_THAT(replays, ::testing::StartsWith("nearmiss replay cases/"));
+    const Output replayed = run("replay report/" + replays.substr(replays.find("cases/")));
+    EXPECT_THAT(replayed.out, HasSubstr("parity (beyond contract): MISSED "));
     EXPECT_FALSE(report["error_against_time"]["subjects"].contains("parity (beyond contract)"));
   }
 }

@@ -65,9 +65,18 @@ TEST_F(Paper, AReportShowsTheClaims) {
   expect_code(0, "paper gpu --json paper.json");
   expect_code(0, "fuzz --cases 4 --db a.db");
   EXPECT_EQ(report_of("a.db --paper paper.json")["paper"], read_json("paper.json"));
-  write("other.json", R"({"claims": 1})");
+  for (const char* other : {R"({"claims": 1})", R"([])", R"({"claims": [1]})", R"({"claims": [], "run": 1})",
+                            R"({"claims": [{"name": null}], "run": {}})"}) {
+    write("other.json", other);
+    EXPECT_THAT(expect_code(2, "report a.db -o report --paper other.json").error,
+                HasSubstr("expected what nearmiss paper --json keeps"))
+        << other;
+  }
+  json paper = read_json("paper.json");
+  paper["claims"][0]["verdict"] = "maybe";
+  write("other.json", paper.dump());
   EXPECT_THAT(expect_code(2, "report a.db -o report --paper other.json").error,
-              HasSubstr("expected what nearmiss paper --json keeps"));
+              HasSubstr("the verdict 'maybe'"));
 }
 
 // The table in ccd/README.md has a row for each claim, with what it says.
