@@ -9,7 +9,6 @@
 
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/simulation/simulation_name.hpp"
-#include "reports/statistics/family_class.hpp"
 #include "tests/bit_hash.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/refused.hpp"
@@ -66,10 +65,9 @@ TEST(SimulationFamily, QueriesStayTheSame) {
   EXPECT_EQ(fingerprint("sim:hair@100:steps-per-frame=1"), 0x483abdaac83548f4U);
 }
 
-TEST(SimulationFamily, IsOrdinaryAndMayHaveASeparation) {
+TEST(SimulationFamily, MayHaveASeparation) {
   const Family family = find_any_family("sim:cloths@16:step=2ms~0.125");
   EXPECT_EQ(family.name, "sim:cloths@16:step=2ms~0.125");
-  EXPECT_EQ(class_of(family.name), QueryClass::ordinary);
   EXPECT_EQ(make_query(family, 1, 0).separation, 0.125);
   EXPECT_EQ(find_any_family("uniform").name, "uniform");
 }
