@@ -288,7 +288,7 @@ bool is_coplanar_at_an_end(const Query& query, double length) {
   return false;
 }
 
-/// What makes a query degenerate, if it is not extreme: the first rule that holds.
+/// The first rule by which a query is degenerate; "" if there is none. The query must not be extreme.
 std::string_view degeneracy(const Query& query) {
   const auto [longest, shortest, fastest] = lengths<double>(query);
   if (longest == 0 || fastest == 0) return "no size or no motion";

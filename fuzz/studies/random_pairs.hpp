@@ -1,4 +1,4 @@
-// What happens to random pairs on their way through the paper's algorithms.
+// Counts how far random pairs get in the paper's algorithms.
 #pragma once
 
 #include <cstdint>

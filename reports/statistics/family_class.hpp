@@ -11,8 +11,8 @@
 
 namespace nearmiss {
 
-/// The class of a family by its name, NAME or NAME@VALUE. Scenes are ordinary, and so are simulations with the usual options;
-/// others are unclassified.
+/// The class of a family by its name, NAME or NAME@VALUE. Scenes are ordinary. So are simulations with the
+/// usual options; other simulations are unclassified.
 QueryClass class_of(std::string_view family);
 
 /// Identifies the counters of a subject and kind over the families of a class.

@@ -8,14 +8,11 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <sstream>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "reports/text/json.hpp"
-#include "reports/text/text.hpp"
 #include "tools/commands.hpp"
-#include "tools/commit.hpp"
 #include "tools/json_output.hpp"
 #include "tools/paper/claims.hpp"
 #include "tools/record.hpp"

@@ -12,7 +12,7 @@
 
 namespace nearmiss::tools::paper {
 
-/// What a measurement says about a claim.
+/// Whether a claim holds.
 enum class Judgement {
   holds,
   holds_with_condition,
@@ -32,7 +32,7 @@ struct Measured {
   Judgement judgement = Judgement::not_measured;
 };
 
-/// What a claim's commands wrote as JSON, in their order.
+/// The JSON of each of a claim's commands, in their order.
 using Results = std::vector<nlohmann::ordered_json>;
 
 struct Claim {
