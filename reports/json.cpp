@@ -12,6 +12,7 @@
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/simulations.hpp"
+#include "reports/sections/sizes_table.hpp"
 #include "reports/sections/sweeps.hpp"
 #include "reports/sections/version_table.hpp"
 #include "reports/statistics/family.hpp"
@@ -52,8 +53,9 @@ std::optional<std::string> command_to_repeat(const Run& run) {
 }
 
 /// The sections that are left out if they are empty.
-constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 6> sections{
-    {{"common_factors", common_factors_json},
+constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 7> sections{
+    {{"sizes", sizes_json},
+     {"common_factors", common_factors_json},
      {"versions", versions_json},
      {"scenes", funnels_json},
      {"simulations", simulations_json},

@@ -335,16 +335,14 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
 namespace nearmiss {
 
 std::vector<Family> crossed_families() {
-  return {
-      {.name = "crossed",
-       .about = "every combination of shape, motion, time, place, roots of F, scale and offset",
-       .make =
-           [](Random& random, Kind kind) {
-             const crossed::Levels levels = crossed::draw_levels(random);
-             return crossed::make_query(random, kind, levels);
-           },
-       .factors = [](std::uint64_t seed,
-                     std::uint64_t index) { return crossed::to_texts(crossed::levels_of(seed, index)); }}};
+  return {{.name = "crossed",
+           .about = "every combination of shape, motion, time, place, roots of F, scale and offset",
+           .make =
+               [](Random& random, Kind kind) {
+                 const crossed::Levels levels = crossed::draw_levels(random);
+                 return crossed::make_query(random, kind, levels);
+               },
+           .factors = [](Random& random) { return crossed::to_texts(crossed::draw_levels(random)); }}};
 }
 
 }  // namespace nearmiss

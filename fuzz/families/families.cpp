@@ -25,6 +25,11 @@ double draw(Random& random, const Parameter& parameter) {
   return random.uniform(parameter.lo, parameter.hi);
 }
 
+/// "FACTOR=2^x"
+std::string power_text(const Parameter& parameter, double x) {
+  return fmt::format("{}=2^{}", parameter.factor, x);
+}
+
 const Parameter& parameter_of(const Family& family) {
   if (!family.parameter)
     throw Error(fmt::format("found the family '{}', expected one with a parameter", family.name));
@@ -49,7 +54,12 @@ Family with_parameter(std::string name, std::string about, Parameter parameter) 
     const double value = draw(random, parameter);
     return parameter.make(random, kind, value);
   };
-  return {std::move(name), std::move(about), false, make, std::move(parameter)};
+  Family family{std::move(name), std::move(about), false, make, parameter};
+  if (!parameter.factor.empty())
+    family.factors = [parameter](Random& random) {
+      return std::vector{power_text(parameter, draw(random, parameter))};
+    };
+  return family;
 }
 
 Family with_collisions(Family family) {
@@ -73,6 +83,8 @@ Family at_value(const Family& family, double value) {
   Family fixed = family;
   fixed.name = name;
   fixed.make = make;
+  if (fixed.factors)
+    fixed.factors = [text = power_text(parameter, value)](Random& /*random*/) { return std::vector{text}; };
   fixed.parameter.reset();
   return fixed;
 }
@@ -164,15 +176,14 @@ Family of_vertices(Family family) {
   family.name = std::string(vertices_prefix) + family.name;
   family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);
   family.kinds = kinds_of_vertices;
-  family.factors = nullptr;
   return without_other_vertices(std::move(family));
 }
 
 std::vector<Family> make_vertex_families() {
   constexpr std::array asking_for_contact{
-      "uniform", "uniform-slow", "floats",      "kilometres",    "small-integer", "decimals",
-      "rigid",   "one-point",    "degenerate",  "small",         "stiff",         "offset",
-      "scale",   "mixed-scale",  "static-pair", "near-overflow", "overflow",      "near-underflow"};
+      "uniform", "uniform-slow", "floats",      "kilometres",  "small-integer", "decimals", "metres",
+      "units",   "distant",      "rigid",       "one-point",   "degenerate",    "small",    "stiff",
+      "offset",  "scale",        "mixed-scale", "static-pair", "near-overflow", "overflow", "near-underflow"};
   constexpr std::array with_own_separation{"near-separation", "tied-separation",        "reached-separation",
                                            "slow-approach",   "starts-near-separation", "sized-separation"};
   std::vector<Family> all;
@@ -257,6 +268,11 @@ std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some)
 
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index) {
   return {seed, stream_of(family), index};
+}
+
+std::vector<std::string> factors_of(const Family& family, std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(family, seed, index);
+  return family.factors(random);
 }
 
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) {

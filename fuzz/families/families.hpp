@@ -21,6 +21,7 @@ struct Parameter {
   double lo, hi;
   bool whole = false;  ///< whether x must be a whole number
   std::function<Query(Random&, Kind, double)> make;
+  std::string factor = "";  ///< if set, the queries of each whole x are reported by it, as FACTOR=2^x
 };
 
 /// A way of making queries.
@@ -36,8 +37,9 @@ struct Family {
   bool has_separation = false;           ///< whether the queries have a separation h > 0
   std::array<Kind, 2> kinds = kinds_of_meshes;  ///< of queries with even and with odd indices
   std::optional<Kind> only{};                   ///< if set, campaigns ask the queries of this kind alone
-  /// Returns a query's value of each factor, "FACTOR=VALUE"; null if the family has no factors.
-  std::vector<std::string> (*factors)(std::uint64_t seed, std::uint64_t index) = nullptr;
+  /// Draws a query's value of each factor, "FACTOR=VALUE", as `make` does before anything else; null if the
+  /// family has no factors.
+  std::function<std::vector<std::string>(Random&)> factors{};
 };
 
 /// A family with a parameter.
@@ -115,6 +117,9 @@ std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some)
 
 /// The random numbers from which query number `index` of a family is made.
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);
+
+/// The value of each factor of query number `index` of a family with factors.
+std::vector<std::string> factors_of(const Family& family, std::uint64_t seed, std::uint64_t index);
 
 /// Query number `index` of a family.
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index);

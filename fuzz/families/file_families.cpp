@@ -1,6 +1,10 @@
 // Coordinates as files and simulations have them: floats, decimals, and small primitives in large scenes.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
@@ -85,6 +89,60 @@ Query kilometres(Random& random, Kind kind) {
   return moved(query, random.vector(scene));
 }
 
+// The values of the factors of `metres`, in metres and in lengths of an edge.
+constexpr std::array edges{1e-3, 1e-2, 1e-1, 1.0};
+constexpr std::array steps{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
+constexpr std::array scenes{1.0, 10.0, 100.0};
+
+/// Draws one of these values.
+template <std::size_t size>
+double one_of(Random& random, const std::array<double, size>& values) {
+  return values[static_cast<std::size_t>(random.integer(0, static_cast<int>(size) - 1))];
+}
+
+/// The size of a scene, of the primitives in it, and of their motion in a step; the unit is a metre.
+struct Metres {
+  double edge, step, scene;
+
+  explicit Metres(Random& random)
+      : edge(one_of(random, edges)), step(one_of(random, steps)), scene(one_of(random, scenes)) {}
+};
+
+Query metres(Random& random, Kind kind) {
+  const Metres of(random);
+  const Query query = everyday(random, kind, of.edge, of.step * of.edge);
+  return moved(query, random.vector(of.scene));
+}
+
+std::vector<std::string> factors_of_metres(Random& random) {
+  const Metres of(random);
+  return {fmt::format("edge={}", of.edge), fmt::format("step={}", of.step),
+          fmt::format("scene={}", of.scene)};
+}
+
+/// Primitives of size 1, which move by 1e-4 to 1.
+Query everyday_of_size_1(Random& random, Kind kind) {
+  const double speed = power_of_ten(random.uniform(-4, 0));
+  return everyday(random, kind, 1, speed);
+}
+
+/// The unit is multiplied by a power of two, which changes nothing else.
+Query units(Random& random, Kind kind, double x) {
+  Query query = everyday_of_size_1(random, kind);
+  for (double& c : query.x) c = std::ldexp(c, static_cast<int>(x));
+  return query;
+}
+
+/// Moved away from the origin, exactly: all numbers are multiples of 2^-22 below 2^28.
+Query distant(Random& random, Kind kind, double x) {
+  constexpr double grid = 0x1p-22;
+  const auto on_grid = [](double c) { return grid * std::round(c / grid); };
+  Query query = everyday_of_size_1(random, kind);
+  for (double& c : query.x) c = on_grid(c);
+  const Vector direction = random.vector(1).unaryExpr(on_grid);
+  return moved(query, std::ldexp(1.0, static_cast<int>(x)) * direction);
+}
+
 }  // namespace
 
 std::vector<Family> file_families() {
@@ -95,6 +153,15 @@ std::vector<Family> file_families() {
       {.name = "kilometres",
        .about = "primitives of millimetres in a scene of kilometres",
        .make = kilometres},
+      {.name = "metres",
+       .about = "edges of 1 mm to 1 m, in scenes of 1 m to 100 m, in steps of 1e-4 to 1 edges",
+       .make = metres,
+       .factors = factors_of_metres},
+      with_parameter("units", "the same pairs in other units: all coordinates are multiplied by 2^x",
+                     {"length of the edges = about 2^x", -30, 30, true, units, "edge"}),
+      with_parameter(
+          "distant", "the same pairs far from the origin",
+          {"distance from the origin / length of the edges = about 2^x", 0, 26, true, distant, "distance"}),
   };
 }
 

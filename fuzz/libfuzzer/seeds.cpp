@@ -151,8 +151,8 @@ Campaign campaign() {
     }
   statistics.funnels[{"scene:cloth#3", query.kind}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
   statistics.simulated[{"scene:sim:cloths", "wang", 3}] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-  count_collision(statistics.factors, {"wang", query.kind, "crossed", ""},
-                  std::array<std::string, 2>{"scale=1", "when=at-1"}, true);
+  count_answer(statistics.factors, {"wang", query.kind, "crossed", ""},
+               std::array<std::string, 2>{"scale=1", "when=at-1"}, true, false);
   statistics.versions[{"old", "wang", query.kind, "uniform"}] = {1, 2, 3, 4};
   statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 0.5, query, "uniform:1:0", 7};
   Run run{{{"command", "fuzz"}, {"seed", "1"}}, {{.count = 2, .environment = {{"cpu", "some"}}}}, {}};

@@ -154,9 +154,9 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   batch.provenance = [name = block.family->name, seed = plan.seed, first, step](std::size_t i) {
     return fmt::format("{}:{}:{}", name, seed, first + step * i);
   };
-  if (block.family->factors != nullptr)
-    batch.factors = [factors = block.family->factors, seed = plan.seed, first, step](std::size_t i) {
-      return factors(seed, first + step * i);
+  if (block.family->factors)
+    batch.factors = [family = block.family, seed = plan.seed, first, step](std::size_t i) {
+      return factors_of(*family, seed, first + step * i);
     };
   return batch;
 }

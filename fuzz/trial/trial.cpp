@@ -237,9 +237,9 @@ class Judging {
     auto failure = failure_of(outcome, truth);
     if (failure) outcome.query_class = truth.query_class();
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
-    if (batch_.factors && outcome.collision && outcome.verdict.fault == Fault::none)
-      count_collision(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
-                      batch_.factors(i), !outcome.verdict.hit);
+    if (batch_.factors && outcome.verdict.fault == Fault::none)
+      count_answer(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
+                   batch_.factors(i), outcome.collision, outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
     versions_.note(s, outcome, failure ? std::optional(result_.findings.size()) : std::nullopt);
     if (failure) keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);

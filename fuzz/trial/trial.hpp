@@ -43,7 +43,7 @@ struct Batch {
   /// If set, returns the place of query i in the order of a campaign. Other trials pass on their findings in
   /// order.
   std::function<std::uint64_t(std::size_t)> place = {};
-  /// If set, returns the values of the factors with which query i was made; called for collisions.
+  /// If set, returns the values of the factors with which query i was made.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
   /// If set, receives every outcome: that of query i for the subject with this index.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};

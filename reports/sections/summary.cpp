@@ -9,6 +9,7 @@
 
 #include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/measures.hpp"
+#include "reports/sections/sizes_table.hpp"
 #include "reports/sections/verdicts.hpp"
 #include "reports/sections/version_table.hpp"
 #include "reports/statistics/family_class.hpp"
@@ -116,9 +117,9 @@ std::string summary_table(const Statistics& statistics, const Failures& failing)
   const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
   if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
   return verdict_lines(statistics, failing) + version_lines(statistics) + "\n" +
-         spaced(counts_table(statistics)) + spaced(time_table(statistics)) + spaced(class_table(statistics)) +
-         spaced(common_factors_lines(statistics)) + oracle_lines(statistics) + extremes + footnotes +
-         footnote_on_units(statistics);
+         spaced(sizes_table(statistics)) + spaced(counts_table(statistics)) + spaced(time_table(statistics)) +
+         spaced(class_table(statistics)) + spaced(common_factors_lines(statistics)) +
+         oracle_lines(statistics) + extremes + footnotes + footnote_on_units(statistics);
 }
 
 }  // namespace nearmiss

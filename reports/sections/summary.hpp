@@ -9,7 +9,7 @@ namespace nearmiss {
 
 /// A line with the verdict on each subject (verdicts.hpp), where `failing` are the failures that count, and a
 /// line for each pair of versions (version_table.hpp). Then come a table with a row for each subject and
-/// kind, time_table, class_table, what misses have in common (common_factors_table.hpp), and the oracle's
+/// kind, time_table, class_table, sizes_table, what misses have in common (common_factors_table.hpp), and the oracle's
 /// counters.
 std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());
 

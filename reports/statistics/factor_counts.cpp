@@ -1,5 +1,9 @@
 #include "reports/statistics/factor_counts.hpp"
 
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
 namespace nearmiss {
 
 namespace {
@@ -21,9 +25,11 @@ bool is_better(const CommonFactors& a, const CommonFactors& b) {
 
 }  // namespace
 
-void count_collision(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
-                     bool missed) {
-  const FactorCounts one{1, missed ? std::uint64_t{1} : 0};
+void count_answer(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
+                  bool collides, bool reported) {
+  const auto one_if = [](bool condition) { return condition ? std::uint64_t{1} : 0; };
+  const FactorCounts one{one_if(collides), one_if(collides && !reported), one_if(!collides),
+                         one_if(!collides && reported)};
   FactorKey own = key;
   const auto count = [&](std::string text) {
     own.values = std::move(text);
@@ -57,6 +63,79 @@ std::vector<CommonFactors> common_factors(const FactorTable& table) {
       best.back() = found;
   }
   return best;
+}
+
+namespace {
+
+/// The answers by x, of a factor whose values are powers 2^x.
+using Powers = std::map<int, FactorCounts>;
+
+/// FACTOR and x of "FACTOR=2^x"; nothing for any other text.
+std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
+  constexpr std::string_view between = "=2^";
+  const auto at = value.find(between);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view digits = value.substr(at + between.size());
+  int x = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return std::pair{value.substr(0, at), x};
+}
+
+bool is_right(const FactorCounts& counts) {
+  return counts.false_negatives == 0 && 4 * counts.false_positives <= counts.others;
+}
+
+/// Whether chance may explain that none of these collisions is missed, at the rate of misses of all.
+bool may_be_chance(std::uint64_t collisions, const FactorCounts& all) {
+  constexpr double improbable = 1e-3;
+  return all.false_negatives > 0 &&
+         std::pow(1 - ratio(all.false_negatives, all.collisions), collisions) >= improbable;
+}
+
+RightRange range_of(const Powers& powers) {
+  RightRange range;
+  FactorCounts all, longest, run;
+  int values = 0, most_values = 0, first = 0;
+  for (const auto& [x, counts] : powers) {
+    all.merge(counts);
+    if (!is_right(counts)) {
+      values = 0;
+      continue;
+    }
+    if (values++ == 0) {
+      first = x;
+      run = {};
+    }
+    run.merge(counts);
+    if (values <= most_values) continue;
+    most_values = values;
+    longest = run;
+    range.exponents = {first, x};
+  }
+  if (may_be_chance(longest.collisions, all)) {
+    range.exponents.reset();
+    longest = {};
+  }
+  for_each_counter<FactorCounts>([&](const auto& counter) {
+    range.elsewhere.*counter.member = all.*counter.member - longest.*counter.member;
+  });
+  return range;
+}
+
+}  // namespace
+
+std::vector<RightRange> right_ranges(const FactorTable& table) {
+  std::map<std::tuple<std::string, std::string, Kind>, Powers> found;
+  for (const auto& [key, counts] : table)
+    if (const auto value = power(key.values))
+      found[{key.subject, std::string(value->first), key.kind}][value->second].merge(counts);
+  std::vector<RightRange> ranges;
+  for (const auto& [key, powers] : found) {
+    ranges.push_back(range_of(powers));
+    std::tie(ranges.back().subject, ranges.back().factor, ranges.back().kind) = key;
+  }
+  return ranges;
 }
 
 }  // namespace nearmiss

@@ -1,12 +1,15 @@
-// What the missed collisions of a subject have in common. Families such as `crossed` build each query from
-// factors, such as its scale, and note the value of each factor: "scale=1e-3".
+// Answers by the factors of queries. Families such as `crossed` build each query from factors, such as its
+// scale, and note the value of each factor: "scale=1e-3". They show what the missed collisions of a subject
+// have in common, and at which sizes it is right.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "ccd/query/query.hpp"
@@ -14,12 +17,12 @@
 
 namespace nearmiss {
 
-/// Identifies the collisions with some values of factors, among those of a family that a subject answered.
+/// Identifies the queries with some values of factors, among those of a family that a subject answered.
 struct FactorKey {
   std::string subject;
   Kind kind{};
   std::string family;
-  std::string values;  ///< "" for all collisions, one value "scale=1e-3", or two: "when=at-1 scale=1e-3"
+  std::string values;  ///< "" for all queries, one value "scale=1e-3", or two: "when=at-1 scale=1e-3"
 
   bool operator==(const FactorKey&) const = default;
   bool operator<(const FactorKey& other) const {
@@ -31,10 +34,14 @@ struct FactorKey {
 struct FactorCounts {
   std::uint64_t collisions = 0;
   std::uint64_t false_negatives = 0;
+  std::uint64_t others = 0;  ///< queries that do not collide
+  std::uint64_t false_positives = 0;
 
   static constexpr auto counters() {
     return std::tuple{Counter{"collisions", &FactorCounts::collisions},
-                      Counter{"false_negatives", &FactorCounts::false_negatives}};
+                      Counter{"false_negatives", &FactorCounts::false_negatives},
+                      Counter{"others", &FactorCounts::others},
+                      Counter{"false_positives", &FactorCounts::false_positives}};
   }
 
   void merge(const FactorCounts& other) { merge_counters(*this, other); }
@@ -44,10 +51,10 @@ static_assert(declares_all_members<FactorCounts>());
 
 using FactorTable = std::map<FactorKey, FactorCounts>;
 
-/// Counts a collision, given its value of each factor: once among all collisions, once for each value, and
-/// once for each pair of values. key.values must be empty.
-void count_collision(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
-                     bool missed);
+/// Counts an answer, given the query's value of each factor: once among all queries, once for each value,
+/// and once for each pair of values. key.values must be empty.
+void count_answer(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
+                  bool collides, bool reported);
 
 /// A value of one factor, or values of two factors, that many of a subject's misses have.
 struct CommonFactors {
@@ -64,5 +71,20 @@ struct CommonFactors {
 /// the same lift, the one that more misses have wins; then a single value rather than a pair; then the first
 /// in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
+
+/// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and reports at most a
+/// quarter of the queries that do not collide.
+struct RightRange {
+  std::string subject;
+  Kind kind{};
+  std::string factor;
+  /// The first and the last x of the longest run of values at which it is right; nothing if there is none, or
+  /// if misses are so rare that chance explains the run.
+  std::optional<std::pair<int, int>> exponents;
+  FactorCounts elsewhere;  ///< the answers at all other values
+};
+
+/// For each subject, kind and factor that is a power of two, in alphabetical order of subjects and factors.
+std::vector<RightRange> right_ranges(const FactorTable& table);
 
 }  // namespace nearmiss

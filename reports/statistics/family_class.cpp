@@ -12,9 +12,19 @@ namespace nearmiss {
 namespace {
 
 // The only place that says which class a family has.
-constexpr std::array<std::string_view, 10> ordinary{
-    "v-drifting", "uniform",    "uniform-end",     "uniform-slow", "mesh",
-    "floats",     "kilometres", "v-small-integer", "v-decimals",   "v-reached-separation"};
+constexpr std::array<std::string_view, 13> ordinary{"v-drifting",
+                                                    "uniform",
+                                                    "uniform-end",
+                                                    "uniform-slow",
+                                                    "mesh",
+                                                    "floats",
+                                                    "kilometres",
+                                                    "metres",
+                                                    "units",
+                                                    "distant",
+                                                    "v-small-integer",
+                                                    "v-decimals",
+                                                    "v-reached-separation"};
 
 constexpr std::array<std::string_view, 36> degenerate{"v-along",
                                                       "v-shrinking",

@@ -22,9 +22,9 @@ FactorTable counted_for(const FactorKey& key, const Missed& missed) {
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b)
       for (int c = 0; c < 4; ++c)
-        count_collision(table, key,
-                        Values{"a=" + std::to_string(a), "b=" + std::to_string(b), "c=" + std::to_string(c)},
-                        missed(a, b, c));
+        count_answer(table, key,
+                     Values{"a=" + std::to_string(a), "b=" + std::to_string(b), "c=" + std::to_string(c)},
+                     true, !missed(a, b, c));
   return table;
 }
 
@@ -58,7 +58,7 @@ TEST(CommonFactors, AValueThatFewMissesHaveIsNot) {
 TEST(CommonFactors, OfEqualValuesTheFirstIsNamed) {
   FactorTable table;
   for (const bool missed : {false, true})
-    count_collision(table, basic, Values{missed ? "a=1" : "a=0", missed ? "b=1" : "b=0", "c=0"}, missed);
+    count_answer(table, basic, Values{missed ? "a=1" : "a=0", missed ? "b=1" : "b=0", "c=0"}, true, !missed);
   EXPECT_EQ(common_factors(table).front().key.values, "a=1");
 }
 

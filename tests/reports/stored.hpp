@@ -42,7 +42,7 @@ inline Statistics some_statistics(const std::string& subject) {
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
   statistics.simulated[{"scene:sim:cloths", subject, 3}] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   const std::array<std::string, 2> values{"scale=1", "when=at-1"};
-  count_collision(statistics.factors, {subject, Kind::edge_edge, "crossed", ""}, values, true);
+  count_answer(statistics.factors, {subject, Kind::edge_edge, "crossed", ""}, values, true, false);
   statistics.versions[{"old", subject, Kind::edge_edge, "uniform"}] = {1, 2, 3, 4};
   statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
   statistics.oracle_disagreements = 3;

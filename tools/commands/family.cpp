@@ -43,8 +43,9 @@ void print_queries(const Options& options, const Family& family) {
   for (std::uint64_t index = options.first; printed < options.count; ++index) {
     if (kind_of(family, index) != kind) continue;
     ++printed;
-    fmt::print("{}\n", options.factors ? crossed::to_text(crossed::levels_of(options.seed, index))
-                                       : to_line(make_query(family, options.seed, index)));
+    fmt::print("{}\n", options.factors
+                           ? fmt::format("{}", fmt::join(factors_of(family, options.seed, index), " "))
+                           : to_line(make_query(family, options.seed, index)));
   }
 }
 
@@ -100,9 +101,9 @@ void print_common_factors(const Options& options, const Family& family) {
   for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
     const Query query = make_query(family, options.seed, index);
     const Verdict verdict = subject.decide(query);
-    if (verdict.fault == Fault::none && collides(subject.rounded(query)))
-      count_collision(table, {subject.name(), query.kind, family.name, ""},
-                      family.factors(options.seed, index), !verdict.hit);
+    if (verdict.fault == Fault::none)
+      count_answer(table, {subject.name(), query.kind, family.name, ""},
+                   factors_of(family, options.seed, index), collides(subject.rounded(query)), verdict.hit);
   }
   const std::vector<CommonFactors> common = common_factors(table);
   for (const auto& [key, each] : table) {
@@ -117,11 +118,13 @@ void print_common_factors(const Options& options, const Family& family) {
 
 void run(const Options& options) {
   const Family family = find_any_family(options.name);
-  const char* needs_factors = options.factors ? "--factors" : options.coverage ? "--coverage" : "--missed-by";
   const bool is_plain = !options.factors && !options.coverage && options.subject.empty();
   if (options.classes) return print_classes(options, family);
-  if (!is_plain && family.name != "crossed")
-    throw Error(fmt::format("found the family '{}', expected crossed with {}", family.name, needs_factors));
+  if (options.coverage && family.name != "crossed")
+    throw Error(fmt::format("found the family '{}', expected crossed with --coverage", family.name));
+  if (!is_plain && !family.factors)
+    throw Error(fmt::format("found the family '{}', expected one with factors, such as crossed, with {}",
+                            family.name, options.factors ? "--factors" : "--missed-by"));
   if (is_plain && options.kind.empty()) throw CLI::RequiredError("--kind");
   if (options.coverage)
     print_coverage(options);
@@ -162,14 +165,15 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
           ->excludes(coverage);
   command
       ->add_option("--missed-by", options->subject,
-                   "Print which factors the collisions have in common that this subject misses; crossed only")
+                   "Print which factors the collisions have in common that this subject misses, in a family "
+                   "with factors")
       ->excludes(kind)
       ->excludes(coverage)
       ->excludes(classes);
   options->limits.add_to(*command);
   command
       ->add_flag("--factors", options->factors,
-                 "Print each query's factors instead of the query; crossed only")
+                 "Print each query's factors instead of the query, in a family with factors")
       ->needs(kind);
   add_seed_option(*command, options->seed);
   add_count_option(
