@@ -6,17 +6,25 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
   .filter(([, counts]) => counts?.collisions > 0)
   .map(([kind, counts]) => `${kind} ${integer(counts.false_negatives)} of ${integer(counts.collisions)}`).join(", ");
 
+/** At which lengths of edges, and how far from the origin, the subject is right. */
+const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).map(({ kind, edge, distance }) => {
+  const part = (range, none, text) => range && (range.from === null ? `${none} (${range.wrong})` : `${text}${range.wrong && ` (elsewhere ${range.wrong})`}`);
+  const parts = [part(edge, "with edges of no length", `with edges of ${edge?.values}`),
+    part(distance, "at no distance from the origin", `at ${distance?.values} edges from the origin`)].filter(Boolean);
+  return small(`${kind === "all" ? "" : `${kind} `}right ${parts.join(", and ")}`);
+});
+
 /** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */
 const missedCell = ({ counts, classes, subject, failures }) => {
   if (failures.includes("unjudged")) return [made("strong", "not asked", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
   const [first, ...others] = Object.entries(classes).filter(([, each]) => each.collisions > 0);
   const rateOf = ([name, each]) => `${name} ${each.false_negatives === 0 ? "0" : percent(each.false_negative_rate)}`;
-  if (counts.false_negatives === 0) return [missedText(counts), small([first, ...others].map(rateOf).join(" · "))];
+  if (counts.false_negatives === 0) return [missedText(counts), small([first, ...others].map(rateOf).join(" · ")), ...sizeNotes(subject)];
   const [name, { false_negatives: missed }] = first;
   const text = `${name === "unclassified" ? "" : `${name} `}${missedByKind(subject, name)}`;
   return [missed > 0 ? made("strong", text, { class: "bad" }) : text,
-    small([...others.map(rateOf), `in all ${missedText(counts)}`].join(" · "))];
+    small([...others.map(rateOf), `in all ${missedText(counts)}`].join(" · ")), ...sizeNotes(subject)];
 };
 
 const falseCell = ({ counts, subject }) => {

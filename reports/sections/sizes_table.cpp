@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "reports/text/json.hpp"
@@ -11,66 +14,119 @@
 
 namespace nearmiss {
 
+using nlohmann::ordered_json;
+
 namespace {
 
-/// What is wrong elsewhere: "58 of 310 collisions missed", "90 % of the others reported"; "" if nothing is.
-std::string wrong_elsewhere(const FactorCounts& counts) {
-  if (counts.false_negatives > 0)
-    return fmt::format("{} of {} missed", with_separators(counts.false_negatives),
-                       counted(counts.collisions, "collision", "collisions"));
-  if (counts.false_positives == 0) return "";
-  return fmt::format(
-      "{:.0f} % of those that do not collide reported",
-      100.0 * static_cast<double>(counts.false_positives) / static_cast<double>(counts.others));
-}
+/// The ranges of a subject by factor and kind.
+using Ranges = std::map<std::pair<std::string, Kind>, RightRange>;
 
-/// "2^-9 to 2^30, elsewhere 58 of 310 collisions missed"
-std::string to_text(const RightRange& range) {
-  const std::string wrong = wrong_elsewhere(range.elsewhere);
-  if (!range.exponents) return fmt::format("nowhere: {}", wrong);
-  return fmt::format("2^{} to 2^{}{}{}", range.exponents->first, range.exponents->second,
-                     wrong.empty() ? "" : "; elsewhere ", wrong);
-}
+/// The ranges of a subject, for one kind or for all.
+struct Row {
+  std::string subject;
+  std::optional<Kind> kind;
+  std::optional<RightRange> edge, distance;
+};
 
-/// The ranges of a subject's kinds: "2^-30 to 2^30" if all are the same, else "vt ..., ee ...".
-std::string to_text(const std::vector<RightRange>& of_kinds) {
-  std::set<std::string> texts;
-  std::string by_kind;
-  for (const RightRange& each : of_kinds) {
-    texts.insert(to_text(each));
-    by_kind += fmt::format("{}{} {}", by_kind.empty() ? "" : " | ", short_name(each.kind), to_text(each));
+/// The range of a factor for all kinds; nothing if they differ, or if there is none.
+std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
+  std::optional<RightRange> all;
+  for (const auto& [key, each] : ranges) {
+    if (key.first != factor) continue;
+    if (all && all->exponents != each.exponents) return std::nullopt;
+    if (all)
+      all->elsewhere.merge(each.elsewhere);
+    else
+      all = each;
   }
-  return texts.size() == 1 ? *texts.begin() : by_kind;
+  return all;
+}
+
+/// One row for each subject whose ranges are the same for all kinds, and one for each kind of the others.
+std::vector<Row> rows_of(const Statistics& statistics) {
+  std::map<std::string, Ranges> subjects;
+  for (const RightRange& each : right_ranges(statistics.factors))
+    subjects[each.subject].emplace(std::pair(each.factor, each.kind), each);
+  std::vector<Row> rows;
+  for (const auto& [subject, ranges] : subjects) {
+    std::set<Kind> kinds;
+    std::set<std::string> factors;
+    for (const auto& [key, range] : ranges) {
+      factors.insert(key.first);
+      kinds.insert(key.second);
+    }
+    if (std::ranges::all_of(factors, [&](const auto& each) { return common(ranges, each).has_value(); })) {
+      rows.push_back({subject, std::nullopt, common(ranges, "edge"), common(ranges, "distance")});
+      continue;
+    }
+    const auto found = [&](const char* factor, Kind kind) {
+      const auto at = ranges.find({factor, kind});
+      return at == ranges.end() ? std::nullopt : std::optional(at->second);
+    };
+    for (const Kind kind : kinds)
+      rows.push_back({subject, kind, found("edge", kind), found("distance", kind)});
+  }
+  return rows;
+}
+
+std::string kind_of(const Row& row) { return row.kind ? std::string(short_name(*row.kind)) : "all"; }
+
+/// "2^-9 to 2^30", or "none"
+std::string values_of(const RightRange& range) {
+  return range.exponents ? fmt::format("2^{} to 2^{}", range.exponents->first, range.exponents->second)
+                         : "none";
+}
+
+/// What is wrong at all other values: "misses 58 of 310", "reports 90 % of the rest"; "" if nothing is.
+std::string wrong_elsewhere(const RightRange& range) {
+  const FactorCounts& counts = range.elsewhere;
+  if (counts.false_negatives > 0)
+    return fmt::format("misses {} of {}", with_separators(counts.false_negatives),
+                       with_separators(counts.collisions));
+  if (counts.false_positives == 0 || !range.exponents) return "";
+  return fmt::format("reports {} of the rest", percent(counts.false_positives, counts.others));
+}
+
+std::vector<std::string> cells_of(const Row& row) {
+  std::vector<std::string> cells{row.subject, kind_of(row)};
+  for (const auto& range : {row.edge, row.distance}) {
+    cells.push_back(range ? values_of(*range) : "–");
+    cells.push_back(range ? wrong_elsewhere(*range) : "");
+  }
+  return cells;
+}
+
+ordered_json to_json(const std::optional<RightRange>& range) {
+  if (!range) return nullptr;
+  ordered_json json{{"from", nullptr}, {"to", nullptr}};
+  if (range->exponents) std::tie(json["from"], json["to"]) = *range->exponents;
+  for_each_counter<FactorCounts>([&](const auto& counter) {
+    json["elsewhere"][std::string(counter.name)] = range->elsewhere.*counter.member;
+  });
+  json["values"] = values_of(*range);
+  json["wrong"] = wrong_elsewhere(*range);
+  return json;
 }
 
 }  // namespace
 
 std::string sizes_table(const Statistics& statistics) {
-  std::map<std::string, std::map<std::string, std::vector<RightRange>>> by_subject;
-  for (const RightRange& each : right_ranges(statistics.factors))
-    by_subject[each.subject][each.factor].push_back(each);
-  if (by_subject.empty()) return "";
   std::vector<std::vector<std::string>> rows{
-      {"subject", "right with edges of", "right at a distance from the origin, in edges, of"}};
-  for (auto& [subject, of_factor] : by_subject)
-    rows.push_back({subject, to_text(of_factor["edge"]), to_text(of_factor["distance"])});
-  return columns(rows, 3);
+      {"subject", "kind", "right with edges of", "elsewhere", "right at a distance of", "elsewhere"}};
+  for (const Row& row : rows_of(statistics)) rows.push_back(cells_of(row));
+  if (rows.size() == 1) return "";
+  return columns(rows, rows.front().size()) +
+         "right: no miss, and at most a quarter of the queries that do not collide reported; distance: from "
+         "the origin, in edges\n";
 }
 
-nlohmann::ordered_json sizes_json(const Statistics& statistics) {
-  auto json = nlohmann::ordered_json::array();
-  for (const RightRange& each : right_ranges(statistics.factors))
-    json.push_back({{"subject", each.subject},
-                    {"kind", short_name(each.kind)},
-                    {"factor", each.factor},
-                    {"from", each.exponents ? nlohmann::ordered_json(each.exponents->first) : nullptr},
-                    {"to", each.exponents ? nlohmann::ordered_json(each.exponents->second) : nullptr},
-                    {"elsewhere",
-                     {{"collisions", each.elsewhere.collisions},
-                      {"false_negatives", each.elsewhere.false_negatives},
-                      {"others", each.elsewhere.others},
-                      {"false_positives", each.elsewhere.false_positives}}},
-                    {"text", to_text(each)}});
+ordered_json sizes_json(const Statistics& statistics) {
+  auto json = ordered_json::array();
+  for (const Row& row : rows_of(statistics))
+    json.push_back({{"subject", row.subject},
+                    {"kind", kind_of(row)},
+                    {"edge", to_json(row.edge)},
+                    {"distance", to_json(row.distance)}});
   return json;
 }
 

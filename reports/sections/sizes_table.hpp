@@ -8,11 +8,11 @@
 
 namespace nearmiss {
 
-/// A row for each subject that answered queries of sizes that are powers of two: at which lengths of edges,
-/// and how far from the origin, it is right (right_ranges).
+/// At which lengths of edges, and how far from the origin, each subject is right (right_ranges): a row for
+/// each subject, or for each of its kinds if these differ.
 std::string sizes_table(const Statistics& statistics);
 
-/// An object for each right_range.
+/// An object for each row of sizes_table().
 nlohmann::ordered_json sizes_json(const Statistics& statistics);
 
 }  // namespace nearmiss

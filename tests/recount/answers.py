@@ -1,6 +1,7 @@
 """All queries of a campaign, with the oracle's and the subjects' answers to each of them."""
 
 import functools
+import re
 import typing
 from dataclasses import dataclass
 
@@ -133,16 +134,15 @@ def _numbers(kind, count):
 
 
 def _factors(nearmiss, seed, counts):
-    name = 'crossed'
-    return {
-        kind: dict(
-            zip(
-                ((name, number) for number in own),
-                nearmiss.factors(name, seed, kind, len(own)) if own else [],
-            )
-        )
-        for kind, own in ((kind, _numbers(kind, counts[kind].get(name, 0))) for kind in KINDS)
-    }
+    """The values of factors by kind, then family and number, for the families that have factors."""
+    factors = {kind: {} for kind in KINDS}
+    for kind in KINDS:
+        for name, count in counts[kind].items():
+            if re.match('(v-)?(crossed|metres|units|distant)\\b', name):
+                values = nearmiss.factors(name, seed, kind, count)
+                keys = ((name, number) for number in _numbers(kind, count))
+                factors[kind].update(zip(keys, values))
+    return factors
 
 
 def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):

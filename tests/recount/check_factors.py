@@ -1,6 +1,10 @@
-"""Checks which values of factors the missed collisions of a family have in common."""
+"""Checks which values of factors missed collisions have in common, and where subjects are right."""
 
 import itertools
+import re
+
+import numpy as np
+from asking import KINDS
 
 
 def check_common_factors(comparison, where, report, answers):
@@ -55,4 +59,109 @@ def common_factors(answers, subject, kind, family):
         'share_of_collisions': share_of_collisions,
         'text': f'{100 * share:.0f} % of the missed ones have {best}, '
         f'and {100 * share_of_collisions:.0f} % of all',
+    }
+
+
+def check_sizes(comparison, where, report, answers):
+    """Checks the section sizes of report.json."""
+    expected = [row for subject in answers.subjects for row in _sizes(answers, subject)]
+    found = report.get('sizes', [])
+    comparison.same('names', f'{where} number', len(found), len(expected))
+    for own, other in zip(found, expected):
+        comparison.entries('sizes', f'{where} {other["subject"]} {other["kind"]}', own, other)
+
+
+def _sizes(answers, subject):
+    """The rows of a subject: one, or one for each kind if the kinds differ."""
+    ranges = {}
+    for kind in answers.kinds(subject):
+        for factor in ('edge', 'distance'):
+            powers = _powers(answers, subject, kind, factor)
+            if powers:
+                ranges[factor, kind] = _right_range(powers)
+    kinds = [kind for kind in KINDS if any(key[1] == kind for key in ranges)]
+    common = {}
+    for factor in ('edge', 'distance'):
+        own = [each for key, each in ranges.items() if key[0] == factor]
+        if not own:
+            continue
+        if len({exponents for exponents, _ in own}) > 1:
+            return [
+                {
+                    'subject': subject,
+                    'kind': kind,
+                    'edge': _as_json(ranges.get(('edge', kind))),
+                    'distance': _as_json(ranges.get(('distance', kind))),
+                }
+                for kind in kinds
+            ]
+        common[factor] = (own[0][0], np.sum([elsewhere for _, elsewhere in own], axis=0))
+    if not common:
+        return []
+    return [
+        {
+            'subject': subject,
+            'kind': 'all',
+            'edge': _as_json(common.get('edge')),
+            'distance': _as_json(common.get('distance')),
+        }
+    ]
+
+
+def _powers(answers, subject, kind, factor):
+    """For each x of "factor=2^x": collisions, misses, other queries, false positives."""
+    asked = answers.asked[subject, kind]
+    powers = {}
+    for i, family in enumerate(answers.family[kind]):
+        for value in answers.factors[kind].get((family, answers.number[kind][i]), []):
+            found = re.fullmatch(f'{factor}=2\\^(-?[0-9]+)', value)
+            if not found:
+                continue
+            counts = powers.setdefault(int(found[1]), np.zeros(4, int))
+            collides, hit = asked.collision[i], asked.hit[i]
+            counts += [collides, collides and not hit, not collides, not collides and hit]
+    return powers
+
+
+def _right_range(powers):
+    """The exponents of the longest run of powers at which nothing is wrong, or None; and the counts
+    of all other powers."""
+    runs, run = [], []
+    for x in sorted(powers):
+        _, misses, others, positives = powers[x]
+        if misses or 4 * positives > others:
+            run = []
+            continue
+        run = [*run, x]
+        runs.append(run)
+    longest = max(runs, key=len, default=[])
+    total = sum(powers.values())
+    inside = sum((powers[x] for x in longest), np.zeros(4, int))
+    if total[1] and (1 - total[1] / total[0]) ** inside[0] >= 1e-3:
+        longest, inside = [], np.zeros(4, int)
+    return (longest[0], longest[-1]) if longest else None, total - inside
+
+
+def _as_json(found):
+    if found is None:
+        return None
+    exponents, elsewhere = found
+    collisions, misses, others, positives = map(int, elsewhere)
+    if misses:
+        wrong = f'misses {misses:,} of {collisions:,}'
+    elif positives and exponents:
+        wrong = f'reports {100 * positives / others:.3g} % of the rest'
+    else:
+        wrong = ''
+    return {
+        'from': exponents[0] if exponents else None,
+        'to': exponents[1] if exponents else None,
+        'elsewhere': {
+            'collisions': collisions,
+            'false_negatives': misses,
+            'others': others,
+            'false_positives': positives,
+        },
+        'values': f'2^{exponents[0]} to 2^{exponents[1]}' if exponents else 'none',
+        'wrong': wrong,
     }

@@ -17,7 +17,7 @@ from check_certificates import check_certificates
 from check_counts import check_statistics
 from check_csv import CSV_CHECKS
 from check_deciders import check_deciders
-from check_factors import check_common_factors
+from check_factors import check_common_factors, check_sizes
 from check_findings import check_findings
 from check_kept import check_extreme_times, check_farthest
 from check_page import check_page
@@ -57,6 +57,7 @@ def report_checks(report, answers, units):
         ('extreme_times', check_extreme_times),
         ('farthest', check_farthest),
         ('common_factors', check_common_factors),
+        ('sizes', check_sizes),
         ('versions', check_versions),
     ):
         yield (name,), check, name, report, answers

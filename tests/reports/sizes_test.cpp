@@ -1,0 +1,104 @@
+// At which sizes a subject is right.
+#include "reports/sections/sizes_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <string>
+
+#include "reports/text/json.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Optional;
+using ::testing::Pair;
+
+/// Answers to `each` collisions and as many other queries for each length of edges from 2^-30 to 2^30.
+template <class Missed, class Reported>
+FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
+  FactorTable table;
+  for (int x = -30; x <= 30; ++x)
+    for (int i = 0; i < each; ++i) {
+      const std::array values{"edge=2^" + std::to_string(x)};
+      count_answer(table, {"yours", kind, "units", ""}, values, true, !missed(x, i));
+      count_answer(table, {"yours", kind, "units", ""}, values, false, reported(x, i));
+    }
+  return table;
+}
+
+constexpr auto never = [](int /*x*/, int /*i*/) { return false; };
+
+RightRange range_of(const FactorTable& table) {
+  const auto ranges = right_ranges(table);
+  EXPECT_EQ(ranges.size(), 1);
+  return ranges.at(0);
+}
+
+TEST(RightRange, IsEverythingIfNothingIsWrong) {
+  const RightRange range = range_of(answers(Kind::edge_edge, 4, never, never));
+  EXPECT_THAT(range.exponents, Optional(Pair(-30, 30)));
+  EXPECT_EQ(range.elsewhere, FactorCounts());
+}
+
+TEST(RightRange, EndsWhereMissesBegin) {
+  // As a distance with an absolute threshold: below a centimetre, one collision in four is missed.
+  const auto below = [](int x, int i) { return x < -7 && i % 4 == 0; };
+  const RightRange range = range_of(answers(Kind::edge_edge, 8, below, never));
+  EXPECT_THAT(range.exponents, Optional(Pair(-7, 30)));
+  EXPECT_EQ(range.elsewhere.collisions, 23 * 8);
+  EXPECT_EQ(range.elsewhere.false_negatives, 23 * 2);
+}
+
+TEST(RightRange, EndsWhereMoreThanAQuarterOfTheRestIsReported) {
+  const auto reported = [](int x, int i) { return i < (x < -20 ? 3 : 2); };  // of 8
+  const RightRange range = range_of(answers(Kind::edge_edge, 8, never, reported));
+  EXPECT_THAT(range.exponents, Optional(Pair(-20, 30)));
+  EXPECT_EQ(range.elsewhere.false_positives, 3 * 10);
+}
+
+TEST(RightRange, IsNotSeenInMissesThatAreRareEverywhere) {
+  // One miss in 60 collisions at any size: that four sizes in a row have none says nothing.
+  const auto rare = [](int x, int i) { return (x + 30) % 5 == 0 && i == 0; };
+  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, rare, never)).exponents);
+  // A single miss does not say anything about sizes, either.
+  const auto once = [](int x, int i) { return x == -12 && i == 0; };
+  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, once, never)).exponents);
+}
+
+TEST(RightRange, LeavesOutFactorsThatAreNoPowersOfTwo) {
+  FactorTable table;
+  for (const char* value : {"edge=0.01", "edge=2^", "edge=2^x", "edge=2^-9x"})
+    count_answer(table, {"yours", Kind::edge_edge, "metres", ""}, std::array{std::string(value)}, true, true);
+  EXPECT_TRUE(right_ranges(table).empty());
+}
+
+TEST(SizesTable, HasARowForEachKindWhoseRangesDiffer) {
+  Statistics statistics;
+  const auto below = [](int x, int i) { return x < -9 && i % 4 == 0; };
+  statistics.factors = answers(Kind::edge_edge, 8, below, never);
+  statistics.factors.merge(answers(Kind::vertex_triangle, 8, never, never));
+  const std::string text = sizes_table(statistics);
+  EXPECT_THAT(text, HasSubstr("yours    vt    2^-30 to 2^30"));
+  EXPECT_THAT(text, HasSubstr("yours    ee    2^-9 to 2^30         misses 42 of 168"));
+  const auto json = sizes_json(statistics);
+  ASSERT_EQ(json.size(), 2);
+  EXPECT_EQ(json[1]["kind"], "ee");
+  EXPECT_EQ(json[1]["edge"]["from"], -9);
+  EXPECT_EQ(json[1]["edge"]["to"], 30);
+  EXPECT_EQ(json[1]["edge"]["elsewhere"]["false_negatives"], 42);
+  EXPECT_TRUE(json[1]["distance"].is_null());
+}
+
+TEST(SizesTable, HasOneRowIfTheKindsAreTheSame) {
+  Statistics statistics;
+  statistics.factors = answers(Kind::edge_edge, 8, never, never);
+  statistics.factors.merge(answers(Kind::vertex_triangle, 8, never, never));
+  EXPECT_THAT(sizes_table(statistics), HasSubstr("yours    all   2^-30 to 2^30"));
+  EXPECT_EQ(sizes_json(statistics).size(), 1);
+  EXPECT_EQ(sizes_table(Statistics()), "");
+}
+
+}  // namespace
+}  // namespace nearmiss
