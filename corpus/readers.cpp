@@ -6,9 +6,11 @@
 #include <fstream>
 #include <istream>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
 #include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"
@@ -58,6 +60,20 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   expect_end(in, name);
 }
 
+/// The truth that a comment " expect=1 ..." records for the next query; nothing if it records none, or says
+/// "expect=-".
+std::optional<bool> recorded_truth(std::string_view comment, std::string_view where) {
+  constexpr std::string_view label = "expect=";
+  comment.remove_prefix(std::min(comment.find_first_not_of(" \t#"), comment.size()));
+  if (!comment.starts_with(label)) return std::nullopt;
+  comment.remove_prefix(label.size());
+  const std::string_view value = comment.substr(0, comment.find_first_of(" \t\r"));
+  if (value != "0" && value != "1" && value != "-")
+    throw Error(
+        fmt::format("{}: found 'expect={}', expected expect=0, expect=1 or expect=-", where, excerpt(value)));
+  return value == "-" ? std::nullopt : std::optional(value == "1");
+}
+
 }  // namespace
 
 void read_cases(const fs::path& path, const CaseSink& sink) {
@@ -77,14 +93,19 @@ void read_cases(const fs::path& path, const CaseSink& sink) {
 
 void read_query_lines(std::istream& in, Kind kind, const std::string& name, const CaseSink& sink) {
   bool any = false;
+  std::optional<bool> truth;
   LineReader lines(in, name);
   while (lines.next()) {
     std::string where = lines.where();
     const std::string_view text = lines.text().substr(0, lines.text().find('#'));
-    if (text.find_first_not_of(" \t\r,") == std::string_view::npos) continue;
+    if (text.find_first_not_of(" \t\r,") == std::string_view::npos) {
+      if (text.size() < lines.text().size()) truth = recorded_truth(lines.text().substr(text.size()), where);
+      continue;
+    }
     Case each;
     each.query = parse_line(kind, text, where);
     each.name = std::move(where);
+    each.truth = std::exchange(truth, std::nullopt);
     any = true;
     sink(std::move(each));
   }

@@ -204,6 +204,20 @@ TEST_F(Files, AByteOrderMarkIsSkipped) {
   expect_error(write("e.ee", mark), "e.ee:1: found no query");
 }
 
+TEST_F(Files, ACommentOfAQueryFileMayRecordTheTruth) {
+  const std::string query = "0 0 0 1 0 0  0 0 0 1 0 0\n";
+  std::vector<std::optional<bool>> truths;
+  for (const Case& each :
+       read_all(write("a.vv", "# expect=1 toi=0.5 source: a suite\n" + query + query + "#expect=0\n" + query +
+                                  "# expect=1\n# expect=-\n" + query + "# expected=7\n" + query +
+                                  "# expect=0\n\n" + query)))
+    truths.push_back(each.truth);
+  EXPECT_EQ(truths,
+            (std::vector<std::optional<bool>>{true, std::nullopt, false, std::nullopt, std::nullopt, false}));
+  expect_error(write("b.vv", "# expect=yes\n" + query),
+               "b.vv:1: found 'expect=yes', expected expect=0, expect=1 or expect=-");
+}
+
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
   for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1, 1\r\n \r\n";
