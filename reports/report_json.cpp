@@ -68,10 +68,9 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
   json["certificate"] = finding.certificate.empty() ? ordered_json() : ordered_json(finding.certificate);
   if (finding.what == Finding::What::refuted_bound) json["bound"] = finding.bound;
   if (!finding.broken_since.empty()) json["broken_since"] = finding.broken_since;
-  if (finding.what == Finding::What::late) {
-    json["late_by"] = finding.ratio;
-    json["toi"] = finding.time;
-  }
+  if (finding.what == Finding::What::late) json["late_by"] = finding.ratio;
+  if (has_time(finding.what)) json["toi"] = finding.time;
+  if (finding.what == Finding::What::committed) json["step"] = numbers_json(finding.step);
   return json;
 }
 

@@ -11,6 +11,8 @@ std::string certificate_of(const Finding& finding) {
     switch (finding.what) {
       case Finding::What::late:
         return certify_meets(query, {0, finding.time, true}, query.separation > 0);
+      case Finding::What::committed:
+        return certify_meets(finding.step, {0, 1, true}, query.separation > 0);
       case Finding::What::refuted_bound:
         return certify_apart(with_separation(query, separation_and_bound(query, finding.bound)), {});
       default:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/trial/committed.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"
 #include "reports/statistics/failure.hpp"
@@ -52,6 +53,12 @@ std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth)
                   .stuck = verdict.time == 0 && sign < 0};
   (sign > 0 ? error.after : error.early) = magnitude;
   error.travelled = error.early * truth.relative_speed();
+  if (!promised || error.late || verdict.time == 0) return error;  // without motion, nothing is committed
+  if (const auto step = committed_step(truth.query(), verdict.time, subject_.rounds())) {
+    const StepEnd end = end_of(*step);
+    error.committed = end == StepEnd::touches;
+    error.touches_at_end = end == StepEnd::touches_at_end;
+  }
   return error;
 }
 

@@ -15,6 +15,7 @@
 #include "fuzz/families/classify.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"
+#include "fuzz/trial/committed.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrink.hpp"
 #include "fuzz/trial/small_queries.hpp"
@@ -104,6 +105,7 @@ bool can_be(Finding::What what, const Verdict& verdict) {
       return !is_fault && !verdict.hit;
     case Finding::What::refuted_bound:
     case Finding::What::late:
+    case Finding::What::committed:
       return !is_fault && verdict.hit;
     default:
       return is_fault || verdict.hit;
@@ -179,8 +181,9 @@ class FindingShrinker::OfSubject {
     finding.simplest = is_simpler ? finding.shrunk : simplest;
     finding.simplest_class = is_simpler ? finding.query_class : classify(simplest);
     if (finding.shrunk == finding.query) return;
-    if (finding.what == Finding::What::late)
-      set(finding.time, subject_.decide(finding.shrunk).time);
+    if (has_time(finding.what)) set(finding.time, subject_.decide(finding.shrunk).time);
+    if (finding.what == Finding::What::committed)
+      finding.step = committed_step(finding.shrunk, finding.time, subject_.rounds()).value_or(Query());
     else if (finding.what == Finding::What::refuted_bound)
       set(finding.bound, subject_.ask_bound(finding.shrunk).bound);
   }

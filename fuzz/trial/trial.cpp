@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ccd/query/error.hpp"
+#include "fuzz/trial/committed.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/sample.hpp"
 #include "fuzz/trial/signatures.hpp"
@@ -241,8 +242,14 @@ class Judging {
       count_answer(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
                    batch_.factors(i), outcome.collision, outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
-    versions_.note(s, outcome, failure ? std::optional(result_.findings.size()) : std::nullopt);
+    const bool is_committed =
+        failure && failure->what == Finding::What::committed;  // no failure of a version
+    versions_.note(s, outcome,
+                   failure && !is_committed ? std::optional(result_.findings.size()) : std::nullopt);
     if (failure) keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);
+    if (is_committed)
+      result_.findings.back().step =
+          committed_step(truth.query(), outcome.verdict.time, subjects_[s]->rounds()).value_or(Query());
   }
 
   void keep(std::size_t i, const std::string& subject, Failure failure, Truth& truth,
@@ -254,7 +261,7 @@ class Judging {
                                                                       : 0;
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
-    result_.findings.back().time = is_late ? outcome.verdict.time : 0;
+    result_.findings.back().time = has_time(failure.what) ? outcome.verdict.time : 0;
     result_.findings.back().bound = outcome.bound;
     result_.findings.back().place = batch_.place ? batch_.place(i) : 0;
     result_.findings.back().simplest = query;

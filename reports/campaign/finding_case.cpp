@@ -31,8 +31,7 @@ Case to_case(const Finding& finding) {
     why += finding.what == Finding::What::late ? fmt::format(", by {:.3g} of the step", finding.ratio)
                                                : fmt::format(", {}", times_the_bound(finding.ratio));
   Case result{.name = {}, .query = finding.query, .truth = {}, .why = why, .provenance = finding.provenance};
-  if (finding.what == Finding::What::false_negative || finding.what == Finding::What::late)
-    result.truth = true;
+  if (finding.what == Finding::What::false_negative || has_time(finding.what)) result.truth = true;
   if (finding.what == Finding::What::refuted_bound) result.truth = false;
   return result;
 }

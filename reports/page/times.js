@@ -60,6 +60,8 @@ function drawEarliness() {
 
 /** The column of late times, for subjects that promise lower bounds. */
 const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
+/** The column of sound times to which no rounded step leads without contact. */
+const committedSteps = { title: "committed", number: (r) => r.committed, text: (r) => (r.times_promised > 0 ? integer(r.committed) : "–") };
 
 function drawTimes() {
   const subjects = new Set(timedRows().map((row) => row.subject));
@@ -72,7 +74,7 @@ function drawTimes() {
   const invalid = (r) => r.faults.invalid ?? 0;
   fillTable(element("times"), [
     ...columnsOf("subject", "kind", "class", ...(byFamily ? ["family"] : [])),
-    { title: "sort", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, measures.times_given, lateTimes, measures.stuck,
+    { title: "sort", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, measures.times_given, lateTimes, committedSteps, measures.stuck,
     { title: "invalid", number: invalid, text: (r) => integer(invalid(r)), bad: (r) => invalid(r) > 0 }, measures.unknown,
     upperEnd("early: median", "median_early"), upperEnd("99 %", "q99_early"), ifGiven(number("most", "max_early")),
     ifGiven(number("after t*", "max_after")), upperEnd("travelled / B", "q99_travelled"),

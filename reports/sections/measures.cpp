@@ -63,6 +63,11 @@ std::string late_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.late);
 }
 
+/// Likewise for steps with contact.
+std::string committed_text(const CountsSum& sum) {
+  return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.committed);
+}
+
 std::string time_text(const CountsSum& sum) { return whole_ns(sum.counts.times.ns_per_query()); }
 
 std::string farthest_text(const CountsSum& sum) {
@@ -85,6 +90,8 @@ constexpr std::array measures_of_every_sum{
     Measure{"times_promised", of<&Counts::times_promised>},
     Measure{"late", of<&Counts::late>, "late", "", late_text},
     Measure{"stuck", of<&Counts::stuck>, "stuck"},
+    Measure{"committed", of<&Counts::committed>, "committed", "", committed_text},
+    Measure{"touch_at_end", of<&Counts::touch_at_end>, "at end"},
     Measure{"median_fp_distance_over_bound", quantile_of<&Counts::ratio_quantile, 50>, "", "refuted_bounds"},
     Measure{"q99_fp_distance_over_bound", quantile_of<&Counts::ratio_quantile, 99>, "", "refuted_bounds"},
     Measure{"max_fp_distance_over_bound", of<&Counts::max_ratio>, "max dist/bound", "refuted_bounds",

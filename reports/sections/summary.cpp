@@ -50,9 +50,11 @@ std::vector<std::string> cells_of(const ClassKey& key) {
 
 constexpr const char* footnote_on_times =
     "early: t* - time, where t* is the exact earliest time, of times that are not after t*; late: something "
-    "happens before a time\nthat is to be a lower bound; stuck: the time is 0, and t* is not; invalid: a "
-    "time "
-    "that is none, or a collision without the time that\nis promised\n";
+    "happens before a time\nthat is to be a lower bound; committed: it is sound, but the step to it, x0 + "
+    "time (x1 "
+    "- x0) in the subject's scalar, has contact before\nits end; stuck: the time is 0, and t* is not; "
+    "invalid: "
+    "a time that is none, or a collision without the time that is promised\n";
 
 /// Explains the mark "**" of distances that are not fractions of a claimed bound; "" if there are none.
 std::string footnote_on_units(const Statistics& statistics) {
@@ -98,8 +100,8 @@ std::string time_table(const Statistics& statistics) {
   });
   if (sums.empty()) return "";
   return table(sums, {"subject", "kind", "class"}, cells_of,
-               {"time_sort", "times_given", "late", "stuck", "invalid", "unknown", "median_early",
-                "q99_early", "max_early", "max_after"},
+               {"time_sort", "times_given", "late", "committed", "stuck", "invalid", "unknown",
+                "median_early", "q99_early", "max_early", "max_after"},
                4) +
          footnote_on_times;
 }

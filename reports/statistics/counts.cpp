@@ -48,6 +48,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
     if (outcome.time) {
       add_time(*outcome.time, query, provenance);
       late_by_class[of] += outcome.time->late ? 1 : 0;
+      committed_by_class[of] += outcome.time->committed ? 1 : 0;
     }
   } else if (hit) {
     ++false_positives;
@@ -66,6 +67,8 @@ void Counts::add_time(const TimeError& time, const Query& query,
   times_promised += time.promised ? 1 : 0;
   late += time.late ? 1 : 0;
   stuck += time.stuck ? 1 : 0;
+  committed += time.committed ? 1 : 0;
+  touch_at_end += time.touches_at_end ? 1 : 0;
   const auto keep = [&](std::vector<FarCase>& kept, double error) {
     if (error > 0 && error >= least_kept(kept)) add_up(kept, {{error, query, provenance()}});
   };
@@ -94,7 +97,8 @@ bool Counts::is_possible() const {
   return collisions <= queries && faults_total() <= queries - collisions && positives <= queries &&
          false_negatives <= collisions && false_positives <= positives && refuted_bounds <= false_positives &&
          measured_by_wang <= false_positives && times_given <= collisions && times_promised <= times_given &&
-         late <= times_promised && stuck <= times_given;
+         late <= times_promised && stuck <= times_given && committed <= times_promised - late &&
+         touch_at_end <= times_promised - late - committed;
 }
 
 }  // namespace nearmiss

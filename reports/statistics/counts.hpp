@@ -44,6 +44,10 @@ struct TimeError {
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below h, before a promised lower bound
   bool stuck = false;     ///< the time is 0, and t* is not
+  /// The time is promised and sound, but the step to it, rounded (fuzz/trial/committed.hpp), has contact, or a
+  /// distance below h, before its end.
+  bool committed = false;
+  bool touches_at_end = false;  ///< as `committed`, but there is contact only at the end of that step
 
   bool operator==(const TimeError&) const = default;
 };
@@ -84,6 +88,9 @@ struct Counts {
   std::uint64_t late = 0;                           ///< promised times that are too late
   QueryClassCounts late_by_class{};                 ///< `late` by the class of the query
   std::uint64_t stuck = 0;                          ///< given times that are 0 although t* is not
+  std::uint64_t committed = 0;                      ///< TimeError::committed
+  QueryClassCounts committed_by_class{};            ///< `committed` by the class of the query
+  std::uint64_t touch_at_end = 0;                   ///< TimeError::touches_at_end
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
   QueryClassCounts faults_by_class{};  ///< faults that are a FailureKind::fault, by the class of the query
   SubjectTimes times;                  ///< run times in ns
@@ -115,6 +122,8 @@ struct Counts {
         Counter{"times_promised", &Counts::times_promised},
         Counter{"late", &Counts::late},
         Counter{"stuck", &Counts::stuck},
+        Counter{"committed", &Counts::committed},
+        Counter{"touch_at_end", &Counts::touch_at_end},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
         Counter{"times", &Counts::times},
         NamedCounts<Counts, class_names.size()>{"missed_by_class", &Counts::missed_by_class, class_names,
@@ -123,6 +132,8 @@ struct Counts {
                                                 "refuted_bounds_by_class", "refuted_in"},
         NamedCounts<Counts, class_names.size()>{"late_by_class", &Counts::late_by_class, class_names,
                                                 "late_by_class", "late"},
+        NamedCounts<Counts, class_names.size()>{"committed_by_class", &Counts::committed_by_class,
+                                                class_names, "committed_by_class", "committed"},
         NamedCounts<Counts, class_names.size()>{"faults_by_class", &Counts::faults_by_class, class_names,
                                                 "faults_by_class", "fault_in"},
         NamedCounts<Counts, stage_count>{"true_by_stage", &Counts::true_by_stage, stage_names,

@@ -28,7 +28,7 @@ std::uint64_t none(const Counts& /*counts*/) { return 0; }
 std::uint64_t queries(const Counts& counts) { return counts.queries; }
 
 // In the order of FailureKind.
-constexpr std::array<FailureInfo, 10> infos{{
+constexpr std::array<FailureInfo, 11> infos{{
     {FailureKind::oracle_disagreement, "oracle-disagreement", false, "", "", "", none, none},
     {FailureKind::wrong_truth, "wrong-truth", false, "", "", "", none, none},
     {FailureKind::miss, "miss", false, "missed", "collision", "collisions",
@@ -43,6 +43,9 @@ constexpr std::array<FailureInfo, 10> infos{{
     {FailureKind::fault, "fault", false, "failed to answer", "query", "queries", faulty, queries,
      &Counts::faults_by_class},
     {FailureKind::unjudged, "unjudged", false, "was asked nothing", "", "", unjudged, queries},
+    {FailureKind::committed, "committed", true, "committed a step with contact in", "time", "times",
+     [](const Counts& counts) { return counts.committed; },
+     [](const Counts& counts) { return counts.times_promised; }, &Counts::committed_by_class},
     {FailureKind::unknown, "unknown", true, "could not tell in", "query", "queries",
      [](const Counts& counts) { return counts.unknown(); }, queries},
     {FailureKind::contract, "contract", true, "was not asked, by its contract,", "query", "queries", beyond,
@@ -95,6 +98,7 @@ std::optional<FailureKind> failure_of(const Outcome& outcome) {
   if (outcome.collision && !outcome.verdict.hit) return FailureKind::miss;
   if (outcome.time && outcome.time->late) return FailureKind::late;
   if (outcome.bound_refuted) return FailureKind::beyond_bound;
+  if (outcome.time && outcome.time->committed) return FailureKind::committed;
   if (outcome.verdict.hit && outcome.verdict.stage == Stage::unknown) return FailureKind::unknown;
   return std::nullopt;
 }
@@ -123,6 +127,8 @@ FailureKind failure_of(const Signature& signature) {
       return FailureKind::wrong_truth;
     case Finding::What::late:
       return FailureKind::late;
+    case Finding::What::committed:
+      return FailureKind::committed;
     case Finding::What::fault:
       break;
   }
@@ -139,6 +145,8 @@ std::optional<Finding::What> finding_of(FailureKind kind) {
       return Finding::What::false_negative;
     case FailureKind::late:
       return Finding::What::late;
+    case FailureKind::committed:
+      return Finding::What::committed;
     case FailureKind::beyond_bound:
       return Finding::What::refuted_bound;
     case FailureKind::fault:

@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// The kinds of failure, from the gravest. The last three count only on request (--fail-on).
+/// The kinds of failure, from the gravest. The last four count only on request (--fail-on).
 enum class FailureKind : std::uint8_t {
   oracle_disagreement,  ///< the exact methods disagree
   wrong_truth,          ///< the oracle disagrees with a recorded truth
@@ -23,6 +23,7 @@ enum class FailureKind : std::uint8_t {
   beyond_bound,         ///< a false positive is farther away than claimed
   fault,                ///< there is no answer, for a reason other than time or a contract
   unjudged,             ///< the subject was not asked any query, or did not answer any in time
+  committed,            ///< the step to a promised lower bound, rounded, has contact before its end
   unknown,              ///< the subject could not tell
   contract,             ///< a query was not asked, because it breaks the subject's contract
   slow,                 ///< a query took longer than the time limit, or was not asked after several that did

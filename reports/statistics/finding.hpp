@@ -23,7 +23,8 @@ struct Finding {
     oracle_disagreement,
     truth_mismatch,
     fault,
-    late  ///< a time that is promised to be a lower bound is too late
+    late,      ///< a time that is promised to be a lower bound is too late
+    committed  ///< such a time is sound, but the step to it, rounded, has contact before its end
   };
 
   What what{};
@@ -37,7 +38,7 @@ struct Finding {
   /// itself.
   Query shrunk = {};
   std::uint64_t place = 0;  ///< position of its case in the order of the whole campaign
-  double time = 0;          ///< the subject's time for the shrunk query, if it is late
+  double time = 0;          ///< the subject's time for the shrunk query, if it is late or committed
   bool is_shrunk = false;   ///< whether shrinking is finished
   QueryClass query_class = QueryClass::unclassified;
   Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
@@ -45,6 +46,7 @@ struct Finding {
   /// The earlier version of the subject's CCD, if that version does not fail on `query`; "" otherwise.
   std::string broken_since = {};
   double bound = 0;  ///< the bound that the subject claims for the shrunk query, if it is refuted
+  Query step = {};   ///< the step that is committed for the shrunk query, if it is
   /// The proof of what the oracle says against the subject about the shrunk query, as a line of JSON
   /// (tools/certificates/README.md); "" if there is none.
   std::string certificate = {};
@@ -53,10 +55,15 @@ struct Finding {
 };
 
 /// Names of the sorts of failure in files and reports, in order.
-inline constexpr std::array<std::string_view, 6> what_names{
-    "false-negative", "refuted-bound", "oracle-disagreement", "truth-mismatch", "fault", "late"};
+inline constexpr std::array<std::string_view, 7> what_names{
+    "false-negative", "refuted-bound", "oracle-disagreement", "truth-mismatch", "fault", "late", "committed"};
 
 constexpr std::string_view name(Finding::What what) { return what_names[static_cast<std::size_t>(what)]; }
+
+/// Whether a finding of this sort has the subject's time.
+constexpr bool has_time(Finding::What what) {
+  return what == Finding::What::late || what == Finding::What::committed;
+}
 
 /// A way to fail.
 struct Signature {

@@ -121,6 +121,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, what, subject, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shard, index, count, cases, complete, started, seconds, environment)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, what, subject, family, query, provenance, ratio, signature,
                                    shrunk, place, time, is_shrunk, query_class, simplest, simplest_class,
-                                   broken_since, bound, certificate)
+                                   broken_since, bound, step, certificate)
 
 }  // namespace nearmiss

@@ -166,7 +166,7 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
         verdicts.claims,
         Enclosed(ratio_lo, ratio_hi),
         judged,
-        compare(nearmiss, times, kind, sort, verdicts, judged, collision),
+        compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds),
         lambda line: nearmiss.verdicts(kind, [line], subject).bound[0],
     )
 

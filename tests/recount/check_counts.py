@@ -43,6 +43,7 @@ def _check_sum(comparison, where, found, answers, subject, kind, families):
         'faults': {},
         'false_negatives_by_class': tally.missed_by_class,
         'late_by_class': tally.late_by_class,
+        'committed_by_class': tally.committed_by_class,
         'faults_by_class': {},
     }
     comparison.entries('counters', where, found, expected)
@@ -97,6 +98,8 @@ def measures(found, tally):
         'times_promised': times.promised,
         'late': times.late,
         'stuck': times.stuck,
+        'committed': times.committed,
+        'touch_at_end': times.touch_at_end,
         'time_sort': times.sort,
         'max_early': Within(*times.early.most()),
         'max_after': Within(*times.after.most()),

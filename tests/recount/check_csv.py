@@ -12,6 +12,7 @@ NAMED = {
     'fault_': 'faults',
     'missed_': 'false_negatives_by_class',
     'late_': 'late_by_class',
+    'committed_': 'committed_by_class',
     'refuted_in_': 'refuted_bounds_by_class',
     'true_by_': 'true_positives_by_stage',
     'false_by_': 'false_positives_by_stage',

@@ -37,6 +37,7 @@ def _check_failure(comparison, where, found, asked, place):
         'false-negative': asked.false_negative[place],
         'refuted-bound': asked.claims and asked.ratios.hi[place] > 1,
         'late': asked.impact.late[place],
+        'committed': asked.impact.committed[place],
     }
     comparison.same('provenances', f'{where} {what}', bool(is_so.get(what)), True)
     family = found['provenance'].rsplit(':', 2)[0]

@@ -35,6 +35,7 @@ COLUMNS = {
     + ('' if counts['bound_of_distances'] == 'claimed' else '**'),
     'sort': lambda counts: counts['time_sort'],
     'times': _whole('times_given'),
+    'committed': lambda counts: f'{counts["committed"]:,}' if counts['times_promised'] else '-',
     'stuck': _whole('stuck'),
     'invalid': lambda counts: '0',  # there are no faults (check_counts.py)
     'unknown': _whole('unknown'),
@@ -53,7 +54,7 @@ SUMMARY = (
 )
 CLASSES = 'subject  kind  class  queries  collisions  false neg.  late  false pos.'
 TIMES = (
-    'subject  kind  class  sort  times  late  stuck  invalid  unknown  '
+    'subject  kind  class  sort  times  late  committed  stuck  invalid  unknown  '
     'early: median  99 %  most  after t*'
 )
 LADDER = 'subject  epsilon  queries  missed  false pos.  farthest / B  claimed / B'

@@ -40,6 +40,8 @@ class Impact:
     after: Enclosed  # time - t*, if the time is after t*
     travelled: Enclosed  # relative motion of the vertices in the time `early`, divided by B
     stuck: np.ndarray  # bool
+    committed: np.ndarray  # bool: the step to a sound time, rounded, has contact before its end
+    touches_at_end: np.ndarray  # bool: only at its end
 
     @property
     def given(self):
@@ -51,8 +53,9 @@ class Impact:
         return ~np.isnan(self.after.lo) & (self.sort == 'lower-bound')
 
 
-def compare(nearmiss, times, kind, sort, verdicts, judged, collision):
-    """Compares the times of true positives with t*. `times` gives the enclosures of t*."""
+def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
+    """Compares the times of true positives with t*. `times` gives the enclosures of t*, and
+    `rounds` says whether the subject computes in float."""
     given = verdicts.hit & collision & ~np.isnan(verdicts.time) & (sort != 'none')
     own = np.flatnonzero(given)
     lo, hi = (np.full(len(judged), np.nan) for _ in range(2))
@@ -70,7 +73,32 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision):
     )
     most[early.hi[moving] == 0] = 0
     travelled.lo[moving], travelled.hi[moving] = early.lo[moving] * speed.lo, most * speed.hi
-    return Impact(sort, time, early, after, travelled, stuck)
+    sound = given & ~is_after & (time != 0) & (sort == 'lower-bound')
+    committed, at_end = _committed(times, judged, time, np.flatnonzero(sound), rounds)
+    return Impact(sort, time, early, after, travelled, stuck, committed, at_end)
+
+
+def _committed(times, judged, time, own, in_float):
+    """Which of the steps x0 + time (x1 - x0), in the subject's scalar, have contact before their
+    end, and which only there."""
+    scalar = np.float32 if in_float else np.float64
+    before, at_end = np.zeros(len(judged), bool), np.zeros(len(judged), bool)
+    steps = {}
+    for i in own:
+        words = judged[i].split()
+        count = len(words) // 6 * 6  # a separation may follow
+        x = np.array([float.fromhex(word) for word in words[:count]]).astype(scalar)
+        start, end = x[: count // 2], x[count // 2 :]
+        with np.errstate(all='ignore'):
+            place = start + scalar(time[i]) * (end - start)
+        if np.isfinite(place).all():
+            numbers = (float(number).hex() for number in (*start, *place))
+            steps[i] = ' '.join([*numbers, *words[count:]])
+    if steps:
+        earliest = times.of(list(steps.values()))[0]
+        before[list(steps)] = earliest < 1
+        at_end[list(steps)] = earliest == 1
+    return before, at_end
 
 
 def _where(is_there, lo, hi):
@@ -130,6 +158,8 @@ class Times:
     promised: int
     late: int
     stuck: int
+    committed: int
+    touch_at_end: int
     early: Enclosed
     after: Enclosed
     travelled: Enclosed
@@ -138,9 +168,9 @@ class Times:
     def of(cls, impacts, own):
         """Adds up the times of some queries of each kind; `own` selects them."""
         of_kinds = list(zip(impacts, own))
-        given, late, stuck = (
+        given, late, stuck, committed, at_end = (
             sum(int(getattr(each, name)[some].sum()) for each, some in of_kinds)
-            for name in ('given', 'late', 'stuck')
+            for name in ('given', 'late', 'stuck', 'committed', 'touches_at_end')
         )
         sort = impacts[0].sort if given else 'none'
         early, after, travelled = (
@@ -148,7 +178,7 @@ class Times:
             for name in ('early', 'after', 'travelled')
         )
         promised = given if sort == 'lower-bound' else 0
-        return cls(sort, given, promised, late, stuck, early, after, travelled)
+        return cls(sort, given, promised, late, stuck, committed, at_end, early, after, travelled)
 
     @property
     def errors(self):

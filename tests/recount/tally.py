@@ -12,7 +12,7 @@ from enclosed import Enclosed
 from impact import Times
 
 CLASSES = ('ordinary', 'degenerate', 'extreme', 'unclassified')
-ON_REQUEST = {'unknown', 'contract', 'slow'}  # failures that count only with --fail-on
+ON_REQUEST = {'committed', 'unknown', 'contract', 'slow'}  # failures that count only with --fail-on
 
 
 @dataclass
@@ -27,6 +27,7 @@ class Tally:
     false_negatives: int
     missed_by_class: dict  # false negatives, by the class of the query
     late_by_class: dict  # late times, by the class of the query
+    committed_by_class: dict  # likewise, steps with contact
     refuted_by_class: dict  # least and largest number of refuted bounds, by the class of the query
     false_positives: int
     claims: bool
@@ -70,6 +71,7 @@ class Tally:
             int((collision & ~hit).sum()),
             by_class(lambda asked: asked.false_negative),
             by_class(lambda asked: asked.impact.late),
+            by_class(lambda asked: asked.impact.committed),
             {name: (least.get(name, 0), most[name]) for name in most},
             int(false.sum()),
             claims,
@@ -140,6 +142,7 @@ def failures_of(counts, faults):
         'beyond-bound': counts['refuted_bounds'],
         'fault': sum(faults.values()) - slow - beyond,
         'unjudged': counts['queries'] == slow + beyond,
+        'committed': counts['committed'],
         'unknown': counts['unknown'],
         'contract': beyond,
         'slow': slow,

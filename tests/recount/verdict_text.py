@@ -64,6 +64,9 @@ def verdict(row, kinds):
         if counts[failure[0]]:
             parts.append(f'{title} {_class_by_class(kinds, failure)}')
             parts += _other_class(kinds, failure, name)
+    if counts['committed']:
+        steps = counted(counts['times_promised'], 'step')
+        parts.append(f'{counts["committed"]:,} of {steps} to its times, rounded, touch on the way')
     if counts['unknown']:
         of = counted(counts['queries'], 'query', 'queries')
         parts.append(f'UNKNOWN in {counts["unknown"]:,} of {of}')
