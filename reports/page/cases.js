@@ -1,7 +1,8 @@
 // Draws single queries: findings, the farthest false positives, and the earliest and latest times.
 "use strict";
 
-const failureTitles = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer" };
+const failureTitles = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer",
+  committed: "step with contact" };
 
 /** "missed collision of basic" and so on. */
 function failureTitle(finding) {
@@ -106,14 +107,17 @@ function drawFilter() {
 
 function drawFindings() {
   show("findings-section");
-  const seen = report.signatures.reduce((sum, each) => sum + each.seen, 0);
-  if (seen === 0) {
+  const isCommitted = ({ what }) => what === "committed";
+  const failures = report.signatures.filter((each) => !isCommitted(each));
+  const times = (some) => integer(some.reduce((sum, each) => sum + each.seen, 0));
+  if (report.signatures.length === 0) {
     element("findings-part").remove();
     element("findings-note").textContent = "None: no missed collision, no late time, no bound refuted, no disagreement of the oracle's methods.";
     return;
   }
-  element("findings-note").textContent = `${integer(seen)} failures in ${integer(report.signatures.length)} ways. The first few of each way ` +
-    "are kept, and shrunk to the simplest query that fails in the same way.";
+  element("findings-note").textContent = `${times(failures)} failures in ${integer(failures.length)} ways. The first few of each way ` +
+    "are kept, and shrunk to the simplest query that fails in the same way." + (failures.length === report.signatures.length ? "" :
+    ` So are some of the ${times(report.signatures.filter(isCommitted))} queries in which the step to a sound time, once rounded, has contact. This is no failure.`);
   if (report.common_factors) show("common-factors-part");
   for (const each of report.common_factors ?? [])
     element("common-factors").append(made("li", `${each.subject} ${each.kind}, ${each.family}: ${each.text}.`));

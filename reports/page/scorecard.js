@@ -6,12 +6,15 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
   .filter(([, counts]) => counts?.collisions > 0)
   .map(([kind, counts]) => `${kind} ${integer(counts.false_negatives)} of ${integer(counts.collisions)}`).join(", ");
 
+/** The text with each power of two, such as 2^-9, set as one. */
+const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 2 === 0 ? part : ["2", made("sup", part.slice(2).replace("-", "−"))]));
+
 /** At which lengths of edges, and how far from the origin, the subject is right. */
 const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).map(({ kind, edge, distance }) => {
   const part = (range, none, text) => range && (range.from === null ? `${none} (${range.wrong})` : `${text}${range.wrong && ` (elsewhere ${range.wrong})`}`);
   const parts = [part(edge, "with edges of no length", `with edges of ${edge?.values}`),
     part(distance, "at no distance from the origin", `at ${distance?.values} edges from the origin`)].filter(Boolean);
-  return small(`${kind === "all" ? "" : `${kind} `}right ${parts.join(", and ")}`);
+  return small(withPowers(`${kind === "all" ? "" : `${kind} `}right ${parts.join(", and ")}`));
 });
 
 /** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */
@@ -145,7 +148,8 @@ function drawScorecard() {
     ["subject", subjectCell],
     ["missed collisions", missedCell],
     ...(hasTimes ? [["late times", ({ counts }) => (counts.times_promised === 0 ? "–"
-      : made(counts.late > 0 ? "strong" : "span", `${integer(counts.late)} of ${integer(counts.times_promised)}`, counts.late > 0 ? { class: "bad" } : {}))]] : []),
+      : [made(counts.late > 0 ? "strong" : "span", `${integer(counts.late)} of ${integer(counts.times_promised)}`, counts.late > 0 ? { class: "bad" } : {}),
+        ...(counts.committed > 0 ? [small(`${integer(counts.committed)} rounded steps touch`)] : [])])]] : []),
     ["false positives", falseCell, "wraps"],
     ...(rows.some(({ faults }) => Object.keys(faults).length > 0) ? [["no answer", noAnswerCell]] : []),
     ["ns a query, median", timeCell],
