@@ -53,14 +53,15 @@ std::optional<std::string> command_to_repeat(const Run& run) {
 }
 
 /// The sections that are left out if they are empty.
-constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 7> sections{
+constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 8> sections{
     {{"sizes", sizes_json},
      {"common_factors", common_factors_json},
      {"versions", versions_json},
      {"scenes", funnels_json},
      {"simulations", simulations_json},
      {"sweeps", sweeps_json},
-     {"option_sweeps", option_sweeps_json}}};
+     {"option_sweeps", option_sweeps_json},
+     {"cliffs", cliffs_json}}};
 
 }  // namespace
 

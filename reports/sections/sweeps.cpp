@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "reports/sections/counts_json.hpp"
@@ -78,6 +81,46 @@ std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics) {
   return found;
 }
 
+namespace {
+
+Proportion missed(const CountsSum& sum) { return {sum.counts.false_negatives, sum.counts.collisions}; }
+
+double difference(const Cliff& cliff) { return std::abs(cliff.missed.rate() - cliff.missed_next.rate()); }
+
+/// The cliff of a sweep; nothing if no rate changes.
+std::optional<Cliff> cliff_of(const std::string& pattern, const OptionSweep& sweep) {
+  constexpr double improbable = 1e-3;
+  std::optional<Cliff> best;
+  for (auto at = sweep.begin(); at != sweep.end() && std::next(at) != sweep.end(); ++at) {
+    const auto& [key, sum] = *at;
+    const auto& [next, next_sum] = *std::next(at);
+    if (next.first != key.first || (best && best->of != key.first)) continue;
+    const Cliff cliff{pattern, key.first, key.second, next.second, missed(sum), missed(next_sum)};
+    const bool is_there = cliff.missed.total > 0 && cliff.missed_next.total > 0 &&
+                          fisher_test(cliff.missed_next, cliff.missed).either() < improbable;
+    if (is_there && (!best || difference(cliff) > difference(*best))) best = cliff;
+  }
+  return best;
+}
+
+/// "cliff: at 1000, 30 % of the collisions in ordinary families are missed, at 10000 0 %"
+std::string to_text(const Cliff& cliff) {
+  const auto share = [](const Proportion& part) {
+    return part.count == 0 ? std::string("none") : percent(part.count, part.total);
+  };
+  return fmt::format("cliff: of the collisions in {} families, {} are missed at {:.6g}, and {} at {:.6g}",
+                     name(cliff.of), share(cliff.missed), cliff.value, share(cliff.missed_next), cliff.next);
+}
+
+}  // namespace
+
+std::vector<Cliff> cliffs(const Statistics& statistics) {
+  std::vector<Cliff> found;
+  for (const auto& [pattern, sweep] : option_sweeps(statistics))
+    if (auto cliff = cliff_of(pattern, sweep)) found.push_back(std::move(*cliff));
+  return found;
+}
+
 std::string sweep_tables(const Statistics& statistics) {
   const auto as_text = [](double value) { return fmt::format("{:.6g}", value); };
   const auto cells = [&](double value) { return std::vector{as_text(value)}; };
@@ -91,13 +134,15 @@ std::string sweep_tables(const Statistics& statistics) {
                               {"queries", "collisions", "false_negatives", "false_positives",
                                "false_positive_rate", "max_fp_distance_over_bound", "ns_per_query"},
                               0));
-  for (const auto& [pattern, sweep] : option_sweeps(statistics))
+  for (const auto& [pattern, sweep] : option_sweeps(statistics)) {
     text += fmt::format("\n{}\n{}", pattern,
                         table(sweep, {"class", "*"}, cells_of_option,
                               {"queries", "collisions", "false_negatives", "late", "stuck", "unknown",
                                "without_answer", "median_early", "q99_early", "max_early", "false_positives",
                                "false_positive_rate", "ns_per_query"},
                               1));
+    if (const auto cliff = cliff_of(pattern, sweep)) text += to_text(*cliff) + "\n";
+  }
   return text;
 }
 
@@ -119,6 +164,19 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
       add_measures(steps.back(), shown, sum);
     }
   }
+  return json;
+}
+
+nlohmann::ordered_json cliffs_json(const Statistics& statistics) {
+  auto json = nlohmann::ordered_json::array();
+  for (const Cliff& each : cliffs(statistics))
+    json.push_back({{"pattern", each.pattern},
+                    {"class", name(each.of)},
+                    {"value", each.value},
+                    {"next", each.next},
+                    {"false_negative_rate", each.missed.rate()},
+                    {"false_negative_rate_next", each.missed_next.rate()},
+                    {"text", to_text(each)}});
   return json;
 }
 

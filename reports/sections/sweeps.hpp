@@ -5,7 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family_class.hpp"
 #include "reports/statistics/statistics.hpp"
 
@@ -25,8 +27,24 @@ using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 /// numbers have the pattern NAME:KEY=*.
 std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics);
 
+/// Two neighbouring values of an option, and the misses among the collisions with each of them.
+struct Cliff {
+  std::string pattern;
+  QueryClass of{};  ///< of the families
+  double value = 0, next = 0;
+  Proportion missed, missed_next;
+};
+
+/// For each sweep of an option, the neighbouring values between which the rate of misses changes most, in the
+/// least exotic class in which a rate changes by more than chance explains (p < 0.001). Sweeps without such
+/// a change are left out.
+std::vector<Cliff> cliffs(const Statistics& statistics);
+
+/// An object for each cliff; empty without cliffs.
+nlohmann::ordered_json cliffs_json(const Statistics& statistics);
+
 /// A table for each sweep and subject with a row for each value, then one for each sweep of an option with a
-/// row for each class and value; "" without sweeps.
+/// row for each class and value, and its cliff; "" without sweeps.
 std::string sweep_tables(const Statistics& statistics);
 
 /// An object by family, then by subject: a list with an entry for each value of the family's parameter, in

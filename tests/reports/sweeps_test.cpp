@@ -137,5 +137,53 @@ TEST(OptionSweeps, StandInTheTableAndInTheJson) {
   EXPECT_EQ(json[2]["class"], "degenerate");
 }
 
+/// A sweep of max_iter, in ordinary and degenerate families, with these misses among 1,000 collisions.
+Statistics budgets(const std::vector<std::pair<int, std::uint64_t>>& ordinary,
+                   const std::vector<std::pair<int, std::uint64_t>>& degenerate) {
+  Statistics statistics;
+  const auto add = [&](const char* family, int value, std::uint64_t missed) {
+    Counts& counts = statistics.counts[{"a:max_iter=" + std::to_string(value), Kind::edge_edge, family}];
+    counts.queries = counts.collisions = 1000;
+    counts.false_negatives = missed;
+  };
+  for (const auto& [value, missed] : ordinary) add("uniform", value, missed);
+  for (const auto& [value, missed] : degenerate) add("planar", value, missed);
+  return statistics;
+}
+
+TEST(Cliffs, AreBetweenTheValuesWhereMissesChangeMost) {
+  const auto found = cliffs(budgets({{10, 320}, {100, 305}, {1000, 300}, {10000, 0}, {100000, 0}}, {}));
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].pattern, "a:max_iter=*");
+  EXPECT_EQ(found[0].value, 1000);
+  EXPECT_EQ(found[0].next, 10000);
+  EXPECT_EQ(found[0].missed.count, 300);
+}
+
+TEST(Cliffs, InOrdinaryFamiliesComeFirst) {
+  const auto both = cliffs(budgets({{10, 20}, {100, 0}}, {{10, 900}, {100, 0}}));
+  ASSERT_EQ(both.size(), 1);
+  EXPECT_EQ(both[0].of, QueryClass::ordinary);
+  const auto one = cliffs(budgets({{10, 0}, {100, 0}}, {{10, 900}, {100, 0}}));
+  ASSERT_EQ(one.size(), 1);
+  EXPECT_EQ(one[0].of, QueryClass::degenerate);
+}
+
+TEST(Cliffs, AreNotSeenInChance) {
+  EXPECT_TRUE(cliffs(budgets({{10, 3}, {100, 0}, {1000, 2}}, {})).empty());
+  EXPECT_TRUE(cliffs(sweep_of_family()).empty());
+}
+
+TEST(Cliffs, AreInTheTablesAndInTheReport) {
+  const Statistics statistics = budgets({{1000, 300}, {10000, 0}}, {});
+  EXPECT_THAT(sweep_tables(statistics), HasSubstr("\ncliff: of the collisions in ordinary families, 30 % are "
+                                                  "missed at 1000, and none at 10000\n"));
+  const auto json = summary_json({{}, statistics})["cliffs"];
+  ASSERT_EQ(json.size(), 1);
+  EXPECT_EQ(json[0]["value"], 1000);
+  EXPECT_EQ(json[0]["false_negative_rate"], 0.3);
+  EXPECT_FALSE(summary_json({{}, sweep_of_option()}).contains("cliffs"));
+}
+
 }  // namespace
 }  // namespace nearmiss
