@@ -17,7 +17,7 @@ const optionSteps = () => Object.entries(report.option_sweeps).map(([pattern, st
   late_rate: step.times_promised > 0 ? step.late / step.times_promised : null, early: step.time_sort === "none" ? null : step.q99_early[1] }))]);
 
 function drawOptions() {
-  element("cliffs").append(...(report.cliffs ?? []).map(({ pattern, text }) => made("li", `${pattern}: ${text}.`)));
+  element("cliffs").replaceChildren(...(report.cliffs ?? []).map(({ pattern, text }) => made("li", `${pattern}: ${text}.`)));
   const sweeps = optionSteps();
   const classes = classNames.filter((name) => sweeps.some(([, steps]) => steps.some((step) => step.class === name)));
   const shown = optionCharts.filter(([field]) => sweeps.some(([, steps]) => steps.some((step) => step[field] > 0)));

@@ -18,6 +18,7 @@
 #include "reports/statistics/failure.hpp"
 #include "tests/fuzz/made_up_subjects.hpp"
 #include "tests/fuzz/trials.hpp"
+#include "tests/queries.hpp"
 #include "tools/certificates/check.hpp"
 
 namespace nearmiss {
