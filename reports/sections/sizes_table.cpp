@@ -116,8 +116,9 @@ std::string sizes_table(const Statistics& statistics) {
   for (const Row& row : rows_of(statistics)) rows.push_back(cells_of(row));
   if (rows.size() == 1) return "";
   return columns(rows, rows.front().size()) +
-         "right: no miss, and at most a quarter of the queries that do not collide reported; distance: from "
-         "the origin, in edges\n";
+         "right: no miss, and at most 25 % more of the other queries reported than at 2^0; distance: from "
+         "the "
+         "origin, in edges\n";
 }
 
 ordered_json sizes_json(const Statistics& statistics) {

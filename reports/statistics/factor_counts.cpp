@@ -82,24 +82,33 @@ std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
   return std::pair{value.substr(0, at), x};
 }
 
-bool is_right(const FactorCounts& counts) {
-  return counts.false_negatives == 0 && 4 * counts.false_positives <= counts.others;
+double false_positive_rate(const FactorCounts& counts) {
+  return counts.others == 0 ? 0 : ratio(counts.false_positives, counts.others);
 }
 
-/// Whether chance may explain that none of these collisions is missed, at the rate of misses of all.
-bool may_be_chance(std::uint64_t collisions, const FactorCounts& all) {
-  constexpr double improbable = 1e-3;
-  return all.false_negatives > 0 &&
-         std::pow(1 - ratio(all.false_negatives, all.collisions), collisions) >= improbable;
+/// The most false positives of a right value: a quarter more than where sizes are about 1.
+double highest_rate(const Powers& powers) {
+  FactorCounts usual;
+  for (int x = -2; x <= 2; ++x)
+    if (const auto found = powers.find(x); found != powers.end()) usual.merge(found->second);
+  return false_positive_rate(usual) + 0.25;
+}
+
+/// Whether chance may explain that all misses are outside of some of the collisions.
+bool may_be_chance(std::uint64_t some, const FactorCounts& all) {
+  constexpr double improbable = 1e-4;
+  if (all.false_negatives == 0) return false;
+  return std::pow(1 - ratio(some, all.collisions), all.false_negatives) >= improbable;
 }
 
 RightRange range_of(const Powers& powers) {
   RightRange range;
   FactorCounts all, longest, run;
   int values = 0, most_values = 0, first = 0;
+  const double highest = highest_rate(powers);
   for (const auto& [x, counts] : powers) {
     all.merge(counts);
-    if (!is_right(counts)) {
+    if (counts.false_negatives > 0 || false_positive_rate(counts) > highest) {
       values = 0;
       continue;
     }

@@ -72,14 +72,14 @@ struct CommonFactors {
 /// in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
-/// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and reports at most a
-/// quarter of the queries that do not collide.
+/// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and its rate of false
+/// positives is at most 0.25 above the one at x from -2 to 2.
 struct RightRange {
   std::string subject;
   Kind kind{};
   std::string factor;
   /// The first and the last x of the longest run of values at which it is right; nothing if there is none, or
-  /// if misses are so rare that chance explains the run.
+  /// if chance explains why no miss falls into the run.
   std::optional<std::pair<int, int>> exponents;
   FactorCounts elsewhere;  ///< the answers at all other values
 };

@@ -127,9 +127,10 @@ def _right_range(powers):
     """The exponents of the longest run of powers at which nothing is wrong, or None; and the counts
     of all other powers."""
     runs, run = [], []
+    usual = sum((powers[x] for x in powers if abs(x) <= 2), np.zeros(4, int))
+    highest = _rate(usual) + 0.25
     for x in sorted(powers):
-        _, misses, others, positives = powers[x]
-        if misses or 4 * positives > others:
+        if powers[x][1] or _rate(powers[x]) > highest:
             run = []
             continue
         run = [*run, x]
@@ -137,9 +138,14 @@ def _right_range(powers):
     longest = max(runs, key=len, default=[])
     total = sum(powers.values())
     inside = sum((powers[x] for x in longest), np.zeros(4, int))
-    if total[1] and (1 - total[1] / total[0]) ** inside[0] >= 1e-3:
+    if total[1] and (1 - inside[0] / total[0]) ** total[1] >= 1e-4:
         longest, inside = [], np.zeros(4, int)
     return (longest[0], longest[-1]) if longest else None, total - inside
+
+
+def _rate(counts):
+    """The rate of false positives."""
+    return counts[3] / counts[2] if counts[2] else 0
 
 
 def _as_json(found):

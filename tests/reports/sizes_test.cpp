@@ -51,11 +51,16 @@ TEST(RightRange, EndsWhereMissesBegin) {
   EXPECT_EQ(range.elsewhere.false_negatives, 23 * 2);
 }
 
-TEST(RightRange, EndsWhereMoreThanAQuarterOfTheRestIsReported) {
-  const auto reported = [](int x, int i) { return i < (x < -20 ? 3 : 2); };  // of 8
+TEST(RightRange, EndsWhereAQuarterMoreOfTheRestIsReportedThanUsually) {
+  const auto reported = [](int x, int i) { return i < (x < -20 ? 7 : x < -10 ? 6 : 4); };  // of 8
   const RightRange range = range_of(answers(Kind::edge_edge, 8, never, reported));
   EXPECT_THAT(range.exponents, Optional(Pair(-20, 30)));
-  EXPECT_EQ(range.elsewhere.false_positives, 3 * 10);
+  EXPECT_EQ(range.elsewhere.false_positives, 7 * 10);
+}
+
+TEST(RightRange, IsSeenInFewMissesIfAllAreElsewhere) {
+  const auto below = [](int x, int i) { return x < -27 && i == 0; };
+  EXPECT_THAT(range_of(answers(Kind::edge_edge, 50, below, never)).exponents, Optional(Pair(-27, 30)));
 }
 
 TEST(RightRange, IsNotSeenInMissesThatAreRareEverywhere) {
