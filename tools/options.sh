@@ -12,17 +12,17 @@ refuse() { echo "$script_name: $1" >&2; exit 2; }
 usage() { sed -n '2,/^[^#]/ { /^#SBATCH/d; /^# shellcheck/d; s/^# \{0,1\}//p }' "$script"; }
 
 # options SPECIFICATION ARGUMENTS...: reads the arguments of the script.
-# The specification lists the options: 'time= first' stands for --time VALUE (or --time=VALUE) and the flag
-# --first. A value goes to the variable with the option's name, in which - is replaced by _; a flag's variable
-# becomes true. Other arguments go to the array `arguments`. With * in the specification, so do unknown
-# options. The array also gets a -- and every argument after it. -h and --help print the usage. An unknown
-# option or a missing value is refused.
+# The specification lists the options: 'time= first o=' stands for --time VALUE (or --time=VALUE), the flag
+# --first, and -o VALUE. A value goes to the variable with the option's name, in which - is replaced by _; a
+# flag's variable becomes true. Other arguments go to the array `arguments`. With * in the specification, so do
+# unknown options. The array also gets a -- and every argument after it. -h and --help print the usage. An
+# unknown option or a missing value is refused.
 options() {
   local specification=" $1 " name
   shift
   arguments=()
   while (($#)); do
-    name=${1%%=*} name=${name#--}
+    name=${1%%=*} name=${name#-} name=${name#-}
     case $1 in
       -h | --help) usage; exit 0 ;;
       --) arguments+=("$@"); return ;;
@@ -34,9 +34,9 @@ options() {
         else
           keep_unknown "$1"
         fi ;;
-      --*)
+      --* | -?)
         if [[ $specification == *" $name= "* ]]; then
-          (($# > 1)) || refuse "found --$name without a value"
+          (($# > 1)) || refuse "found $1 without a value"
           printf -v "${name//-/_}" %s "$2"
           shift
         elif [[ $specification == *" $name "* ]]; then
@@ -56,7 +56,7 @@ keep_unknown() {
   local known
   if [[ $specification == *" * "* ]]; then arguments+=("$1"); return; fi
   read -ra known <<<"${specification//=/}"
-  refuse "unknown option '$1', expected $(printf -- '--%s, ' "${known[@]}" help | sed 's/, $//; s/\(.*\), /\1 or /')"
+  refuse "unknown option '$1', expected $(printf -- '--%s, ' "${known[@]}" help | sed -E 's/--(.,)/-\1/g; s/, $//; s/(.*), /\1 or /')"
 }
 
 # seconds_of TIME: puts the number of seconds in a time such as 90s, 10m or 8h into the variable `seconds`.

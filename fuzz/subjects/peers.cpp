@@ -48,9 +48,9 @@ bool is_built(const Peer& peer) {
 std::string how_to_build(const Peer& peer) {
   return peer.package.empty()
              ? fmt::format(
-                   "run tools/peers --output {} DIR {} in nearmiss's source tree; DIR has those of the "
-                   "authors",
-                   shell_quoted(path_beside("peers")), peer.object)
+                   "run tools/subject -o {} with the flags that fuzz/subjects/peers/{}.cpp gives, in "
+                   "nearmiss's source tree",
+                   shell_quoted(path_of(peer)), peer.object)
              : fmt::format("install {}, remove the build folder, and run tools/setup", peer.package);
 }
 

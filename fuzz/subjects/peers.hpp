@@ -12,7 +12,7 @@ namespace nearmiss {
 struct Peer {
   std::string_view name;     ///< of the subject
   std::string_view object;   ///< its plug-in: the shared object peers/OBJECT.so beside the program
-  std::string_view package;  ///< the Debian package that it is built with; "" if tools/peers builds it
+  std::string_view package;  ///< the Debian package that it is built with; "" if its user compiles its adapter
 };
 
 /// All published CCDs that have an adapter, whether built or not.
@@ -24,7 +24,7 @@ std::optional<Peer> peer_named(std::string_view name);
 /// The path of a published CCD's plug-in.
 std::string path_of(const Peer& peer);
 bool is_built(const Peer& peer);
-/// How to build a published CCD, as an instruction: "run tools/peers ...".
+/// How to build a published CCD, as an instruction: "compile ...".
 std::string how_to_build(const Peer& peer);
 
 /// The plug-in that a name stands for: "tight-inclusion:tolerance=1e-3" is

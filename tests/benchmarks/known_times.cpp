@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
                  [&idle, batch](benchmark::State& state) { time_isolation(state, *idle, batch); });
   for (const Peer& peer : peers()) {
     const std::string name(peer.name);
-    const std::string object = NEARMISS_PEERS "/" + std::string(peer.object) + ".so";
+    const std::string object = NEARMISS_PEER_PLUGINS "/" + std::string(peer.object) + ".so";
     if (!std::filesystem::exists(object)) continue;
     add_measured("loop/" + name, [=](benchmark::State& state) {
       try {

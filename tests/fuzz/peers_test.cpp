@@ -1,4 +1,4 @@
-// The published CCDs that are built with the product, by name. (peers_test.sh has the others.)
+// The published CCDs that are built with the product, by name.
 #include "fuzz/subjects/peers.hpp"
 
 #include <gmock/gmock.h>
@@ -71,11 +71,11 @@ TEST(Peers, NamesAreUniqueAndNoneIsBuiltIn) {
   for (const Peer& peer : peers()) EXPECT_TRUE(names.insert(peer.name).second) << peer.name;
 }
 
-TEST(Peers, EachFromSourcesHasAnAdapter) {
+TEST(Peers, EachHasAnAdapter) {
   const std::filesystem::path adapters(NEARMISS_PEER_ADAPTERS);
   std::set<std::string> expected, found;
   for (const Peer& peer : peers())
-    if (peer.package.empty()) expected.insert(std::string(peer.object));
+    if (peer.name != "bullet-double") expected.insert(std::string(peer.object));  // bullet.cpp, compiled again
   for (const auto& each : std::filesystem::directory_iterator(adapters))
     if (each.path().extension() == ".cpp") found.insert(each.path().stem().string());
   EXPECT_EQ(found, expected);

@@ -27,9 +27,6 @@ mv "$folder/first" "$folder/prefix"
 ! grep -rE '#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
 ! grep -rlE '#include <(CGAL|boost|gmp)' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
 
-peers=
-for each in "$here"/../../../shared/peers "$here"/../../../../shared/peers; do [[ ! -d $each/additive ]] || peers=$each; done
-
 # check NAME COMPILER C-COMPILER FLAGS OPTION...: builds this folder's project, and runs its programs.
 check() {
   local name=$1 cxx=$2 cc=$3 flags=$4
@@ -38,13 +35,13 @@ check() {
     -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags" "$@" >"$folder/log" 2>&1 && cmake --build "$folder/$name" >>"$folder/log" 2>&1 ||
     fail "$name: $(tail -30 "$folder/log")"
   local program
-  for program in answers_c answers_cpp contact_cpp templates additive; do
+  for program in answers_c answers_cpp contact_cpp templates; do
     [[ -x $folder/$name/$program ]] || continue
     echo -n "$name: "
     "$folder/$name/$program" <"$folder/queries" || fail "$name: $program"
   done
 }
-check g++ g++ gcc "" ${peers:+-DIPC="$peers/additive/src"}
+check g++ g++ gcc ""
 check clang++ clang++ clang ""
 check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 # On some processors, clang 19 warns that it takes their vector instructions for another set.

@@ -67,9 +67,14 @@ try 0 tools/environments --list --only='^wang g[+][+] -O2 nearest$'
 try 2 tools/environments --list=all; expect_said "expected --list without a value"
 for options in "--jobs none" --jobs=none; do try 2 tools/libfuzzer $options false_negative 60s; expect_said "found --jobs 'none'"; done
 for options in "--shards none" --shards=none; do try 2 tools/slurm/campaign $options; expect_said "found --shards 'none'"; done
-try 2 tools/peers; expect_said "found no folder"
-try 2 tools/peers none; expect_said "found no folder 'none'"
-try 2 tools/peers fuzz safeccd boxes; expect_said "found 'boxes', expected one of additive"
+try 2 tools/subject; expect_said "found no adapter"
+try 2 tools/subject none.cpp; expect_said "found no file 'none.cpp'"
+try 2 tools/subject fuzz/subjects/peers/fcl.cpp -lfcl; expect_said "unknown option '-lfcl'"
+try 2 tools/subject fuzz/subjects/peers/fcl.cpp fcl.so; expect_said "found 'fcl.so', expected -- before the compiler's flags"
+for options in "-o none/a.so" "-o a.so --pkg-config=none"; do
+  try 2 tools/subject $options fuzz/subjects/peers/fcl.cpp; expect_said none
+done
+try 2 tools/subject -o; expect_said "found -o without a value"
 try 2 tools/slurm/campaign --cases=10 --nonsense; expect_said nonsense
 try 2 tools/slurm/campaign --cases=10 --db=a.db; expect_said "found --db=a.db"
 try 2 tools/test --output-on-failure -R oracle --nonsense; expect_said "unknown option '--nonsense'"

@@ -55,11 +55,11 @@ TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
   const auto run_copy = [&](const std::string& arguments) { return run("; ./copied " + arguments, "true"); };
   EXPECT_EQ(run_copy("subjects --peers").out, "");
   const Output listed = run_copy("subjects");
-  EXPECT_THAT(listed.out, HasSubstr("safeccd                 not built: run tools/peers --output /"));
+  EXPECT_THAT(listed.out, HasSubstr("safeccd                 not built: run tools/subject -o /"));
   EXPECT_THAT(listed.out, HasSubstr("fcl-newton              not built: install libfcl-dev"));
   const Output refused = run_copy("verdict --kind vt --subject additive:iterations=3");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/peers --output /"));
+  EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/subject -o /"));
 }
 
 // If a program found the worker of another build, it would misread the worker's answers.

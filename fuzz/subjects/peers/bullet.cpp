@@ -1,17 +1,18 @@
 // Bullet: the continuous collision detection of its soft bodies, which only tests vertices against triangles.
 // Compiled twice: with Bullet's single and with its double precision (BT_USE_DOUBLE_PRECISION).
+// From Debian's libbullet-dev 3.24, with which it is built. Licence: zlib. Question: contact. Contract: none.
+//
+//   tools/subject --pkg-config bullet fuzz/subjects/peers/bullet.cpp
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
-#include "fuzz/subjects/peers/adapter.hpp"
+#include "ccd/nearmiss_functions.hpp"
 
-namespace nearmiss::peers {
 namespace {
 
-constexpr btScalar dt = 1;  // our unit of time is the time step
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
 
-btVector3 vector(const double* x) {
-  return {static_cast<btScalar>(x[0]), static_cast<btScalar>(x[1]), static_cast<btScalar>(x[2])};
-}
+constexpr btScalar dt = 1;  // our unit of time is the time step
 
 /// The normal of a triangle, not normalised.
 btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }
@@ -19,12 +20,12 @@ btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { r
 /// Bullet's world fills a vertex and a face in this way before it calls bernsteinCCD: it knows velocities,
 /// from which it predicts the end of the time step. So the end of our step reaches it with the rounding error
 /// of a subtraction.
-Answer decide(const void* /*state*/, int /*kind*/, const Question& q) {
+Answer decide(const Question& q) {
   std::array<btSoftBody::Node, 4> nodes;
-  for (int i = 0; i < 4; ++i) {
-    btSoftBody::Node& node = nodes[static_cast<std::size_t>(i)];
-    node.m_x = vector(q.start(i));
-    node.m_v = (vector(q.end(i)) - node.m_x) / dt;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    btSoftBody::Node& node = nodes[i];
+    node.m_x = q.start(i);
+    node.m_v = (btVector3(q.end(i)) - node.m_x) / dt;
     node.m_q = node.m_x + dt * node.m_v;
   }
   btSoftBody::Node &a = nodes[1], &b = nodes[2], &c = nodes[3];
@@ -39,26 +40,18 @@ Answer decide(const void* /*state*/, int /*kind*/, const Question& q) {
   return Answer::of(bernsteinCCD(&face, nodes.data(), dt, SAFE_EPSILON, weights));
 }
 
-nearmiss_subject subject() {
-  static const std::string version =
-      std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
-#ifdef BT_USE_DOUBLE_PRECISION
-  nearmiss_subject subject =
-      detector<decide>("bullet-double", version.c_str(),
-                       "the CCD of Bullet's soft bodies, in double precision; vertex-triangle only");
-#else
-  nearmiss_subject subject =
-      detector<decide>("bullet", version.c_str(),
-                       "the CCD of Bullet's soft bodies, in single precision; vertex-triangle only");
-  subject.bits = 24;
-#endif
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE;
-  return subject;
-}
+const std::string version =
+    std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
 
 }  // namespace
-}  // namespace nearmiss::peers
 
-const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
-}
+#ifdef BT_USE_DOUBLE_PRECISION
+NEARMISS_SUBJECT(detector("bullet-double", version.c_str(),
+                          "the CCD of Bullet's soft bodies, in double precision; vertex-triangle only")
+                     .vertex_triangle(decide))
+#else
+NEARMISS_SUBJECT(detector("bullet", version.c_str(),
+                          "the CCD of Bullet's soft bodies, in single precision; vertex-triangle only")
+                     .vertex_triangle(decide)
+                     .set(&nearmiss_subject::bits, 24))
+#endif

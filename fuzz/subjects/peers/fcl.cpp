@@ -1,44 +1,45 @@
 // FCL, the Flexible Collision Library: the continuous collision detection of its deformable meshes, with each
 // of its two solvers.
+// From Debian's libfcl-dev 0.7.0, with which it is built. Licence: BSD. Question: contact; the time is that of
+// the first root that its solver happens to find. Contract: none.
+//
+//   tools/subject --pkg-config fcl fuzz/subjects/peers/fcl.cpp
 #include <fcl/config.h>
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
-#include "fuzz/subjects/peers/adapter.hpp"
+#include "ccd/nearmiss_functions.hpp"
 
-namespace nearmiss::peers {
 namespace {
 
-using Vector = Eigen::Map<const fcl::Vector3d>;
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
 using Intersect = fcl::detail::Intersect<double>;
 
 template <bool uses_newton>
-Answer decide(const void* /*state*/, int kind, const Question& q) {
+Answer decide(const Question& q) {
   double time = 0;
   fcl::Vector3d where;
-  const auto start = [&](int vertex) { return fcl::Vector3d(Vector(q.start(vertex))); };
-  const auto end = [&](int vertex) { return fcl::Vector3d(Vector(q.end(vertex))); };
   // FCL wants the triangle first, and the vertex last.
-  const bool collides = kind == NEARMISS_VERTEX_TRIANGLE
-                            ? Intersect::intersect_VF(start(1), start(2), start(3), start(0), end(1), end(2),
-                                                      end(3), end(0), &time, &where, uses_newton)
-                            : Intersect::intersect_EE(start(0), start(1), start(2), start(3), end(0), end(1),
-                                                      end(2), end(3), &time, &where, uses_newton);
+  const bool collides =
+      q.kind == NEARMISS_VERTEX_TRIANGLE
+          ? Intersect::intersect_VF(q.start(1), q.start(2), q.start(3), q.start(0), q.end(1), q.end(2),
+                                    q.end(3), q.end(0), &time, &where, uses_newton)
+          : Intersect::intersect_EE(q.start(0), q.start(1), q.start(2), q.start(3), q.end(0), q.end(1),
+                                    q.end(2), q.end(3), &time, &where, uses_newton);
   return Answer::of(collides, time);
 }
 
 template <bool uses_newton>
-nearmiss_subject subject() {
-  nearmiss_subject subject = detector<decide<uses_newton>>(
-      uses_newton ? "fcl-newton" : "fcl", FCL_VERSION,
-      uses_newton ? "FCL's CCD of deformable meshes, with interval Newton iteration (its default)"
-                  : "FCL's CCD of deformable meshes, with its solver for cubics");
-  subject.time_sort = NEARMISS_TIME_ESTIMATE;  // of the first root that its solver happens to find
-  return subject;
+auto fcl_detector(const char* name, const char* about) {
+  return nearmiss::plugin::detector(name, FCL_VERSION, about)
+      .vertex_triangle(decide<uses_newton>)
+      .edge_edge(decide<uses_newton>)
+      .set(&nearmiss_subject::time_sort, NEARMISS_TIME_ESTIMATE);
 }
 
 }  // namespace
-}  // namespace nearmiss::peers
 
-const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  return nearmiss::peers::numbered<nearmiss::peers::subject<false>, nearmiss::peers::subject<true>>(index);
-}
+NEARMISS_SUBJECT(
+    fcl_detector<false>("fcl", "FCL's CCD of deformable meshes, with its solver for cubics"),
+    fcl_detector<true>("fcl-newton",
+                       "FCL's CCD of deformable meshes, with interval Newton iteration (its default)"))

@@ -1,0 +1,370 @@
+// Plug-ins from functions with the field's usual signatures, in C++17. A plug-in includes the functions' own
+// header, then this one, and describes a detector; tools/subject compiles it:
+//
+//   #include "mine.hpp"
+//   #include "ccd/nearmiss_functions.hpp"
+//   NEARMISS_SUBJECT(detector("mine").vertex_triangle(point_triangle_ccd).edge_edge(edge_edge_ccd))
+//
+// The signature of each function is recognised. V stands for the vertices x0 x1 .. at t = 0, then at t = 1 (8
+// for a vertex and a triangle, and for two edges; 6 for a vertex and an edge; 4 for two vertices), X for those
+// at t = 0, D for their displacements, h for the separation:
+//
+//   signature                                          as in                gives times       takes h
+//   bool f(V, double& toi, double h, double tmax)      ipc-toolkit          lower bounds      yes
+//   bool f(X, D, double eta, double h, double& toi)    Codim-IPC            lower bounds      yes
+//   bool f(V, double h, double& toi)                   CTCD                 estimates         yes
+//   bool f(V, double& toi)                                                  estimates         no
+//   bool f(V)                                                               none              no
+//   bool f(x0, x0 at t = 1, 0, x1, x1 at t = 1, 1, ..) El Topo              none              no
+//   Answer f(const Question&)                          everything else      none              no
+//
+// Codim-IPC's functions get eta = 0.1, toi = 1, and displacements that are rounded; a separation stands for
+// their thickness. A vertex may be a const double*, any type of Eigen's if Eigen is included before this
+// header, or a type that is made from three numbers by T{x, y, z}. `int` may take the place of
+// `bool`.
+//
+// NEARMISS_CALL(f) instead of f is for a function that is overloaded, has default arguments, or is a member, as
+// in NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() changes what the table says, and any other field of
+// nearmiss_subject.h:
+//
+//   .set(&nearmiss_subject::time_sort, NEARMISS_NO_TIME).set(&nearmiss_contract::apart_at_start, 1)
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+// These two lie beside this header, in the source tree and where it is installed.
+#include "nearmiss_subject.h"
+#include "subjects/number_options.hpp"
+
+namespace nearmiss::plugin {
+
+template <class T, class Number, class = void>
+constexpr bool is_braced = false;
+template <class T, class Number>
+constexpr bool is_braced<
+    T, Number,
+    std::void_t<decltype(T{std::declval<Number>(), std::declval<Number>(), std::declval<Number>()})>> = true;
+
+template <class T>
+constexpr bool is_eigen =
+#ifdef EIGEN_WORLD_VERSION
+    std::is_base_of_v<Eigen::EigenBase<T>, T>;
+#else
+    false;
+#endif
+
+/// A vertex: becomes a vector of any type that a function takes.
+class Point {
+ public:
+  explicit Point(const double* x) : x_(x) {}
+
+  template <class T, class = std::enable_if_t<std::is_same_v<T, const double*> || is_eigen<T> ||
+                                              is_braced<T, double> || is_braced<T, float>>>
+  operator T() const {  // NOLINT(google-explicit-constructor): functions are to take it for their vector
+    if constexpr (std::is_same_v<T, const double*>) return x_;
+#ifdef EIGEN_WORLD_VERSION
+    else if constexpr (is_eigen<T>)  // without a copy, so that a Ref may refer to the coordinates
+      return T(Eigen::Map<const Eigen::Vector3d>(x_).template cast<typename T::Scalar>());
+#endif
+    else if constexpr (is_braced<T, double>)
+      return T{x_[0], x_[1], x_[2]};
+    else
+      return T{static_cast<float>(x_[0]), static_cast<float>(x_[1]), static_cast<float>(x_[2])};
+  }
+
+ private:
+  const double* x_;
+};
+
+/// How many vertices a query of a kind has.
+constexpr std::size_t vertices_of(int kind) {
+  return kind == NEARMISS_VERTEX_VERTEX ? 2 : kind == NEARMISS_VERTEX_EDGE ? 3 : 4;
+}
+
+/// One query, for a function whose signature is not in the table.
+struct Question {
+  int kind;
+  const double* x;  ///< its coordinates (nearmiss_subject.h)
+  double separation;
+
+  [[nodiscard]] Point start(std::size_t vertex) const { return Point(x + 3 * vertex); }
+  [[nodiscard]] Point end(std::size_t vertex) const { return start(vertices_of(kind) + vertex); }
+};
+
+/// The detector's answer to one query.
+struct Answer {
+  int value = NEARMISS_NO_COLLISION;
+  double time = std::numeric_limits<double>::quiet_NaN();
+
+  /// The answer of a function that returns whether there is a collision.
+  static Answer of(bool collides) { return {collides ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION}; }
+  static Answer of(bool collides, double time) { return {of(collides).value, time}; }
+};
+
+/// The vertices of a query as a tuple: at t = 0, then at t = 1.
+template <std::size_t... i>
+auto points(const Question& q, std::index_sequence<i...> /*vertices*/) {
+  return std::tuple(q.start(i)..., q.end(i)...);
+}
+
+/// Calls act(start 0, ..., start 3, end 0, ..., end 3), for a vertex and a triangle or two edges.
+template <class Act>
+auto with_vertices(const Question& q, const Act& act) {
+  return std::apply(act, points(q, std::make_index_sequence<4>()));
+}
+
+/// A detector of one kind: asks a function of type F, in the way that its signature calls for. `State` is a
+/// tuple of what the function gets first: the options, or nothing.
+template <class F, class State, int kind>
+class Asked {
+  using Vertices = std::make_index_sequence<vertices_of(kind)>;
+
+  template <std::size_t... i>
+  static auto indexed(const Question& q, std::index_sequence<i...> /*vertices*/) {
+    return std::tuple_cat(std::tuple<Point, Point, std::size_t>(q.start(i), q.end(i), i)...);
+  }
+  template <class Arguments>
+  struct Takes;
+  template <class... Argument>
+  struct Takes<std::tuple<Argument...>> : std::is_invocable<const F&, Argument...> {};
+
+  using Points = decltype(points(std::declval<Question>(), Vertices()));
+  using Indexed = decltype(indexed(std::declval<Question>(), Vertices()));
+  /// Whether the function takes its state, the vertices, and these arguments.
+  template <class First, class... Argument>
+  static constexpr bool takes = Takes<decltype(std::tuple_cat(
+      std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
+
+  static constexpr bool is_question = takes<std::tuple<const Question&>>;
+  static constexpr bool is_ipc = takes<Points, double&, double, double>;
+  static constexpr bool is_displaced = takes<Points, double, double, double&>;
+  static constexpr bool is_within = takes<Points, double, double&>;
+  static constexpr bool is_timed = takes<Points, double&>;
+  static constexpr bool is_plain = takes<Points>;
+  static constexpr bool is_indexed = takes<Indexed>;
+  static_assert(is_question || is_ipc || is_displaced || is_within || is_timed || is_plain || is_indexed,
+                "the function has none of the signatures that nearmiss_functions.hpp lists");
+
+ public:
+  static constexpr bool takes_separation = !is_question && (is_ipc || is_displaced || is_within);
+  static constexpr int time_sort = is_question              ? NEARMISS_NO_TIME
+                                   : is_ipc || is_displaced ? NEARMISS_TIME_LOWER_BOUND
+                                   : is_within || is_timed  ? NEARMISS_TIME_ESTIMATE
+                                                            : NEARMISS_NO_TIME;
+
+  static Answer ask(const F& f, const State& state, const Question& q) {
+    double toi = std::numeric_limits<double>::quiet_NaN();
+    const auto call = [&](auto&& first, auto... rest) {
+      return std::apply(f, std::tuple_cat(state, std::forward<decltype(first)>(first), std::move(rest)...));
+    };
+    const auto vertices = [&] { return points(q, Vertices()); };
+    if constexpr (is_question) {
+      return call(std::tuple<const Question&>(q));
+    } else if constexpr (is_ipc) {
+      const bool collides = call(vertices(), std::tuple<double&, double, double>(toi, q.separation, 1));
+      return Answer::of(collides, toi);
+    } else if constexpr (is_displaced) {
+      constexpr std::size_t n = 3 * vertices_of(kind);
+      std::array<double, 2 * n> x;
+      std::copy(q.x, q.x + n, x.begin());
+      std::transform(q.x + n, q.x + 2 * n, q.x, x.begin() + n, std::minus<>());
+      const Question displaced{kind, x.data(), q.separation};
+      toi = 1;  // on entry, the end of the time step
+      const bool collides =
+          call(points(displaced, Vertices()), std::tuple<double, double, double&>(0.1, q.separation, toi));
+      return Answer::of(collides, toi);
+    } else if constexpr (is_within) {
+      const bool collides = call(vertices(), std::tuple<double, double&>(q.separation, toi));
+      return Answer::of(collides, toi);
+    } else if constexpr (is_timed) {
+      const bool collides = call(vertices(), std::tuple<double&>(toi));
+      return Answer::of(collides, toi);
+    } else if constexpr (is_plain) {
+      return Answer::of(call(vertices()));
+    } else {
+      return Answer::of(call(indexed(q, Vertices())));
+    }
+  }
+};
+
+template <class Settings>
+Settings owner_of(const Option<Settings>* /*option*/);
+
+struct Absent {};  ///< stands for the function of a kind that a detector does not decide
+
+/// A detector, as its members describe it step by step.
+template <class State = Absent, class VertexTriangle = Absent, class EdgeEdge = Absent,
+          class VertexVertex = Absent, class VertexEdge = Absent>
+struct Detector {
+  nearmiss_subject subject;
+  VertexTriangle vt{};
+  EdgeEdge ee{};
+  VertexVertex vv{};
+  VertexEdge ve{};
+
+  template <class F>
+  auto vertex_triangle(F f) const {
+    return Detector<State, F, EdgeEdge, VertexVertex, VertexEdge>{subject, f, ee, vv, ve};
+  }
+  template <class F>
+  auto edge_edge(F f) const {
+    return Detector<State, VertexTriangle, F, VertexVertex, VertexEdge>{subject, vt, f, vv, ve};
+  }
+  template <class F>
+  auto vertex_vertex(F f) const {
+    return Detector<State, VertexTriangle, EdgeEdge, F, VertexEdge>{subject, vt, ee, f, ve};
+  }
+  template <class F>
+  auto vertex_edge(F f) const {
+    return Detector<State, VertexTriangle, EdgeEdge, VertexVertex, F>{subject, vt, ee, vv, f};
+  }
+
+  /// Sets a field of nearmiss_subject.h.
+  template <class T, class Value>
+  Detector set(T nearmiss_subject::*field, Value value) const {
+    Detector changed = *this;
+    changed.subject.*field = value;
+    return changed;
+  }
+  template <class T, class Value>
+  Detector set(T nearmiss_contract::*field, Value value) const {
+    Detector changed = *this;
+    changed.subject.contract.*field = value;
+    return changed;
+  }
+
+  /// Lets the user set these options, KEY=NUMBER. Every function then gets them first: f(const Settings&, ...).
+  template <const auto& settings>
+  auto options() const {
+    using Settings = decltype(owner_of(settings.data()));
+    Detector<Settings, VertexTriangle, EdgeEdge, VertexVertex, VertexEdge> changed{subject, vt, ee, vv, ve};
+    changed.subject.open = [](const char* text, char* message, std::size_t size) -> void* {
+      auto state = std::make_unique<Settings>();
+      const std::string fault = set_options(settings, text, *state);
+      if (fault.empty()) return state.release();
+      std::snprintf(message, size, "%s", fault.c_str());
+      return nullptr;
+    };
+    changed.subject.close = [](void* state) { delete static_cast<Settings*>(state); };
+    return changed;
+  }
+
+  /// Calls act(kind, function, Asked) for each kind that the detector decides.
+  template <class Act>
+  void for_each_kind(const Act& act) const {
+    const auto apply = [&](auto kind, const auto& f) {
+      using F = std::decay_t<decltype(f)>;
+      if constexpr (!std::is_same_v<F, Absent>) act(kind(), f, Asked<F, Front, kind()>());
+    };
+    apply(std::integral_constant<int, NEARMISS_VERTEX_TRIANGLE>(), vt);
+    apply(std::integral_constant<int, NEARMISS_EDGE_EDGE>(), ee);
+    apply(std::integral_constant<int, NEARMISS_VERTEX_VERTEX>(), vv);
+    apply(std::integral_constant<int, NEARMISS_VERTEX_EDGE>(), ve);
+  }
+
+  using Front = std::conditional_t<std::is_same_v<State, Absent>, std::tuple<>, std::tuple<const State&>>;
+  static Front front(const void* state) {
+    if constexpr (std::is_same_v<State, Absent>)
+      return {};
+    else
+      return {*static_cast<const State*>(state)};
+  }
+};
+
+constexpr int from_signatures = -1;  ///< of a field that nobody sets: what the functions' signatures say
+
+/// A detector that decides nothing yet. An adapter's name, version and a line about it are shown to users.
+inline Detector<> detector(const char* name, const char* version = "", const char* about = "") {
+  nearmiss_subject subject{};
+  subject.interface_version = NEARMISS_INTERFACE;
+  subject.name = name;
+  subject.version = version;
+  subject.about = about;
+  subject.time_sort = from_signatures;
+  subject.takes_separation = from_signatures;
+  return {subject};
+}
+
+/// The detector number i of `Described`, a type whose describe() returns a tuple of detectors.
+template <class Described, std::size_t i>
+const auto& described() {
+  static const auto all = Described::describe();
+  return std::get<i>(all);
+}
+
+/// The function decide() of the interface.
+template <class Described, std::size_t i>
+void decide_each(void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
+                 double* toi) {
+  const auto& detector = described<Described, i>();
+  detector.for_each_kind([&](int its_kind, const auto& f, auto asked) {
+    if (its_kind != kind) return;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Answer said = asked.ask(f, detector.front(state), {kind, x + 6 * vertices_of(kind) * k, h[k]});
+      answer[k] = said.value;
+      toi[k] = said.time;
+    }
+  });
+}
+
+template <class Described, std::size_t i>
+nearmiss_subject subject_of() {
+  const auto& detector = described<Described, i>();
+  nearmiss_subject subject = detector.subject;
+  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that a function gives
+  detector.for_each_kind([&](int kind, const auto& /*f*/, auto asked) {
+    subject.kinds += kind;
+    sort = std::min(sort, asked.time_sort);
+    with_separation += asked.takes_separation ? kind : 0;
+  });
+  if (subject.time_sort == from_signatures) subject.time_sort = sort;
+  if (subject.takes_separation == from_signatures) {
+    subject.takes_separation = with_separation == subject.kinds ? 1 : 0;
+    if (subject.takes_separation == 0) subject.separation_kinds = with_separation;
+  }
+  subject.decide = decide_each<Described, i>;
+  return subject;
+}
+
+template <class Described, std::size_t... i>
+const nearmiss_subject* numbered(std::size_t index, std::index_sequence<i...> /*detectors*/) {
+  static const std::array subjects{subject_of<Described, i>()...};
+  return index < subjects.size() ? &subjects[index] : nullptr;
+}
+
+template <class Described>
+const nearmiss_subject* numbered(std::size_t index) {
+  return numbered<Described>(index,
+                             std::make_index_sequence<std::tuple_size_v<decltype(Described::describe())>>());
+}
+
+}  // namespace nearmiss::plugin
+
+/// A callable object for a function, whatever its overloads and default arguments are.
+#define NEARMISS_CALL(...)                                                                         \
+  [](auto&&... argument) -> decltype(__VA_ARGS__(std::forward<decltype(argument)>(argument)...)) { \
+    return __VA_ARGS__(std::forward<decltype(argument)>(argument)...);                             \
+  }
+
+/// Makes the shared object a plug-in with these detectors.
+#define NEARMISS_SUBJECT(...)                                       \
+  namespace {                                                       \
+  struct NearmissDescribed {                                        \
+    static auto describe() {                                        \
+      using namespace nearmiss::plugin; /* NOLINT */                \
+      return std::make_tuple(__VA_ARGS__);                          \
+    }                                                               \
+  };                                                                \
+  }                                                                 \
+  const nearmiss_subject* nearmiss_get_subject(std::size_t index) { \
+    return nearmiss::plugin::numbered<NearmissDescribed>(index);    \
+  }

@@ -1,0 +1,36 @@
+// Bernstein sign classification (Tang, Tong, Wang and Manocha, "Fast and exact continuous collision detection
+// with Bernstein sign classification", 2014), over root parity's arithmetic.
+// From github.com/Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, 8db61b2c.
+// Licence: research, no fee (LICENSE.BSC.txt). Question: contact. Contract: none, but it throws an exception
+// for a cubic with an inflection point in the time step, which the authors say they do not handle exactly: such
+// a query has no answer.
+// $BSC is the repository, with its code compiled into libbsc.a (g++ needs -frounding-math for it):
+//
+//   tools/subject fuzz/subjects/peers/bsc.cpp -- -I$BSC $BSC/libbsc.a
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+// This header uses the three above without including them.
+#include <bsc.h>
+
+#include "ccd/nearmiss_functions.hpp"
+
+namespace {
+
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
+
+/// The triangle comes first, and the vertex last.
+Answer vertex_triangle(const Question& q) {
+  return Answer::of(bsc::Intersect_VF_robust(q.start(1), q.start(2), q.start(3), q.start(0), q.end(1),
+                                             q.end(2), q.end(3), q.end(0)));
+}
+
+}  // namespace
+
+NEARMISS_SUBJECT(
+    detector(
+        "bsc", "2014",
+        "Bernstein sign classification, exact; throws if the cubic has an inflection point in the time step")
+        .vertex_triangle(vertex_triangle)
+        .edge_edge(bsc::Intersect_EE_robust))

@@ -1,0 +1,44 @@
+// Root parity (Brochu, Edwards, Bridson, "Efficient geometrically exact continuous collision detection",
+// 2012).
+// From github.com/bohanwang/libpgo, third-party/CCD/ExactCCD, 88dfe845. Licence: public domain.
+// Question: whether the number of contacts is odd, counted with multiplicity: a double root counts twice.
+// Contract: at most one root, a simple one, because the question then agrees with ours.
+// $ROOT_PARITY is that folder, with its code compiled into librootparity.a. Its interval arithmetic rounds
+// upwards, which the compiler must know: g++ needs -frounding-math for it.
+//
+//   tools/subject fuzz/subjects/peers/root-parity.cpp -- -I$ROOT_PARITY $ROOT_PARITY/librootparity.a
+#include <exactCCDWrapper.h>
+
+#include <cstdlib>
+
+#include "ccd/nearmiss_functions.hpp"
+
+namespace {
+
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
+
+/// An answer must depend only on the query, but the rays that replace an unlucky one come from rand().
+/// Therefore every query starts from the same seed. The smallest state that the C library offers makes that
+/// cheap.
+void restart_random_numbers() {
+  static std::array<char, 8> smallest;
+  static const bool is_set = initstate(1, smallest.data(), smallest.size()) != nullptr;
+  if (is_set) std::srand(1);
+}
+
+Answer decide(const Question& q) {
+  restart_random_numbers();
+  const auto test =
+      q.kind == NEARMISS_VERTEX_TRIANGLE ? ExactCCDWrapper::VertexTriangleCCD : ExactCCDWrapper::EdgeEdgeCCD;
+  return Answer::of(
+      test(q.start(0), q.end(0), q.start(1), q.end(1), q.start(2), q.end(2), q.start(3), q.end(3)));
+}
+
+}  // namespace
+
+NEARMISS_SUBJECT(detector("root-parity", "2012",
+                          "root parity, with intervals and expansions: whether the number of contacts is odd")
+                     .vertex_triangle(decide)
+                     .edge_edge(decide)
+                     .set(&nearmiss_contract::one_root, 1))

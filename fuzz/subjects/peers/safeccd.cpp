@@ -1,0 +1,57 @@
+// The code that Wang published with his 2014 paper "Defending continuous collision detection against errors",
+// through the wrapper of the repository that has it, which computes each pair's own bound B.
+// From github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
+// Question: contact; the time is an estimate. Contract: apart at t = 0, and a range of sizes (below).
+// $SAFECCD is that folder, with its code compiled into libsafeccd.a:
+//
+//   tools/subject fuzz/subjects/peers/safeccd.cpp -- -I$SAFECCD $SAFECCD/libsafeccd.a
+//
+// Contact at t = 0 is left to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and case 1 of
+// Vertex_Edge_CCD test the end of the step, and nothing tests its beginning. That is why B "must stay the
+// same over the whole animation process".
+#include <safeCCDWrapper.h>
+
+#include "ccd/nearmiss_functions.hpp"
+
+namespace {
+
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
+
+/// Makes the wrapper's function for B accessible.
+struct Wrapper : SafeCCDWrapper {
+  using SafeCCDWrapper::computeB;
+};
+
+Answer decide(const Question& q) {
+  double t = 0, r = 0, s = 0;  // the code uses the weights r and s even if nobody needs them
+  const auto test =
+      q.kind == NEARMISS_VERTEX_TRIANGLE ? SafeCCDWrapper::VertexTriangleCCD : SafeCCDWrapper::EdgeEdgeCCD;
+  const bool collides =
+      test(q.start(0), q.end(0), q.start(1), q.end(1), q.start(2), q.end(2), q.start(3), q.end(3), t, &r, &s);
+  return Answer::of(collides, t);
+}
+
+/// 41 B ε^¼ with ε^¼ = 2^-13: the paper's claim, and half of `gap` in the code. The code says that `gap` is
+/// twice the largest distance of a false positive.
+double distance_bound(void* /*state*/, int kind, const double* x) {
+  const Question q{kind, x, 0};
+  return 41 * 0x1p-13 *
+         Wrapper::computeB(q.start(0), q.end(0), q.start(1), q.end(1), q.start(2), q.end(2), q.start(3),
+                           q.end(3));
+}
+
+}  // namespace
+
+// Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or vanish.
+// If all coordinates are multiples of about 1e-50, B is at least 1e-50, too, unless all points of the pair
+// coincide at all times.
+NEARMISS_SUBJECT(detector("safeccd", "1.0",
+                          "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B")
+                     .vertex_triangle(decide)
+                     .edge_edge(decide)
+                     .set(&nearmiss_subject::time_sort, NEARMISS_TIME_ESTIMATE)
+                     .set(&nearmiss_subject::distance_bound, distance_bound)
+                     .set(&nearmiss_contract::apart_at_start, 1)
+                     .set(&nearmiss_contract::longest, 1e50)
+                     .set(&nearmiss_contract::grid, 0x1p-166))

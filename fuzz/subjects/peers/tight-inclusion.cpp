@@ -1,0 +1,50 @@
+// Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene and Panozzo, "A large-scale benchmark and an
+// inclusion-based algorithm for continuous collision detection", 2021).
+// From github.com/Continuous-Collision-Detection/Tight-Inclusion, ca9a8c24. Licence: MIT.
+// Question: contact, or a separation; the time is a lower bound; unknown if the iterations run out.
+// Contract: none. $TIGHT_INCLUSION is where it is installed:
+//
+//   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/tight-inclusion.cpp --
+//       -I$TIGHT_INCLUSION/include $TIGHT_INCLUSION/lib/libtight_inclusion.a
+#include <tight_inclusion/ccd.hpp>
+
+#include "ccd/nearmiss_functions.hpp"
+
+namespace {
+
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
+
+struct Settings {
+  double tolerance = ticcd::DEFAULT_CCD_DISTANCE_TOL;
+  double iterations = 1e6;  // as in the authors' benchmark; -1: no limit
+};
+
+constexpr std::array<nearmiss::Option<Settings>, 2> settings{
+    {{"tolerance", &Settings::tolerance, 1e-300, 1e300}, {"iterations", &Settings::iterations, -1, 1e15}}};
+
+Answer decide(const Settings& set, const Question& q) {
+  const ticcd::Array3 of_query =
+      ticcd::Array3::Constant(-1);  // rounding errors bounded for the query, not for a scene
+  double toi = 0, reached = 0;
+  const auto test = q.kind == NEARMISS_VERTEX_TRIANGLE ? ticcd::vertexFaceCCD : ticcd::edgeEdgeCCD;
+  const bool collides = with_vertices(q, [&](const auto&... v) {
+    return test(v..., of_query, q.separation, toi, set.tolerance, 1, static_cast<long>(set.iterations),
+                reached, ticcd::DEFAULT_NO_ZERO_TOI, ticcd::CCDRootFindingMethod::BREADTH_FIRST_SEARCH);
+  });
+  // It ran out of iterations before the tolerance was reached, and says `true` without knowing.
+  if (collides && reached > set.tolerance) return {NEARMISS_UNKNOWN, toi};
+  return Answer::of(collides, toi);
+}
+
+}  // namespace
+
+NEARMISS_SUBJECT(detector("tight-inclusion", "ca9a8c24",
+                          "Tight-Inclusion, conservative; options tolerance=1e-6, iterations=1e6 (-1: no "
+                          "limit; unknown if they "
+                          "run out)")
+                     .options<settings>()
+                     .vertex_triangle(decide)
+                     .edge_edge(decide)
+                     .set(&nearmiss_subject::time_sort, NEARMISS_TIME_LOWER_BOUND)
+                     .set(&nearmiss_subject::takes_separation, 1))

@@ -1,0 +1,155 @@
+#!/usr/bin/env bash
+# Compiles plug-ins with tools/subject from a library that stands for what a user has (tests/plugin/foreign.hpp),
+# three lines for each signature that ccd/nearmiss_functions.hpp knows, and asks each of them.
+# Usage: subject_test.sh NEARMISS
+set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
+nearmiss=$(realpath "${arguments[0]}")
+root=$(realpath "$(dirname "$script")/../..")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+failures=0
+fail() { echo "failed: $1"; ((++failures)); }
+
+# The library as its user has it: compiled, with files for pkg-config and CMake.
+mkdir -p lib/cmake/foreign
+eigen=$(pkg-config --variable=includedir eigen3)/eigen3
+[[ -d $eigen ]] || eigen=/usr/include/eigen3
+c++ -std=c++17 -O2 -fPIC -I "$eigen" -c "$root/tests/plugin/foreign.cpp" -o foreign.o
+ar rcs lib/libforeign.a foreign.o
+printf '%s\n' 'Name: foreign' 'Description: a CCD' 'Version: 1' "Cflags: -I$root/tests/plugin -I$eigen" \
+  "Libs: -L$folder/lib -lforeign" >lib/foreign.pc
+printf '%s\n' 'add_library(foreign::foreign STATIC IMPORTED)' 'set_target_properties(foreign::foreign PROPERTIES' \
+  "  IMPORTED_LOCATION $folder/lib/libforeign.a INTERFACE_INCLUDE_DIRECTORIES \"$root/tests/plugin;$eigen\")" \
+  >lib/cmake/foreign/foreignConfig.cmake
+export PKG_CONFIG_PATH=$folder/lib CMAKE_PREFIX_PATH=$folder
+by_flags=(-- -I"$root/tests/plugin" -isystem "$eigen" lib/libforeign.a)
+
+# adapter NAME MEMBERS: writes NAME.cpp, three lines.
+adapter() { printf '%s\n' '#include "foreign.hpp"' '#include "ccd/nearmiss_functions.hpp"' "NEARMISS_SUBJECT(detector(\"$1\")$2)" >"$1.cpp"; }
+# compile NAME OPTIONS...: compiles it, and expects the plug-in's path.
+compile() {
+  local name=$1 said
+  shift
+  said=$("$root/tools/subject" "${@/ADAPTER/$name.cpp}" 2>&1) || { fail "$name: $said"; return; }
+  [[ $said == "./$name.so" && -s $name.so && ! -e $name.log ]] || fail "$name: expected ./$name.so, found '$said'"
+}
+# refused WHAT OPTIONS...: expects one line that contains WHAT, and no plug-in.
+refused() {
+  local code=0 said
+  said=$("$root/tools/subject" "${@:2}" 2>&1) || code=$?
+  [[ $code == 2 && $said != *$'\n'* && $said == *"$1"* ]] || fail "${*:2}: expected '$1', found exit code $code, '$said'"
+}
+# is NAME TEXT: what `nearmiss subjects` says.
+is() { "$nearmiss" subjects "./$1.so" >said || true; grep -qF -- "$2" said || fail "$1: expected '$2', found $(cat said)"; }
+# answers SUBJECT KIND EXPECTED QUERY [OPTION...]: asks one query.
+answers() {
+  local said
+  said=$("$nearmiss" verdict --kind "$2" --subject "$1" "${@:5}" <<<"$4" 2>&1) || said="exit code $?: $said"
+  [[ $said =~ ^$3 ]] || fail "$1 $2 ${*:5}: expected $3, found '$said'"
+}
+# judged SUBJECT OPTION...: a campaign finds no miss, no late time and no other fault.
+judged() { "$nearmiss" fuzz --subject "$1" --cases 3000 "${@:2}" >said 2>&1 || fail "$*: $(cat said)"; }
+
+vt_hit='0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0'
+vt_miss='0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0.25  0 0 0  1 0 0  0 1 0'
+ee_hit='-1 0 1  1 0 1  0 -1 0  0 1 0   -1 0 -1  1 0 -1  0 -1 0  0 1 0'
+ee_miss='-1 0 2  1 0 2  0 -1 0  0 1 0   -1 0 0.25  1 0 0.25  0 -1 0  0 1 0'
+vv_hit='0 0 1  0 0 0   0 0 -1  0 0 0' vv_miss='0 0 2  0 0 0   0 0 0.25  0 0 0'
+ve_hit='0 0 1  -1 0 0  1 0 0   0 0 -1  -1 0 0  1 0 0' ve_miss='0 0 2  -1 0 0  1 0 0   0 0 0.25  -1 0 0  1 0 0'
+half='1 unspecified 0x1\.fffffff.*p-2' # 1/2, less than 1e-6 of it
+
+# ipc-toolkit's: members with default arguments, for all kinds.
+narrow=NEARMISS_CALL\(foreign::ipc::Narrow
+adapter ipc ".vertex_triangle($narrow().point_triangle_ccd)).edge_edge($narrow().edge_edge_ccd))
+  .vertex_edge($narrow().point_edge_ccd)).vertex_vertex($narrow().point_point_ccd))"
+compile ipc --pkg-config foreign ADAPTER
+is ipc 'vt and ee and vv and ve; 53 bits; a lower bound of the time; takes a separation; batches of 1'
+# Codim-IPC's, with displacements.
+adapter accd '.vertex_triangle(foreign::accd::Point_Triangle_CCD<double>).edge_edge(foreign::accd::Edge_Edge_CCD<double>)'
+compile accd --cmake 'foreign foreign::foreign' ADAPTER
+is accd 'vt and ee; 53 bits; a lower bound of the time; takes a separation; batches of 1'
+# CTCD's, with a contract, and with another sort of time than the signature says.
+adapter ctcd '.vertex_triangle(foreign::CTCD::vertexFaceCTCD).edge_edge(foreign::CTCD::edgeEdgeCTCD)'
+compile ctcd ADAPTER "${by_flags[@]}"
+is ctcd 'vt and ee; 53 bits; an estimate of the time; takes a separation; batches of 1'
+adapter contract '.edge_edge(foreign::CTCD::edgeEdgeCTCD).set(&nearmiss_contract::apart_at_start, 1)
+  .set(&nearmiss_subject::time_sort, NEARMISS_TIME_LOWER_BOUND).set(&nearmiss_subject::version, "7")'
+compile contract ADAPTER "${by_flags[@]}"
+is contract 'version 7; ee; 53 bits; a lower bound of the time; takes a separation; batches of 1'
+is contract 'presumes: the primitives are apart at t = 0'
+# El Topo's, overloaded, with indices.
+adapter eltopo '.vertex_triangle(NEARMISS_CALL(foreign::eltopo::point_triangle_collision))
+  .edge_edge(foreign::eltopo::segment_segment_collision)'
+compile eltopo ADAPTER "${by_flags[@]}"
+is eltopo 'vt and ee; 53 bits; no time; batches of 1'
+# The plainest ones, on pointers, arrays and floats; C++20 compiles them, too.
+adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(foreign::plain::edge_edge)
+  .vertex_vertex(foreign::plain::vertex_vertex).set(&nearmiss_subject::bits, 24)'
+compile plain ADAPTER "${by_flags[@]}" -std=c++20
+is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
+adapter timed '.edge_edge(foreign::plain::edge_edge)'
+compile timed ADAPTER "${by_flags[@]}"
+is timed 'ee; 53 bits; an estimate of the time; batches of 1'
+# Two detectors, one with an option and a separation for one of its kinds.
+cat >two.cpp <<'END'
+#include "foreign.hpp"
+#include "ccd/nearmiss_functions.hpp"
+using namespace nearmiss::plugin;
+struct Settings { double gap = 0; };
+constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"gap", &Settings::gap, 0, 1}}};
+Answer within_gap(const Settings& set, const Question& q) {
+  double toi = 0;
+  return Answer::of(with_vertices(q, [&](auto... v) { return foreign::CTCD::edgeEdgeCTCD(v..., set.gap, toi); }));
+}
+NEARMISS_SUBJECT(detector("gap").options<settings>().edge_edge(within_gap),
+                 detector("mixed").edge_edge(foreign::CTCD::edgeEdgeCTCD).vertex_vertex(foreign::plain::vertex_vertex))
+END
+compile two ADAPTER "${by_flags[@]}"
+is two 'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'
+answers ./two.so:gap:gap=0.5 ee 1 "$ee_miss"
+answers ./two.so:gap ee 0 "$ee_miss"
+answers ./two.so:gap:gap=2 ee "exit code 2: .*found 'gap=2', expected gap=NUMBER from 0 to 1, once" "$ee_miss"
+answers ./two.so:gap:gap=0:gap=1 ee "exit code 2: .*found 'gap=1', expected gap=NUMBER" "$ee_miss"
+answers ./ctcd.so:gap=1 ee "exit code 2: .*found the options 'gap=1', expected none" "$ee_miss"
+
+for each in ipc accd ctcd eltopo plain; do
+  timed=$half
+  case $each in eltopo | plain) timed=1 ;; esac
+  for kind in vt ee vv ve; do
+    [[ " $("$nearmiss" subjects ./$each.so) " == *[\ \;,]$kind[\ \;,]* ]] || continue
+    hit=${kind}_hit miss=${kind}_miss
+    answers ./$each.so $kind "$timed" "${!hit}"
+    answers ./$each.so $kind 0 "${!miss}"
+    case $each in ipc | accd | ctcd)  # from 2 to 0.25, it is 0.5 away at 6/7
+      answers ./$each.so $kind '1 unspecified 0x1\.b6db6db.*p-1' "${!miss}" --separation 0.5
+      answers ./$each.so $kind 0 "${!miss}" --separation 0.125 ;;
+    esac
+  done
+  judged ./$each.so
+done
+for each in ipc accd ctcd; do judged ./$each.so --separation drawn; done
+judged ./contract.so
+
+# One line says what is wrong.
+adapter forgotten '.vertex_triangle(foreign::forgotten)'
+refused 'the plug-in cannot be loaded: ' forgotten.cpp "${by_flags[@]}"
+[[ ! -e forgotten.so ]] || fail "forgotten.so is left"
+adapter unusual '.vertex_triangle([](int) { return true; })'
+refused 'unusual.cpp cannot be compiled: ' unusual.cpp "${by_flags[@]}"
+refused 'the function has none of the signatures that nearmiss_functions.hpp lists, see ./unusual.log' unusual.cpp "${by_flags[@]}"
+grep -q static_assert unusual.log || fail "unusual.log: found $(cat unusual.log)"
+adapter broken '.nothing()'
+refused 'has no member named' broken.cpp "${by_flags[@]}"
+refused "found no file 'none.cpp'" none.cpp
+refused "pkg-config: Package none was not found" --pkg-config none ipc.cpp
+refused "found no CMake package 'none'" --cmake 'none none::none' ipc.cpp
+refused 'CMake: Target "subject" links to: foreign::none but the target was not found.' --cmake 'foreign foreign::none' ipc.cpp
+refused "expected 'PACKAGE TARGET...'" --cmake none ipc.cpp
+refused "found 'x', expected -- before the compiler's flags" ipc.cpp x
+
+((failures == 0)) || exit 1
