@@ -53,7 +53,7 @@ answers() {
   [[ $said =~ ^$3 ]] || fail "$1 $2 ${*:5}: expected $3, found '$said'"
 }
 # judged SUBJECT OPTION...: a campaign finds no miss, no late time and no other fault.
-judged() { "$nearmiss" fuzz --subject "$1" --cases 3000 "${@:2}" >said 2>&1 || fail "$*: $(cat said)"; }
+judged() { "$nearmiss" fuzz --subject "$1" --cases 2000 "${@:2}" >said 2>&1 || fail "$*: $(cat said)"; }
 
 vt_hit='0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0'
 vt_miss='0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0.25  0 0 0  1 0 0  0 1 0'
