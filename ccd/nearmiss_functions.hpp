@@ -5,9 +5,9 @@
 //   #include "ccd/nearmiss_functions.hpp"
 //   NEARMISS_SUBJECT(detector("mine").vertex_triangle(point_triangle_ccd).edge_edge(edge_edge_ccd))
 //
-// The signature of each function is recognised. V stands for the vertices x0 x1 .. at t = 0, then at t = 1 (8
-// for a vertex and a triangle, and for two edges; 6 for a vertex and an edge; 4 for two vertices), X for those
-// at t = 0, D for their displacements, h for the separation:
+// The signature of each function is recognised. V stands for the vertices x0 x1 .. at t = 0, then at t = 1: 8
+// for a vertex and a triangle, and for two edges; 6 for a vertex and an edge; 4 for two vertices. X are those
+// at t = 0, D their displacements, and h is the separation:
 //
 //   signature                                          as in                gives times       takes h
 //   bool f(V, double& toi, double h, double tmax)      ipc-toolkit          lower bounds      yes
@@ -20,11 +20,10 @@
 //
 // Codim-IPC's functions get eta = 0.1, toi = 1, and displacements that are rounded; a separation stands for
 // their thickness. A vertex may be a const double*, any type of Eigen's if Eigen is included before this
-// header, or a type that is made from three numbers by T{x, y, z}. `int` may take the place of
-// `bool`.
+// header, or a type that is made from three numbers by T{x, y, z}. `int` may take the place of `bool`.
 //
-// NEARMISS_CALL(f) instead of f is for a function that is overloaded, has default arguments, or is a member, as
-// in NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() changes what the table says, and any other field of
+// A function that is overloaded, has default arguments or is a member is passed as NEARMISS_CALL(f), such as
+// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() changes what the table says, and any other field of
 // nearmiss_subject.h:
 //
 //   .set(&nearmiss_subject::time_sort, NEARMISS_NO_TIME).set(&nearmiss_contract::apart_at_start, 1)
@@ -242,7 +241,7 @@ struct Detector {
     return changed;
   }
 
-  /// Lets the user set these options, KEY=NUMBER. Every function then gets them first: f(const Settings&, ...).
+  /// Lets the user set these options, KEY=NUMBER. Every function then gets them first, as a const Settings&.
   template <const auto& settings>
   auto options() const {
     using Settings = decltype(owner_of(settings.data()));

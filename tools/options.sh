@@ -14,8 +14,8 @@ usage() { sed -n '2,/^[^#]/ { /^#SBATCH/d; /^# shellcheck/d; s/^# \{0,1\}//p }' 
 # options SPECIFICATION ARGUMENTS...: reads the arguments of the script.
 # The specification lists the options: 'time= first o=' stands for --time VALUE (or --time=VALUE), the flag
 # --first, and -o VALUE. A value goes to the variable with the option's name, in which - is replaced by _; a
-# flag's variable becomes true. Other arguments go to the array `arguments`. With * in the specification, so do
-# unknown options. The array also gets a -- and every argument after it. -h and --help print the usage. An
+# flag's variable becomes true. Other arguments go to the array `arguments`. With * in the specification, so
+# do unknown options. The array also gets a -- and every argument after it. -h and --help print the usage. An
 # unknown option or a missing value is refused.
 options() {
   local specification=" $1 " name

@@ -14,11 +14,14 @@ cd "$folder"
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
 gcc -shared -fPIC -I"$prefix/include/nearmiss" -o boxes.so "$here/../plugin/example.c"
+printf '%s\n' 'using V = const double*;' 'bool always(V, V, V, V, V, V, V, V) { return true; }' '#include "ccd/nearmiss_functions.hpp"' \
+  'NEARMISS_SUBJECT(detector("always").vertex_triangle(always).edge_edge(always))' >always.cpp
+g++ -std=c++17 -Wall -Wextra -Werror -shared -fPIC -I"$prefix/include/nearmiss" -o always.so always.cpp
 nearmiss=$prefix/bin/nearmiss
 code=0
-"$nearmiss" fuzz --subject wang,fcl,bullet,bullet-double,./boxes.so --cases 1000 --db a.db >said || code=$?
+"$nearmiss" fuzz --subject wang,fcl,bullet,bullet-double,./boxes.so,./always.so --cases 1000 --db a.db >said || code=$?
 ((code == 1)) || fail "fuzz: exit code $code: $(cat said)"  # FCL and Bullet miss collisions
-for each in ' ok  wang: no miss' ' ok  boxes: no miss' 'FAIL fcl: MISSED' 'FAIL bullet: MISSED' 'FAIL bullet-double: MISSED'; do
+for each in ' ok  wang: no miss' ' ok  boxes: no miss' ' ok  always: no miss' 'FAIL fcl: MISSED' 'FAIL bullet: MISSED' 'FAIL bullet-double: MISSED'; do
   grep -q "^$each" said || fail "expected '$each', found $(cat said)"
 done
 "$nearmiss" report a.db -o report >/dev/null || (($? == 1))
@@ -50,4 +53,4 @@ printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(user LANGUAGES C)'
 cmake -B build -DCMAKE_PREFIX_PATH="$prefix" >said || fail "$(cat said)"
 cmake --build build --target ask >said
 grep -q '^1\.' said || fail "CMake does not find the program: $(cat said)"
-echo "the installed program puts 5 CCDs on trial"
+echo "the installed program puts 6 CCDs on trial"

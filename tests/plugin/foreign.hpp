@@ -1,7 +1,7 @@
 // A library of somebody else, in miniature: a CCD with each of the signatures that ccd/nearmiss_functions.hpp
 // knows, and with several types of vectors. It compares the axis-aligned boxes of the two primitives, and
 // advances to the earliest time at which they may be as close as the separation. So it misses nothing, never
-// gives a time that is too late, and reports pairs that only their boxes bring together, or that take 100 steps.
+// gives a time that is too late, and also reports pairs of which only the boxes meet, or that take 100 steps.
 #pragma once
 
 #include <Eigen/Core>

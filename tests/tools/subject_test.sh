@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Compiles plug-ins with tools/subject from a library that stands for what a user has (tests/plugin/foreign.hpp),
-# three lines for each signature that ccd/nearmiss_functions.hpp knows, and asks each of them.
+# Compiles plug-ins with tools/subject from a library that stands for what a user has
+# (tests/plugin/foreign.hpp): three lines for each signature that ccd/nearmiss_functions.hpp knows. Asks each.
+# Then it checks that tools/subject says in one line why it cannot compile something.
 # Usage: subject_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -55,13 +56,18 @@ answers() {
 # judged SUBJECT OPTION...: a campaign finds no miss, no late time and no other fault.
 judged() { "$nearmiss" fuzz --subject "$1" --cases 2000 "${@:2}" >said 2>&1 || fail "$*: $(cat said)"; }
 
-vt_hit='0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0'
-vt_miss='0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0.25  0 0 0  1 0 0  0 1 0'
-ee_hit='-1 0 1  1 0 1  0 -1 0  0 1 0   -1 0 -1  1 0 -1  0 -1 0  0 1 0'
-ee_miss='-1 0 2  1 0 2  0 -1 0  0 1 0   -1 0 0.25  1 0 0.25  0 -1 0  0 1 0'
-vv_hit='0 0 1  0 0 0   0 0 -1  0 0 0' vv_miss='0 0 2  0 0 0   0 0 0.25  0 0 0'
-ve_hit='0 0 1  -1 0 0  1 0 0   0 0 -1  -1 0 0  1 0 0' ve_miss='0 0 2  -1 0 0  1 0 0   0 0 0.25  -1 0 0  1 0 0'
-half='1 unspecified 0x1\.fffffff.*p-2' # 1/2, less than 1e-6 of it
+declare -A hit=(
+  [vt]='0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0'
+  [ee]='-1 0 1  1 0 1  0 -1 0  0 1 0   -1 0 -1  1 0 -1  0 -1 0  0 1 0'
+  [vv]='0 0 1  0 0 0   0 0 -1  0 0 0'
+  [ve]='0 0 1  -1 0 0  1 0 0   0 0 -1  -1 0 0  1 0 0'
+) miss=(
+  [vt]='0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0.25  0 0 0  1 0 0  0 1 0'
+  [ee]='-1 0 2  1 0 2  0 -1 0  0 1 0   -1 0 0.25  1 0 0.25  0 -1 0  0 1 0'
+  [vv]='0 0 2  0 0 0   0 0 0.25  0 0 0'
+  [ve]='0 0 2  -1 0 0  1 0 0   0 0 0.25  -1 0 0  1 0 0'
+)
+half='1 unspecified 0x1\.fffffff.*p-2'  # 1/2, less a millionth of it
 
 # ipc-toolkit's: members with default arguments, for all kinds.
 narrow=NEARMISS_CALL\(foreign::ipc::Narrow
@@ -111,23 +117,22 @@ NEARMISS_SUBJECT(detector("gap").options<settings>().edge_edge(within_gap),
 END
 compile two ADAPTER "${by_flags[@]}"
 is two 'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'
-answers ./two.so:gap:gap=0.5 ee 1 "$ee_miss"
-answers ./two.so:gap ee 0 "$ee_miss"
-answers ./two.so:gap:gap=2 ee "exit code 2: .*found 'gap=2', expected gap=NUMBER from 0 to 1, once" "$ee_miss"
-answers ./two.so:gap:gap=0:gap=1 ee "exit code 2: .*found 'gap=1', expected gap=NUMBER" "$ee_miss"
-answers ./ctcd.so:gap=1 ee "exit code 2: .*found the options 'gap=1', expected none" "$ee_miss"
+answers ./two.so:gap:gap=0.5 ee 1 "${miss[ee]}"
+answers ./two.so:gap ee 0 "${miss[ee]}"
+answers ./two.so:gap:gap=2 ee "exit code 2: .*found 'gap=2', expected gap=NUMBER from 0 to 1, once" "${miss[ee]}"
+answers ./two.so:gap:gap=0:gap=1 ee "exit code 2: .*found 'gap=1', expected gap=NUMBER" "${miss[ee]}"
+answers ./ctcd.so:gap=1 ee "exit code 2: .*found the options 'gap=1', expected none" "${miss[ee]}"
 
 for each in ipc accd ctcd eltopo plain; do
   timed=$half
   case $each in eltopo | plain) timed=1 ;; esac
   for kind in vt ee vv ve; do
-    [[ " $("$nearmiss" subjects ./$each.so) " == *[\ \;,]$kind[\ \;,]* ]] || continue
-    hit=${kind}_hit miss=${kind}_miss
-    answers ./$each.so $kind "$timed" "${!hit}"
-    answers ./$each.so $kind 0 "${!miss}"
+    [[ " $("$nearmiss" subjects ./$each.so) " == *" $kind"[\ \;]* ]] || continue
+    answers ./$each.so $kind "$timed" "${hit[$kind]}"
+    answers ./$each.so $kind 0 "${miss[$kind]}"
     case $each in ipc | accd | ctcd)  # from 2 to 0.25, it is 0.5 away at 6/7
-      answers ./$each.so $kind '1 unspecified 0x1\.b6db6db.*p-1' "${!miss}" --separation 0.5
-      answers ./$each.so $kind 0 "${!miss}" --separation 0.125 ;;
+      answers ./$each.so $kind '1 unspecified 0x1\.b6db6db.*p-1' "${miss[$kind]}" --separation 0.5
+      answers ./$each.so $kind 0 "${miss[$kind]}" --separation 0.125 ;;
     esac
   done
   judged ./$each.so

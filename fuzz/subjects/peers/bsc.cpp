@@ -2,8 +2,8 @@
 // with Bernstein sign classification", 2014), over root parity's arithmetic.
 // From github.com/Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, 8db61b2c.
 // Licence: research, no fee (LICENSE.BSC.txt). Question: contact. Contract: none, but it throws an exception
-// for a cubic with an inflection point in the time step, which the authors say they do not handle exactly: such
-// a query has no answer.
+// for a cubic with an inflection point in the time step, which the authors say they do not handle exactly:
+// such a query has no answer.
 // $BSC is the repository, with its code compiled into libbsc.a (g++ needs -frounding-math for it):
 //
 //   tools/subject fuzz/subjects/peers/bsc.cpp -- -I$BSC $BSC/libbsc.a

@@ -1,7 +1,7 @@
 // FCL, the Flexible Collision Library: the continuous collision detection of its deformable meshes, with each
 // of its two solvers.
-// From Debian's libfcl-dev 0.7.0, with which it is built. Licence: BSD. Question: contact; the time is that of
-// the first root that its solver happens to find. Contract: none.
+// From Debian's libfcl-dev 0.7.0, with which it is built. Licence: BSD. Question: contact; the time is
+// that of the first root that its solver happens to find. Contract: none.
 //
 //   tools/subject --pkg-config fcl fuzz/subjects/peers/fcl.cpp
 #include <fcl/config.h>

@@ -43,9 +43,9 @@ double distance_bound(void* /*state*/, int kind, const double* x) {
 
 }  // namespace
 
-// Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or vanish.
-// If all coordinates are multiples of about 1e-50, B is at least 1e-50, too, unless all points of the pair
-// coincide at all times.
+// Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or
+// vanish. If all coordinates are multiples of about 1e-50, B is at least 1e-50, too, unless all points of the
+// pair coincide at all times.
 NEARMISS_SUBJECT(detector("safeccd", "1.0",
                           "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B")
                      .vertex_triangle(decide)
