@@ -18,6 +18,9 @@
 //   bool f(x0, x0 at t = 1, 0, x1, x1 at t = 1, 1, ..) El Topo              none              no
 //   Answer f(const Question&)                          everything else      none              no
 //
+// The compiler cannot tell whether a function wants its vertices in another order, such as the triangle first:
+// call such a function from one that takes a Question (fuzz/subjects/peers/ has examples).
+//
 // Codim-IPC's functions get eta = 0.1, toi = 1, and displacements that are rounded; a separation stands for
 // their thickness. A vertex may be a const double*, any type of Eigen's if Eigen is included before this
 // header, or a type that is made from three numbers by T{x, y, z}. `int` may take the place of `bool`.
@@ -33,6 +36,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
