@@ -18,7 +18,7 @@
 //   bool f(x0, x0 at t = 1, 0, x1, x1 at t = 1, 1, ..) El Topo              none              no
 //   Answer f(const Question&)                          everything else      none              no
 //
-// The compiler cannot tell whether a function wants its vertices in another order, such as the triangle first:
+// The compiler cannot tell that a function wants its vertices in another order, such as the triangle first:
 // call such a function from one that takes a Question (fuzz/subjects/peers/ has examples).
 //
 // Codim-IPC's functions get eta = 0.1, toi = 1, and displacements that are rounded; a separation stands for
@@ -50,12 +50,20 @@
 
 namespace nearmiss::plugin {
 
+/// Becomes only this type of numbers, because compilers differ in whether T{x, y, z} may round a double.
+template <class Number>
+struct Exactly {
+  template <class T, class = std::enable_if_t<std::is_same_v<T, Number>>>
+  operator T() const;  // NOLINT(google-explicit-constructor)
+};
+
+/// Whether a T is made from three of these numbers.
 template <class T, class Number, class = void>
 constexpr bool is_braced = false;
 template <class T, class Number>
-constexpr bool is_braced<
-    T, Number,
-    std::void_t<decltype(T{std::declval<Number>(), std::declval<Number>(), std::declval<Number>()})>> = true;
+constexpr bool
+    is_braced<T, Number, std::void_t<decltype(T{Exactly<Number>(), Exactly<Number>(), Exactly<Number>()})>> =
+        true;
 
 template <class T>
 constexpr bool is_eigen =
@@ -202,33 +210,41 @@ class Asked {
 template <class Settings>
 Settings owner_of(const Option<Settings>* /*option*/);
 
-struct Absent {};  ///< stands for the function of a kind that a detector does not decide
+/// The function that decides queries of a kind.
+template <class F, int its_kind>
+struct Part {
+  static constexpr int kind = its_kind;
+  F f;
+};
+
+struct NoOptions {};
 
 /// A detector, as its members describe it step by step.
-template <class State = Absent, class VertexTriangle = Absent, class EdgeEdge = Absent,
-          class VertexVertex = Absent, class VertexEdge = Absent>
+template <class Settings, class... Parts>
 struct Detector {
   nearmiss_subject subject;
-  VertexTriangle vt{};
-  EdgeEdge ee{};
-  VertexVertex vv{};
-  VertexEdge ve{};
+  std::tuple<Parts...> parts;
 
+  template <int kind, class F>
+  auto with(F f) const {
+    return Detector<Settings, Parts..., Part<F, kind>>{subject,
+                                                       std::tuple_cat(parts, std::tuple(Part<F, kind>{f}))};
+  }
   template <class F>
   auto vertex_triangle(F f) const {
-    return Detector<State, F, EdgeEdge, VertexVertex, VertexEdge>{subject, f, ee, vv, ve};
+    return with<NEARMISS_VERTEX_TRIANGLE>(f);
   }
   template <class F>
   auto edge_edge(F f) const {
-    return Detector<State, VertexTriangle, F, VertexVertex, VertexEdge>{subject, vt, f, vv, ve};
+    return with<NEARMISS_EDGE_EDGE>(f);
   }
   template <class F>
   auto vertex_vertex(F f) const {
-    return Detector<State, VertexTriangle, EdgeEdge, F, VertexEdge>{subject, vt, ee, f, ve};
+    return with<NEARMISS_VERTEX_VERTEX>(f);
   }
   template <class F>
   auto vertex_edge(F f) const {
-    return Detector<State, VertexTriangle, EdgeEdge, VertexVertex, F>{subject, vt, ee, vv, f};
+    return with<NEARMISS_VERTEX_EDGE>(f);
   }
 
   /// Sets a field of nearmiss_subject.h.
@@ -248,45 +264,43 @@ struct Detector {
   /// Lets the user set these options, KEY=NUMBER. Every function then gets them first, as a const Settings&.
   template <const auto& settings>
   auto options() const {
-    using Settings = decltype(owner_of(settings.data()));
-    Detector<Settings, VertexTriangle, EdgeEdge, VertexVertex, VertexEdge> changed{subject, vt, ee, vv, ve};
+    using State = decltype(owner_of(settings.data()));
+    Detector<State, Parts...> changed{subject, parts};
     changed.subject.open = [](const char* text, char* message, std::size_t size) -> void* {
-      auto state = std::make_unique<Settings>();
+      auto state = std::make_unique<State>();
       const std::string fault = set_options(settings, text, *state);
       if (fault.empty()) return state.release();
       std::snprintf(message, size, "%s", fault.c_str());
       return nullptr;
     };
-    changed.subject.close = [](void* state) { delete static_cast<Settings*>(state); };
+    changed.subject.close = [](void* state) { delete static_cast<State*>(state); };
     return changed;
   }
 
-  /// Calls act(kind, function, Asked) for each kind that the detector decides.
-  template <class Act>
-  void for_each_kind(const Act& act) const {
-    const auto apply = [&](auto kind, const auto& f) {
-      using F = std::decay_t<decltype(f)>;
-      if constexpr (!std::is_same_v<F, Absent>) act(kind(), f, Asked<F, Front, kind()>());
-    };
-    apply(std::integral_constant<int, NEARMISS_VERTEX_TRIANGLE>(), vt);
-    apply(std::integral_constant<int, NEARMISS_EDGE_EDGE>(), ee);
-    apply(std::integral_constant<int, NEARMISS_VERTEX_VERTEX>(), vv);
-    apply(std::integral_constant<int, NEARMISS_VERTEX_EDGE>(), ve);
-  }
-
-  using Front = std::conditional_t<std::is_same_v<State, Absent>, std::tuple<>, std::tuple<const State&>>;
+  using Front =
+      std::conditional_t<std::is_same_v<Settings, NoOptions>, std::tuple<>, std::tuple<const Settings&>>;
   static Front front(const void* state) {
-    if constexpr (std::is_same_v<State, Absent>)
+    if constexpr (std::is_same_v<Settings, NoOptions>)
       return {};
     else
-      return {*static_cast<const State*>(state)};
+      return {*static_cast<const Settings*>(state)};
+  }
+
+  /// Calls act(part, Asked) for each kind that the detector decides.
+  template <class Act>
+  void for_each_kind(const Act& act) const {
+    std::apply([&](const auto&... part) { (act(part, asked(part)), ...); }, parts);
+  }
+  template <class F, int kind>
+  static Asked<F, Front, kind> asked(const Part<F, kind>& /*part*/) {
+    return {};
   }
 };
 
 constexpr int from_signatures = -1;  ///< of a field that nobody sets: what the functions' signatures say
 
 /// A detector that decides nothing yet. An adapter's name, version and a line about it are shown to users.
-inline Detector<> detector(const char* name, const char* version = "", const char* about = "") {
+inline Detector<NoOptions> detector(const char* name, const char* version = "", const char* about = "") {
   nearmiss_subject subject{};
   subject.interface_version = NEARMISS_INTERFACE;
   subject.name = name;
@@ -294,7 +308,7 @@ inline Detector<> detector(const char* name, const char* version = "", const cha
   subject.about = about;
   subject.time_sort = from_signatures;
   subject.takes_separation = from_signatures;
-  return {subject};
+  return {subject, {}};
 }
 
 /// The detector number i of `Described`, a type whose describe() returns a tuple of detectors.
@@ -309,10 +323,11 @@ template <class Described, std::size_t i>
 void decide_each(void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
                  double* toi) {
   const auto& detector = described<Described, i>();
-  detector.for_each_kind([&](int its_kind, const auto& f, auto asked) {
-    if (its_kind != kind) return;
+  detector.for_each_kind([&](const auto& part, auto asked) {
+    if (part.kind != kind) return;
     for (std::size_t k = 0; k < n; ++k) {
-      const Answer said = asked.ask(f, detector.front(state), {kind, x + 6 * vertices_of(kind) * k, h[k]});
+      const Answer said =
+          asked.ask(part.f, detector.front(state), {kind, x + 6 * vertices_of(kind) * k, h[k]});
       answer[k] = said.value;
       toi[k] = said.time;
     }
@@ -324,10 +339,10 @@ nearmiss_subject subject_of() {
   const auto& detector = described<Described, i>();
   nearmiss_subject subject = detector.subject;
   int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that a function gives
-  detector.for_each_kind([&](int kind, const auto& /*f*/, auto asked) {
-    subject.kinds += kind;
+  detector.for_each_kind([&](const auto& part, auto asked) {
+    subject.kinds |= part.kind;
     sort = std::min(sort, asked.time_sort);
-    with_separation += asked.takes_separation ? kind : 0;
+    with_separation |= asked.takes_separation ? part.kind : 0;
   });
   if (subject.time_sort == from_signatures) subject.time_sort = sort;
   if (subject.takes_separation == from_signatures) {
