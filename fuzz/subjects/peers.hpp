@@ -10,10 +10,9 @@ namespace nearmiss {
 
 /// A published CCD that has an adapter.
 struct Peer {
-  std::string_view name;    ///< of the subject
-  std::string_view object;  ///< its plug-in: the shared object peers/OBJECT.so beside the program
-  std::string_view
-      package;  ///< the Debian package that it is built with; "" if its user compiles its adapter
+  std::string_view name;     ///< of the subject
+  std::string_view object;   ///< its plug-in: the shared object peers/OBJECT.so beside the program
+  std::string_view package;  ///< the Debian package that it is built with; "" if users compile its adapter
 };
 
 /// All published CCDs that have an adapter, whether built or not.

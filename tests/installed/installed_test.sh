@@ -24,7 +24,7 @@ mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 30000 1 >"$folder/queries"
 
 # Headers of other packages with the same names must not be picked up.
-! grep -rE '#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
+! grep -rE '^ *#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
 ! grep -rlE '#include <(CGAL|boost|gmp)' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
 
 # check NAME COMPILER C-COMPILER FLAGS OPTION...: builds this folder's project, and runs its programs.
