@@ -1,16 +1,18 @@
-// ARCSim's CCD, collision_test() in src/collision.cpp (Narain, Samii and O'Brien, "Adaptive anisotropic remeshing
-// for cloth simulation", 2012, and later versions; zhou13/arcsim, 28960d2, for research without fee).
+// ARCSim's CCD, collision_test() in src/collision.cpp (Narain, Samii and O'Brien, "Adaptive anisotropic
+// remeshing for cloth simulation", 2012, and later versions; zhou13/arcsim, 28960d2, for research without
+// fee).
 //
-// It gets nodes, which have a position and the position before, as from find_face_impacts(). It solves the cubic
-// numerically, accepts a root at which the primitives are closer than 1e-6, and estimates the time.
+// It gets nodes, which have a position and the position before, as from find_face_impacts(). It solves the
+// cubic numerically, accepts a root at which the primitives are closer than 1e-6, and estimates the time.
 //
-// Contract: the primitives do not touch at the start. ARCSim starts each step from positions without collisions,
-// and collision_test() leaves out pairs that are nearly coplanar then ("initially coplanar").
+// Contract: the primitives do not touch at the start. ARCSim starts each step from positions without
+// collisions, and collision_test() leaves out pairs that are nearly coplanar then ("initially coplanar").
 //
 // Impact is a type of the source file, which is therefore included. Most of it is not needed:
 //
-//   tools/subject fuzz/subjects/peers/arcsim.cpp -- -std=c++14 -fopenmp -ffunction-sections -fvisibility=hidden
-//     -Wl,--gc-sections -I$ARCSIM/src -I$ARCSIM/dependencies/include -I/usr/include/eigen3 $ARCSIM/src/geometry.cpp
+//   tools/subject fuzz/subjects/peers/arcsim.cpp -- -std=c++17 -fopenmp -fvisibility=hidden
+//     -ffunction-sections -fdata-sections -Wl,--gc-sections -I$ARCSIM/src -I$ARCSIM/dependencies/include
+//     -I/usr/include/eigen3 $ARCSIM/src/geometry.cpp $ARCSIM/src/util.cpp $ARCSIM/src/mesh.cpp
 #include <collision.cpp>
 
 #include "fuzz/subjects/peers/adapter.hpp"

@@ -1,14 +1,14 @@
 // Additive CCD in the code of its authors, Library/Math/Distance/CCD.h of Codim-IPC (ipc-sim/Codim-IPC,
 // 9c6cbe3, Apache-2.0), from which other solvers have copied it.
 //
-// It is asked as Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h asks it: first whether the boxes of
-// the two motions come within the thickness, then with eta = 0.1 and a step size of 1, the largest allowed.
-// The time is taken as the step, and so a lower bound. It also decides two vertices, and a vertex and an edge.
-// The separation is its thickness. It gets displacements, which are rounded; the solver computes the ends from
-// them.
+// It is asked as Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h asks it: first whether the boxes
+// of the two motions come within the thickness, then with eta = 0.1 and a step size of 1, the largest
+// allowed. The time is taken as the step, and so a lower bound. It also decides two vertices, and a vertex
+// and an edge. The separation is its thickness. It gets displacements, which are rounded; the solver
+// computes the ends from them.
 //
-// Contract: the primitives are farther apart at the start than the thickness. The solver keeps that invariant,
-// and the code divides by the distance.
+// Contract: the primitives are farther apart at the start than the thickness. The solver keeps that
+// invariant, and the code divides by the distance.
 //
 // Option eta=0.1: the share of the distance that remains.
 //

@@ -1,17 +1,18 @@
-// CTCD, which asks whether primitives come within a thickness eta, with a numerical solver for polynomials of
-// degree up to 6 (evouga/collisiondetection, e5fe5c9, no licence stated; from "Asynchronous contact mechanics"
-// and other papers by Vouga and others).
+// CTCD, which asks whether primitives come within a thickness eta, with a numerical solver for polynomials
+// of degree up to 6 (evouga/collisiondetection, e5fe5c9, no licence stated; from "Asynchronous contact
+// mechanics" and other papers by Vouga and others).
 //
-// It is asked as its own narrow phase asks it (src/CTCDNarrowPhase.cpp): for a vertex and a triangle, also about
-// the vertex and each edge and corner; for two edges, also about each end and the other edge, and each two
-// ends. "WARNING: Does not work correctly if two edges are parallel at the time of intersection --
-// vertexEdgeCTCD should catch this case", says its header. The narrow phase uses no times, and none is passed on.
+// It is asked as its own narrow phase asks it (src/CTCDNarrowPhase.cpp): for a vertex and a triangle, also
+// about the vertex and each edge and corner; for two edges, also about each end and the other edge, and
+// each two ends. "WARNING: Does not work correctly if two edges are parallel at the time of intersection --
+// vertexEdgeCTCD should catch this case", says its header. The narrow phase uses no times, and none is
+// passed on.
 //
-// Contract: at the start, the primitives are farther apart than eta. Its velocity filter refuses a start that
-// is closer (STARTING_STATE_INTERSECTS in VelocityFilter.h).
+// Contract: at the start, the primitives are farther apart than eta. Its velocity filter refuses a start
+// that is closer (STARTING_STATE_INTERSECTS in VelocityFilter.h).
 //
-// The separation is eta. Option eta=1e-8: what stands for contact, as in its example/AlecTest.cpp; an eta of 0
-// finds no collision.
+// The separation is eta. Option eta=1e-6: what stands for contact, as in its example/testCTCD.cpp; an eta
+// of 0 finds no collision.
 //
 //   tools/subject fuzz/subjects/peers/ctcd.cpp -- -I$CTCD/include -I/usr/include/eigen3 $CTCD/src/CTCD.cpp
 #include <CTCD.h>
@@ -21,7 +22,7 @@
 namespace nearmiss::peers {
 namespace {
 
-constexpr double contact = 1e-8;
+constexpr double contact = 1e-6;
 
 struct Settings {
   double eta = contact;
@@ -71,7 +72,7 @@ nearmiss_subject subject() {
   subject.name = "ctcd";
   subject.version = "e5fe5c9";
   subject.about =
-      "CTCD with vertices and edges, as its narrow phase asks it; option eta=1e-8 stands for contact";
+      "CTCD with vertices and edges, as its narrow phase asks it; option eta=1e-6 stands for contact";
   subject.kinds =
       NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE + NEARMISS_VERTEX_VERTEX + NEARMISS_VERTEX_EDGE;
   subject.takes_separation = 1;

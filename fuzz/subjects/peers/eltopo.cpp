@@ -1,14 +1,14 @@
-// El Topo's CCD, common/ccd_wrapper.h (tysonbrochu/eltopo, 5579391, BSD-2-Clause), in one of its two versions:
-// `eltopo` solves the cubic numerically, which is its default; `eltopo-root-parity` uses the authors' root
-// parity (with USE_ROOT_PARITY_CCD in common/ccd_defs.h).
+// El Topo's CCD, common/ccd_wrapper.h (tysonbrochu/eltopo, 5579391, BSD-2-Clause), in one of its two
+// versions: `eltopo` solves the cubic numerically, which is its default; `eltopo-root-parity` uses the
+// authors' root parity (with USE_ROOT_PARITY_CCD in common/ccd_defs.h).
 //
-// It is asked as eltopo3d/collisionpipeline.cpp asks it, with indices in ascending order and the function that
-// also finds the place of contact. No time leaves it.
+// It is asked as eltopo3d/collisionpipeline.cpp asks it, with indices in ascending order and the function
+// that also finds the place of contact. No time leaves it.
 //
 // Contract: the primitives do not touch at the start, because El Topo starts from a surface without
-// intersections and keeps it so. Root parity says whether the number of contacts is odd, and so is judged on
-// queries whose F has one root at most. Its rays are random; every query starts from the same seed, because an
-// answer must depend only on the query.
+// intersections and keeps it so. Root parity says whether the number of contacts is odd, and so is judged
+// on queries whose F has one root at most. Its rays are random; every query starts from the same seed,
+// because an answer must depend only on the query.
 //
 // Its headers are not C++20:
 //

@@ -1,20 +1,20 @@
 // GIPC's additive CCD, GPU_IPC/ACCD.cu (KemengHuang/GPU_IPC, 46594e0, MPL-2.0). It is CUDA code, and is
 // compiled for the host here.
 //
-// It is asked as _reduct_min_selfTimeStep_to_double() in GIPC.cu asks it, with an eta of 1 - 0.8 and thickness 0.
-// It answers how far the step may go; less than 1 counts as a collision not before that time. After 50,000
-// iterations, it takes the time that it has reached, still a lower bound. It gets displacements, which are
-// rounded; the solver computes the ends from them.
+// It is asked as _reduct_min_selfTimeStep_to_double() in GIPC.cu asks it, with an eta of 1 - 0.8 and
+// thickness 0. It answers how far the step may go; less than 1 counts as a collision not before that time.
+// After 50,000 iterations, it takes the time that it has reached, still a lower bound. It gets
+// displacements, which are rounded; the solver computes the ends from them.
 //
-// Contract: the primitives do not touch at the start. The solver keeps that invariant, and the code divides by
-// the distance.
+// Contract: the primitives do not touch at the start. The solver keeps that invariant, and the code divides
+// by the distance.
 //
 // Option eta=0.2: the share of the distance that remains.
 //
 // It needs the headers of CUDA, but no GPU:
 //
-//   tools/subject fuzz/subjects/peers/gipc.cpp -- -I$GPU_IPC/GPU_IPC -I/usr/local/cuda/include -I/usr/include/eigen3
-//     -x c++ $GPU_IPC/GPU_IPC/ACCD.cu $GPU_IPC/GPU_IPC/gpu_eigen_libs.cu
+//   tools/subject fuzz/subjects/peers/gipc.cpp -- -I$GPU_IPC/GPU_IPC -I/usr/local/cuda/include
+//     -I/usr/include/eigen3 -x c++ $GPU_IPC/GPU_IPC/ACCD.cu $GPU_IPC/GPU_IPC/gpu_eigen_libs.cu
 #include <ACCD.cuh>
 
 #include "fuzz/subjects/peers/adapter.hpp"

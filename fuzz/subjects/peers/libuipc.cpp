@@ -1,23 +1,23 @@
-// libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h (spiriMirror/libuipc, 619a5412, Apache-2.0).
-// It is CUDA code for the host as well, and is compiled for the host here.
+// libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h (spiriMirror/libuipc, 619a5412,
+// Apache-2.0). It is CUDA code for the host as well, and is compiled for the host here.
 //
 // It is asked as the filters in src/backends/cuda/collision_detection/filters ask it
 // (lbvh_simplex_trajectory_filter.cu: filter_toi): first whether the boxes of the two motions come within
-// d_hat + thickness, then with eta = 0.1, at most 1000 iterations, and 1.1 as the time that stands for "none".
-// It also reports contact after the step, up to t = 1.1: such a time does not shorten the step, and counts as
-// no collision. If the iterations run out, it takes the time that it has reached for a collision, which is
-// still a lower bound. The separation is its thickness. It gets displacements, which are rounded. It also decides
-// two vertices, and a vertex and an edge.
+// d_hat + thickness, then with eta = 0.1, at most 1000 iterations, and 1.1 as the time that stands for
+// "none". It also reports contact after the step, up to t = 1.1: such a time does not shorten the step, and
+// counts as no collision. If the iterations run out, it takes the time that it has reached for a collision,
+// which is still a lower bound. The separation is its thickness. It gets displacements, which are rounded.
+// It also decides two vertices, and a vertex and an edge.
 //
-// Contract: the primitives are farther apart at the start than the thickness. The solver keeps that invariant,
-// and the code divides by the distance.
+// Contract: the primitives are farther apart at the start than the thickness. The solver keeps that
+// invariant, and the code divides by the distance.
 //
 // Option d-hat=0.01: its default for contact (the boxes' margin).
 //
 // It needs muda (MuGdxy/muda), and the headers of CUDA, but no GPU:
 //
-//   tools/subject fuzz/subjects/peers/libuipc.cpp -- -std=c++20 -I$LIBUIPC/src/backends/cuda -I$LIBUIPC/include
-//     -I$MUDA/src -I/usr/local/cuda/include -I/usr/local/cuda/include/cccl -I/usr/include/eigen3
+//   tools/subject fuzz/subjects/peers/libuipc.cpp -- -std=c++20 -I$LIBUIPC/src/backends/cuda
+//     -I$LIBUIPC/include -I$MUDA/src -I/usr/local/cuda/include -I/usr/local/cuda/include/cccl -I/usr/include/eigen3
 #include <Eigen/Dense>
 #include <algorithm>
 

@@ -1,18 +1,19 @@
-// MuJoCo's conservative advancement of deformables, mjc_advance() in src/engine/engine_collision_continuous.c
-// (google-deepmind/mujoco, a7255075b, Apache-2.0).
+// MuJoCo's conservative advancement of deformables, mjc_advance() in
+// src/engine/engine_collision_continuous.c (google-deepmind/mujoco, a7255075b, Apache-2.0).
 //
-// It gets one pair of a flex vertex and a flex triangle, or of two flex edges, whose vertices are all free, as
-// in its own test. It answers how far the step may go: alpha = 1, the whole step, or less, so far that no gap
-// shrinks by more than 80 %. Its promise is that the advanced configuration has no intersection. Therefore
-// alpha = 1 counts as "no collision", and alpha < 1 as a collision not before alpha. A false positive says
-// only that the gap shrinks by 80 %.
+// It gets one pair of a flex vertex and a flex triangle, or of two flex edges, whose vertices are all free,
+// as in its own test. It answers how far the step may go: alpha = 1, the whole step, or less, so far that
+// no gap shrinks by more than 80 %. Its promise is that the advanced configuration has no intersection.
+// Therefore alpha = 1 counts as "no collision", and alpha < 1 as a collision not before alpha. A false
+// positive says only that the gap shrinks by 80 %.
 //
 // Contract: the primitives do not touch at the start. mjc_advance() leaves out pairs whose gap is 0 ("the
 // contact solver owns it"); its header promises a positive gap at rest.
 //
 // Option same-flex=1: both primitives belong to one flex, and their mean motion does not count.
 //
-//   tools/subject fuzz/subjects/peers/mujoco.cpp -- -I$MUJOCO/include -I$MUJOCO/src -L$MUJOCO_BUILD/lib -lmujoco
+//   tools/subject fuzz/subjects/peers/mujoco.cpp -- -I$MUJOCO/include -I$MUJOCO/src
+//     -L$MUJOCO_BUILD/lib -lmujoco
 #include <engine/engine_collision_continuous.h>
 
 #include "fuzz/subjects/peers/adapter.hpp"

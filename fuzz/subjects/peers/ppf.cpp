@@ -1,18 +1,23 @@
 // The additive CCD of ZOZO's contact solver, src/cpp/contact/accd.hpp (st-tech/ppf-contact-solver, f23b356,
 // Apache-2.0). It is CUDA code in single precision, and is compiled for the host here.
 //
-// It is asked as contact.cu asks it. The time step is extended to t = 1.25 (line-search-max-t): a time below
-// 1.25 is a collision, which cuts the step to 0.8 of that time (line_search() divides by 1.25). This is the time
-// passed on, as a lower bound, and contact between t = 1 and t = 1.25 is a collision, too: such a false positive
-// is by design. So is one farther from contact: pairs are parked at a hundredth of the contact gap. The
-// separation is its contact offset. It also decides two vertices, and a vertex and an edge.
+// It is asked as contact.cu asks it. The time step is extended to t = 1.25 (line-search-max-t): a time
+// below 1.25 is a collision, which cuts the step to 0.8 of that time (line_search() divides by 1.25). This
+// is the time passed on, as a lower bound, and contact between t = 1 and t = 1.25 is a collision, too: such
+// a false positive is by design. So is one farther from contact: pairs are parked at a hundredth of the
+// contact gap. The separation is its contact offset. It also decides two vertices, and a vertex and an
+// edge.
 //
-// Contract: the primitives are farther apart at the start than the separation. Otherwise the solver stops with
-// the error OverlappingStart.
+// Contract: at the start, the primitives are farther apart than the separation, and than 5e-6. Otherwise
+// the solver stops with the error OverlappingStart, and accd.hpp argues that it keeps a clearance of half
+// the distance at which it parks, 5e-6 with the default gap. No edge or path is longer than 10, because the
+// argument's margin for rounding is given for "a scene of radius 10". (A separation would need the 5e-6 on
+// top, which a contract cannot say.)
 //
 // Options gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25 (line-search-max-t): its own defaults.
 //
-//   tools/subject fuzz/subjects/peers/ppf.cpp -- -I$PPF/crates/ppf-cts-solver/src/cpp -I/usr/local/cuda/include
+//   tools/subject fuzz/subjects/peers/ppf.cpp -- -I$PPF/crates/ppf-cts-solver/src/cpp
+//     -I/usr/local/cuda/include
 #include <algorithm>
 #include <cmath>
 
@@ -95,6 +100,8 @@ nearmiss_subject subject() {
   subject.time_sort = NEARMISS_TIME_LOWER_BOUND;
   subject.takes_separation = 1;
   subject.contract.apart_at_start = 1;
+  subject.contract.apart_by = 5e-6;
+  subject.contract.longest = 10;
   subject.decide = decide;
   take_options<Settings, options>(subject);
   return subject;
