@@ -1,11 +1,13 @@
 // Two of ipc-toolkit's CCDs, as its candidates ask them (src/ipc/candidates/: the whole step, tmax = 1)
 // (ipc-sim/ipc-toolkit, b40e9c07, MIT):
 //
-//   ipc-tight-inclusion  TightInclusionCCD, its default: Tight-Inclusion with a minimum distance of min(0.2 d0, 1e-4), where d0 is the distance at the start less the separation. If
+//   ipc-tight-inclusion  TightInclusionCCD, its default: Tight-Inclusion with a minimum distance of
+//                        min(0.2 d0, 1e-4), where d0 is the distance at the start less the separation. If
 //                        the time is below 1e-6, it asks again with the separation, never answers time 0,
 //                        and takes 0.8 of the time.
-//   ipc-inexact          InexactCCD, the original method of IPC, off by default: CTCD
-//                        (evouga/collisiondetection, e5fe5c9) with a minimum distance of 0.2 d0, and the same second attempt.
+//   ipc-inexact          InexactCCD, the original method of IPC, off by default: CTCD (e5fe5c9 of
+//                        evouga/collisiondetection) with a minimum distance of 0.2 d0, and the same second
+//                        attempt.
 //
 // Both also decide two vertices, and a vertex and an edge. They answer whether the primitives come within
 // the separation, and lower bounds of the time. A collision that was only a near miss is a false positive

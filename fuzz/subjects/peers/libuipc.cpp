@@ -17,7 +17,8 @@
 // It needs muda (MuGdxy/muda), and the headers of CUDA, but no GPU:
 //
 //   tools/subject fuzz/subjects/peers/libuipc.cpp -- -std=c++20 -I$LIBUIPC/src/backends/cuda
-//     -I$LIBUIPC/include -I$MUDA/src -I/usr/local/cuda/include -I/usr/local/cuda/include/cccl -I/usr/include/eigen3
+//     -I$LIBUIPC/include -I$MUDA/src -I/usr/local/cuda/include -I/usr/local/cuda/include/cccl
+//     -I/usr/include/eigen3
 #include <Eigen/Dense>
 #include <algorithm>
 
