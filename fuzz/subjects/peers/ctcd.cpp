@@ -11,11 +11,13 @@
 // Contract: at the start, the primitives are farther apart than eta. Its velocity filter refuses a start
 // that is closer (STARTING_STATE_INTERSECTS in VelocityFilter.h).
 //
-// The separation is eta. Option eta=1e-6: what stands for contact, as in its example/testCTCD.cpp; an eta
-// of 0 finds no collision.
+// The separation is eta, but at least 1e-6, which stands for contact, as in its example/testCTCD.cpp: an eta
+// of 0 finds no collision. Option eta=1e-6.
 //
 //   tools/subject fuzz/subjects/peers/ctcd.cpp -- -I$CTCD/include -I/usr/include/eigen3 $CTCD/src/CTCD.cpp
 #include <CTCD.h>
+
+#include <algorithm>
 
 #include "fuzz/subjects/peers/adapter.hpp"
 
@@ -63,7 +65,7 @@ void decide(void* state, int kind, std::size_t n, const double* x, const double*
             double* /*toi*/) {
   const std::size_t row = kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;
   const double eta = static_cast<const Settings*>(state)->eta;
-  for (std::size_t i = 0; i < n; ++i) answer[i] = ask(h[i] > 0 ? h[i] : eta, kind, x + row * i).value;
+  for (std::size_t i = 0; i < n; ++i) answer[i] = ask(std::max(h[i], eta), kind, x + row * i).value;
 }
 
 nearmiss_subject subject() {
@@ -72,7 +74,7 @@ nearmiss_subject subject() {
   subject.name = "ctcd";
   subject.version = "e5fe5c9";
   subject.about =
-      "CTCD with vertices and edges, as its narrow phase asks it; option eta=1e-6 stands for contact";
+      "CTCD with vertices and edges, as its narrow phase asks it; eta is at least the option eta=1e-6";
   subject.kinds =
       NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE + NEARMISS_VERTEX_VERTEX + NEARMISS_VERTEX_EDGE;
   subject.takes_separation = 1;

@@ -1,5 +1,6 @@
 // GIPC's additive CCD, GPU_IPC/ACCD.cu (KemengHuang/GPU_IPC, 46594e0, MPL-2.0). It is CUDA code, and is
-// compiled for the host here.
+// compiled for the host here. On a GPU, the compiler fuses multiplications with additions, so that the last
+// bits may differ.
 //
 // It is asked as _reduct_min_selfTimeStep_to_double() in GIPC.cu asks it, with an eta of 1 - 0.8 and
 // thickness 0. It answers how far the step may go; less than 1 counts as a collision not before that time.

@@ -10,15 +10,15 @@
 //                        attempt.
 //
 // Both also decide two vertices, and a vertex and an edge. They answer whether the primitives come within
-// the separation, and lower bounds of the time. A collision that was only a near miss is a false positive
-// by design: the minimum distance makes room for the barrier.
+// the separation, and give lower bounds of the time. A near miss may count as a collision, because the
+// minimum distance makes room for the barrier: such a false positive is by design.
 //
 // Contract: none. Primitives that touch at the start collide at time 0 (check_initial_distance.hpp).
 //
 //   tools/subject fuzz/subjects/peers/ipc-toolkit.cpp -- -I$IPC/src -I$IPC_BUILD/include
 //     -I/usr/include/eigen3 -L$IPC_BUILD -lipc_toolkit -ltight_inclusion -lspdlog -lfmt
 //
-// with IPC_TOOLKIT_WITH_INEXACT_CCD for both, and -levouga_ccd_lib; without it, for the first.
+// with IPC_TOOLKIT_WITH_INEXACT_CCD for both, and -levouga_ccd; without it, for the first.
 #include <ipc/ccd/inexact_ccd.hpp>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 

@@ -1,5 +1,6 @@
 // libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h (spiriMirror/libuipc, 619a5412,
-// Apache-2.0). It is CUDA code for the host as well, and is compiled for the host here.
+// Apache-2.0). It is CUDA code for the host as well, and is compiled for the host here. On a GPU, the
+// compiler fuses multiplications with additions, so that the last bits may differ.
 //
 // It is asked as the filters in src/backends/cuda/collision_detection/filters ask it
 // (lbvh_simplex_trajectory_filter.cu: filter_toi): first whether the boxes of the two motions come within

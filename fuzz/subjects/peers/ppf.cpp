@@ -1,5 +1,6 @@
 // The additive CCD of ZOZO's contact solver, src/cpp/contact/accd.hpp (st-tech/ppf-contact-solver, f23b356,
-// Apache-2.0). It is CUDA code in single precision, and is compiled for the host here.
+// Apache-2.0). It is CUDA code in single precision, and is compiled for the host here. On a GPU, the
+// compiler fuses multiplications with additions, so that the last bits may differ.
 //
 // It is asked as contact.cu asks it. The time step is extended to t = 1.25 (line-search-max-t): a time
 // below 1.25 is a collision, which cuts the step to 0.8 of that time (line_search() divides by 1.25). This
