@@ -1,6 +1,5 @@
-// CTCD, which asks whether primitives come within a thickness eta, with a numerical solver for polynomials
-// of degree up to 6 (evouga/collisiondetection, e5fe5c9, no licence stated; from "Asynchronous contact
-// mechanics" and other papers by Vouga and others).
+// CTCD, Etienne Vouga's library, which asks whether primitives come within a thickness eta, with a numerical
+// solver for polynomials of degree up to 6 (evouga/collisiondetection, e5fe5c9, no licence stated).
 //
 // It is asked as its own narrow phase asks it (src/CTCDNarrowPhase.cpp): for a vertex and a triangle, also
 // about the vertex and each edge and corner; for two edges, also about each end and the other edge, and
