@@ -28,16 +28,23 @@ struct Row {
   std::optional<RightRange> edge, distance;
 };
 
-/// The range of a factor for all kinds; nothing if they differ, or if there is none.
+bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
+
+/// The range of a factor for all kinds; nothing if they differ, or if there is none. Ranges of all values
+/// that a kind was asked about do not differ.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   for (const auto& [key, each] : ranges) {
     if (key.first != factor) continue;
-    if (all && all->exponents != each.exponents) return std::nullopt;
-    if (all)
-      all->elsewhere.merge(each.elsewhere);
-    else
+    if (!all) {
       all = each;
+    } else if (is_everywhere(*all) && is_everywhere(each)) {
+      all->exponents = {std::min(all->exponents->first, each.exponents->first),
+                        std::max(all->exponents->second, each.exponents->second)};
+    } else {
+      if (all->exponents != each.exponents) return std::nullopt;
+      all->elsewhere.merge(each.elsewhere);
+    }
   }
   return all;
 }

@@ -137,7 +137,7 @@ def _check_truth(comparison, where, found, truth):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that each false negative, late time and refuted bound is in one signature."""
+    """Checks that each false negative, late time, committed step and refuted bound is in one signature."""
     sums = Counter()
     for each in found:
         sums[each['what'], each['subject']] += each['seen']
@@ -146,6 +146,7 @@ def _check_signatures(comparison, where, found, answers):
         for failure, ends in (
             ('false-negative', [tally.false_negatives] * 2),
             ('late', [tally.times.late] * 2),
+            ('committed', [tally.times.committed] * 2),
             ('refuted-bound', tally.refuted()),
         ):
             own = sums.pop((failure, subject), 0)

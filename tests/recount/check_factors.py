@@ -85,7 +85,8 @@ def _sizes(answers, subject):
         own = [each for key, each in ranges.items() if key[0] == factor]
         if not own:
             continue
-        if len({exponents for exponents, _ in own}) > 1:
+        everywhere = all(exponents and not elsewhere.any() for exponents, elsewhere in own)
+        if len({exponents for exponents, _ in own}) > 1 and not everywhere:
             return [
                 {
                     'subject': subject,
@@ -95,7 +96,10 @@ def _sizes(answers, subject):
                 }
                 for kind in kinds
             ]
-        common[factor] = (own[0][0], np.sum([elsewhere for _, elsewhere in own], axis=0))
+        exponents = own[0][0]
+        if everywhere:
+            exponents = (min(ends[0] for ends, _ in own), max(ends[1] for ends, _ in own))
+        common[factor] = (exponents, np.sum([elsewhere for _, elsewhere in own], axis=0))
     if not common:
         return []
     return [

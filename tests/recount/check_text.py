@@ -52,6 +52,7 @@ TIME = 'ns/query'
 SUMMARY = (
     'subject  kind  queries  collisions  false neg.  rate below*  late  false pos.  max dist/bound'
 )
+SIZES = 'subject  kind  right with edges of  elsewhere  right at a distance of  elsewhere'
 CLASSES = 'subject  kind  class  queries  collisions  false neg.  late  false pos.'
 TIMES = (
     'subject  kind  class  sort  times  late  committed  stuck  invalid  unknown  '
@@ -97,6 +98,7 @@ def _check_output(comparison, where, text, report):
         _check_table(comparison, where, lines, TIMES, timed)
     if len({name for _, _, name in classes}) > 1:
         _check_table(comparison, where, lines, CLASSES, classes)
+    _check_sizes(comparison, where, [re.split(r' {2,}', line.strip()) for line in lines], report)
     verdicts = [
         f'{" ok " if row["clean"] else "FAIL"} {row["subject"]}: {row["text"]}'
         for row in report['verdicts']
@@ -107,6 +109,19 @@ def _check_output(comparison, where, text, report):
     _check_lines(comparison, f'{where} versions', lines, '.* both fail, of ', versions(report))
     found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
     comparison.same('text', f'{where} oracle', found[0], _oracle(report['oracle']['total']))
+
+
+def _check_sizes(comparison, where, lines, report):
+    """Checks the table of sizes at which subjects are right. Empty cells are left out."""
+    rows = report.get('sizes', [])
+    if not rows:
+        return
+    first = lines.index(SIZES.split('  ')) + 1
+    for line, row in zip(lines[first : first + len(rows)], rows):
+        ranges = [row[factor] or {'values': '–', 'wrong': ''} for factor in ('edge', 'distance')]
+        cells = [cell for each in ranges for cell in (each['values'], each['wrong'])]
+        expected = [cell for cell in (row['subject'], row['kind'], *cells) if cell]
+        comparison.same('text', f'{where} sizes {row["subject"]}', line, expected)
 
 
 def _check_lines(comparison, where, lines, begin, expected):

@@ -220,7 +220,7 @@ class Recount(unittest.TestCase):
     def checked_lines(text):
         """The compared lines: verdicts, rows, the oracle's counters, factors, versions, fits."""
         is_checked = re.compile(
-            r'(FAIL| ok ) |oracle: |[a-z]\S* +(vt|ee|2\^)|[a-z]\S* against | *wang.* goes as '
+            r'(FAIL| ok ) |oracle: |[a-z]\S* +(vt|ee|all|2\^)|[a-z]\S* against | *wang.* goes as '
         )
         return [line for line in text.splitlines() if is_checked.match(line)]
 

@@ -12,7 +12,12 @@ from enclosed import Enclosed
 from impact import Times
 
 CLASSES = ('ordinary', 'degenerate', 'extreme', 'unclassified')
-ON_REQUEST = {'committed', 'unknown', 'contract', 'slow'}  # failures that count only with --fail-on
+ON_REQUEST = {
+    'committed',
+    'unknown',
+    'contract',
+    'slow',
+}  # failures that count only with --fail-on
 
 
 @dataclass
