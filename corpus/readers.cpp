@@ -61,17 +61,17 @@ void read_file(const fs::path& path, const CaseSink& sink) {
 }
 
 /// The truth that a comment " expect=1 ..." records for the next query; nothing if it records none, or says
-/// "expect=-".
+/// "expect=-" or "expect=?".
 std::optional<bool> recorded_truth(std::string_view comment, std::string_view where) {
   constexpr std::string_view label = "expect=";
   comment.remove_prefix(std::min(comment.find_first_not_of(" \t#"), comment.size()));
   if (!comment.starts_with(label)) return std::nullopt;
   comment.remove_prefix(label.size());
   const std::string_view value = comment.substr(0, comment.find_first_of(" \t\r"));
-  if (value != "0" && value != "1" && value != "-")
+  if (value != "0" && value != "1" && value != "-" && value != "?")
     throw Error(
         fmt::format("{}: found 'expect={}', expected expect=0, expect=1 or expect=-", where, excerpt(value)));
-  return value == "-" ? std::nullopt : std::optional(value == "1");
+  return value == "0" || value == "1" ? std::optional(value == "1") : std::nullopt;
 }
 
 }  // namespace

@@ -49,6 +49,12 @@ std::optional<RightRange> common(const Ranges& ranges, const std::string& factor
   return all;
 }
 
+/// The range of a factor for a kind; nothing if there is none.
+std::optional<RightRange> of_kind(const Ranges& ranges, const std::string& factor, Kind kind) {
+  const auto found = ranges.find({factor, kind});
+  return found == ranges.end() ? std::nullopt : std::optional(found->second);
+}
+
 /// One row for each subject whose ranges are the same for all kinds, and one for each kind of the others.
 std::vector<Row> rows_of(const Statistics& statistics) {
   std::map<std::string, Ranges> subjects;
@@ -62,16 +68,14 @@ std::vector<Row> rows_of(const Statistics& statistics) {
       factors.insert(key.first);
       kinds.insert(key.second);
     }
-    if (std::ranges::all_of(factors, [&](const auto& each) { return common(ranges, each).has_value(); })) {
+    bool is_same = true;
+    for (const std::string& factor : factors) is_same = is_same && common(ranges, factor);
+    if (is_same) {
       rows.push_back({subject, std::nullopt, common(ranges, "edge"), common(ranges, "distance")});
       continue;
     }
-    const auto found = [&](const char* factor, Kind kind) {
-      const auto at = ranges.find({factor, kind});
-      return at == ranges.end() ? std::nullopt : std::optional(at->second);
-    };
     for (const Kind kind : kinds)
-      rows.push_back({subject, kind, found("edge", kind), found("distance", kind)});
+      rows.push_back({subject, kind, of_kind(ranges, "edge", kind), of_kind(ranges, "distance", kind)});
   }
   return rows;
 }

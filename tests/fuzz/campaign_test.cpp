@@ -178,15 +178,15 @@ TEST(Campaign, AProvenanceMakesItsQueryAgain) {
   EXPECT_EQ(seen.size(), 3);
 }
 
-TEST(Campaign, CountsTheFactorsOfTheCollisionsOfCrossed) {
+TEST(Campaign, CountsAnswersByTheFactorsOfCrossed) {
   const CampaignPlan plan = plan_of(2000, 2, {"crossed"});
   const Statistics statistics = run(plan, true).statistics;
   const auto basic = make_subject("basic");
   std::map<std::string, FactorCounts> expected;
   for (std::uint64_t i = 1; i < plan.cases; i += 2) {
     const Query query = make_query(plan.families.front(), plan.seed, i);
-    if (!collides(query)) continue;
-    const FactorCounts one{1, basic->decide(query).hit ? std::uint64_t{0} : 1};
+    const std::uint64_t hit = basic->decide(query).hit ? 1 : 0;
+    const FactorCounts one = collides(query) ? FactorCounts{1, 1 - hit, 0, 0} : FactorCounts{0, 0, 1, hit};
     const crossed::Levels levels = crossed::levels_of(plan.seed, i);
     expected[""].merge(one);
     if (levels.when() == crossed::When::at_1) expected["when=at-1"].merge(one);

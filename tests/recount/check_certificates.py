@@ -42,9 +42,8 @@ def _expected(found, proven):
         to = proven.to if proven.to < found['toi'] else None
         return Statement(found['kind'], x, h, 'meets', 0, to, False, h > 0)
     if found['what'] == 'committed':
-        return Statement(
-            found['kind'], tuple(found['step'][:count]), h, 'meets', 0, 1, False, h > 0
-        )
+        step, to = tuple(found['step'][:count]), proven.to if proven.to < 1 else None
+        return Statement(found['kind'], step, h, 'meets', 0, to, False, h > 0)
     if found['what'] == 'false-negative':
         return Statement(found['kind'], x, h, 'meets', 0, 1, False, h > 0)
     return Statement(found['kind'], x, h, proven.claim, 0, 1, False, proven.strict)

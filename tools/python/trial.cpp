@@ -148,7 +148,7 @@ py::list counts_of(const Statistics& statistics) {
   for (const auto& [key, counts] : statistics.counts)
     rows.append(py::make_tuple(key.subject, short_name(key.kind), key.family, counts.queries,
                                counts.collisions, counts.false_negatives, counts.false_positives, counts.late,
-                               counts.faults_total(), counts.max_ratio()));
+                               counts.committed, counts.faults_total(), counts.max_ratio()));
   return rows;
 }
 
@@ -202,6 +202,8 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
     const Stop stop(ending());
     const py::gil_scoped_release others_run;
     result = decide_all(plan, subjects, stop);
+    std::erase_if(result.findings,  // these are no failures
+                  [](const Finding& each) { return each.what == Finding::What::committed; });
     shrink(result.findings, subjects, shrunk_of_each_signature, stop);
   } catch (const Stopped&) {
     end_silently();  // only the end of the interpreter stops a trial

@@ -99,6 +99,7 @@ class Counts:
     missed: int = 0  # collisions that it did not report
     false_positives: int = 0  # queries that it reported and that are not collisions
     late: int = 0  # times promised as lower bounds that are after the earliest time
+    committed: int = 0  # sound times for which the rounded step to them has contact before its end
     no_answer: int = 0  # queries without an answer, such as a collision without a time
     farthest: float = 0.0  # largest distance of a false positive / bound (its own, or wang's)
 
