@@ -49,7 +49,7 @@ def _check_simplest(comparison, where, index, subject, findings):
             complexity(each['kind'], each['shrunk']),
         )
         for i, each in enumerate(findings)
-        if each['subject'] == subject
+        if each['subject'] == subject and each['what'] != 'committed'  # that is no failure
     }
     comparison.same('verdicts', f'{where} has a finding', index is not None, bool(ranks))
     if index is None:
