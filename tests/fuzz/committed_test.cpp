@@ -114,7 +114,7 @@ TEST(Committed, SoundTimesThatLeaveNoRoomForRounding) {
 TEST(Committed, NoneIfTheStepEndsWellBeforeContact) {
   const Counts counts = counts_of(false, 0.01, "uniform");
   EXPECT_EQ(counts.committed, 0);
-  EXPECT_GT(counts.times_promised, 100);
+  EXPECT_GT(counts.times_promised, 40);
   // In float at 1,000 edges from the origin, even a hundredth of the step is not always enough.
   EXPECT_GT(counts_of(true, 0.01, "distant@20").committed, 0);
 }

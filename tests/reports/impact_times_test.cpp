@@ -135,15 +135,16 @@ TEST(ImpactTimes, TheTerminalShowsThemBySubjectKindAndClass) {
   statistics.counts[of("other")] = counts_of({estimated_after});
   statistics.counts[of("mine")].faults[static_cast<std::size_t>(Fault::invalid)] = 2;
   statistics.counts[of("silent")].queries = 3;
-  EXPECT_THAT(time_table(statistics),
-              ::testing::StartsWith(
-                  "subject  kind  class     sort         times  late  stuck  invalid  unknown  "
-                  "early: median  99 %  most  after t*\n"
-                  "mine     vt    ordinary  lower-bound      3     1      1        2        0       "
-                  "   0.032   0.5   0.5      0.12\n"
-                  "other    vt    ordinary  estimate         1     -      0        0        0       "
-                  "       0     0     0       0.2\n"
-                  "early: t* - time, "));
+  EXPECT_THAT(
+      time_table(statistics),
+      ::testing::StartsWith(
+          "subject  kind  class     sort         times  late  committed  stuck  invalid  unknown  "
+          "early: median  99 %  most  after t*\n"
+          "mine     vt    ordinary  lower-bound      3     1          0      1        2        0       "
+          "   0.032   0.5   0.5      0.12\n"
+          "other    vt    ordinary  estimate         1     -          -      0        0        0       "
+          "       0     0     0       0.2\n"
+          "early: t* - time, "));
   statistics.counts.erase(of("mine"));
   statistics.counts.erase(of("other"));
   EXPECT_EQ(time_table(statistics), "");
