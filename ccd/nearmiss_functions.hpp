@@ -127,10 +127,26 @@ auto points(const Question& q, std::index_sequence<i...> /*vertices*/) {
   return std::tuple(q.start(i)..., q.end(i)...);
 }
 
-/// Calls act(start 0, ..., start 3, end 0, ..., end 3), for a vertex and a triangle or two edges.
-template <class Act>
+/// Calls act(start 0, start 1, ..., end 0, end 1, ...) for a query of n vertices: 4, unless its kind is vv or
+/// ve.
+template <std::size_t n = 4, class Act>
 auto with_vertices(const Question& q, const Act& act) {
-  return std::apply(act, points(q, std::make_index_sequence<4>()));
+  return std::apply(act, points(q, std::make_index_sequence<n>()));
+}
+
+/// A query's coordinates at t = 0, then the displacements, which are rounded.
+inline std::array<double, 24> displaced(const Question& q) {
+  const std::size_t n = 3 * vertices_of(q.kind);
+  std::array<double, 24> x;
+  std::copy(q.x, q.x + n, x.begin());
+  std::transform(q.x + n, q.x + 2 * n, q.x, x.begin() + n, std::minus<>());
+  return x;
+}
+
+/// Calls act(start 0, start 1, ..., displacement 0, displacement 1, ...) for a query of n vertices.
+template <std::size_t n = 4, class Act>
+auto with_displacements(const Question& q, const Act& act) {
+  return with_vertices<n>({q.kind, displaced(q).data(), q.separation}, act);
 }
 
 /// A detector of one kind: asks a function of type F, in the way that its signature calls for. `State` is a
@@ -184,14 +200,10 @@ class Asked {
       const bool collides = call(vertices(), std::tuple<double&, double, double>(toi, q.separation, 1));
       return Answer::of(collides, toi);
     } else if constexpr (is_displaced) {
-      constexpr std::size_t n = 3 * vertices_of(kind);
-      std::array<double, 2 * n> x;
-      std::copy(q.x, q.x + n, x.begin());
-      std::transform(q.x + n, q.x + 2 * n, q.x, x.begin() + n, std::minus<>());
-      const Question displaced{kind, x.data(), q.separation};
       toi = 1;  // on entry, the end of the time step
-      const bool collides =
-          call(points(displaced, Vertices()), std::tuple<double, double, double&>(0.1, q.separation, toi));
+      const bool collides = with_displacements<vertices_of(kind)>(q, [&](const auto&... v) {
+        return call(std::tuple(v...), std::tuple<double, double, double&>(0.1, q.separation, toi));
+      });
       return Answer::of(collides, toi);
     } else if constexpr (is_within) {
       const bool collides = call(vertices(), std::tuple<double, double&>(q.separation, toi));

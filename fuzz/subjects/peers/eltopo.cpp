@@ -1,60 +1,53 @@
-// El Topo's CCD, common/ccd_wrapper.h (tysonbrochu/eltopo, 5579391, BSD-2-Clause), in one of its two
-// versions: `eltopo` solves the cubic numerically, which is its default; `eltopo-root-parity` uses the
-// authors' root parity (with USE_ROOT_PARITY_CCD in common/ccd_defs.h).
+// El Topo's CCD, common/ccd_wrapper.h, in one of its two versions: `eltopo` solves the cubic numerically, which
+// is its default (Brochu and Bridson, "Robust topological operations for dynamic explicit surfaces", 2009);
+// `eltopo-root-parity` is root parity (Brochu, Edwards and Bridson, 2012), if common/ccd_defs.h defines
+// USE_ROOT_PARITY_CCD instead. It is asked as eltopo3d/collisionpipeline.cpp asks it: indices ascend, and the
+// function also finds the place of contact. It gives no time.
+// From github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
+// Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
+// Contract: apart at t = 0, because El Topo starts from a surface without intersections, and keeps it so. For
+// root parity, at most one root, too.
+// $ELTOPO is the repository, with its code compiled into libeltopo.a. Its root parity rounds upwards, which the
+// compiler must know (g++ needs -frounding-math). That version becomes a subject of its own with
+// -o build/release/peers/eltopo-root-parity.so:
 //
-// It is asked as eltopo3d/collisionpipeline.cpp asks it, with indices in ascending order and the function
-// that also finds the place of contact. No time leaves it.
-//
-// Contract: the primitives do not touch at the start, because El Topo starts from a surface without
-// intersections and keeps it so. Root parity says whether the number of contacts is odd, and so is judged
-// on queries whose F has one root at most. Its rays are random; every query starts from the same seed,
-// because an answer must depend only on the query.
-//
-// Its headers are not C++20:
-//
-//   tools/subject fuzz/subjects/peers/eltopo.cpp -- -std=c++17 -I$ELTOPO/common -L$ELTOPO_BUILD -leltopo
+//   tools/subject fuzz/subjects/peers/eltopo.cpp -- -I$ELTOPO/common $ELTOPO/libeltopo.a
 #include <ccd_defs.h>
 #include <ccd_wrapper.h>
 
 #include <cstdlib>
 
-#include "fuzz/subjects/peers/adapter.hpp"
+#include "ccd/nearmiss_functions.hpp"
 
-namespace nearmiss::peers {
 namespace {
 
-Answer decide(const void* /*state*/, int kind, const Question& q) {
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
+
+Answer decide(const Question& q) {
 #ifdef USE_ROOT_PARITY_CCD
-  std::srand(1);
+  std::srand(1);  // its rays are random, but an answer must depend only on the query
 #endif
-  const auto start = [&](int vertex) { return Vec3d(q.start(vertex)); };
-  const auto end = [&](int vertex) { return Vec3d(q.end(vertex)); };
   double a = 0, b = 0, c = 0, normal_displacement = 0;
   Vec3d normal(0.0, 0.0, 0.0);
-  return Answer::of(
-      kind == NEARMISS_VERTEX_TRIANGLE
-          ? point_triangle_collision(start(0), end(0), 0, start(1), end(1), 1, start(2), end(2), 2, start(3),
-                                     end(3), 3, a, b, c, normal, normal_displacement)
-          : segment_segment_collision(start(0), end(0), 0, start(1), end(1), 1, start(2), end(2), 2, start(3),
-                                      end(3), 3, a, b, normal, normal_displacement));
-}
-
-nearmiss_subject subject() {
-#ifdef USE_ROOT_PARITY_CCD
-  nearmiss_subject subject =
-      detector<decide>("eltopo-root-parity", "5579391", "El Topo's CCD, in its version with root parity");
-  subject.contract.one_root = 1;
-#else
-  nearmiss_subject subject =
-      detector<decide>("eltopo", "5579391", "El Topo's CCD, with its default, a numerical solver for cubics");
-#endif
-  subject.contract.apart_at_start = 1;
-  return subject;
+  const auto test = [&](auto ask, auto&... weights) {
+    return ask(q.start(0), q.end(0), 0, q.start(1), q.end(1), 1, q.start(2), q.end(2), 2, q.start(3),
+               q.end(3), 3, weights..., normal, normal_displacement);
+  };
+  return Answer::of(q.kind == NEARMISS_VERTEX_TRIANGLE
+                        ? test(NEARMISS_CALL(point_triangle_collision), a, b, c)
+                        : test(NEARMISS_CALL(segment_segment_collision), a, b));
 }
 
 }  // namespace
-}  // namespace nearmiss::peers
 
-const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
-}
+NEARMISS_SUBJECT(
+#ifdef USE_ROOT_PARITY_CCD
+    detector("eltopo-root-parity", "5579391", "El Topo's CCD, in its version with root parity")
+        .set(&nearmiss_contract::one_root, 1)
+#else
+    detector("eltopo", "5579391", "El Topo's CCD, with its default, a numerical solver for cubics")
+#endif
+        .vertex_triangle(decide)
+        .edge_edge(decide)
+        .set(&nearmiss_contract::apart_at_start, 1))

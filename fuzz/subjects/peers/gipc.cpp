@@ -1,57 +1,44 @@
-// GIPC's additive CCD, GPU_IPC/ACCD.cu (KemengHuang/GPU_IPC, 46594e0, MPL-2.0). It is CUDA code, and is
-// compiled for the host here. On a GPU, the compiler fuses multiplications with additions, so that the last
-// bits may differ.
+// GIPC's additive CCD (Huang and others, "GIPC: fast and stable Gauss-Newton optimization of IPC barrier
+// energy", 2024), GPU_IPC/ACCD.cu. It is CUDA code, and is compiled for the host. On a GPU, the compiler fuses
+// multiplications with additions, which may change the last bits. It is asked as
+// _reduct_min_selfTimeStep_to_double() in GIPC.cu asks it, with eta = 0.2 and thickness 0. It answers how far
+// the step may go: less than 1 counts as a collision not before that time. After 50,000 iterations, it takes
+// the time that it has reached.
+// From github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
+// Question: contact; the time is a lower bound. It gets displacements, which are rounded; the solver computes
+// the ends from them. The option eta is the share of the distance that remains.
+// Contract: apart at t = 0. The solver keeps that invariant, and the code divides by the distance.
+// $GPU_IPC is the repository, and $CUDA is where CUDA's headers are installed. It needs no GPU:
 //
-// It is asked as _reduct_min_selfTimeStep_to_double() in GIPC.cu asks it, with an eta of 1 - 0.8 and
-// thickness 0. It answers how far the step may go; less than 1 counts as a collision not before that time.
-// After 50,000 iterations, it takes the time that it has reached, still a lower bound. It gets
-// displacements, which are rounded; the solver computes the ends from them.
-//
-// Contract: the primitives do not touch at the start. The solver keeps that invariant, and the code divides
-// by the distance.
-//
-// Option eta=0.2: the share of the distance that remains.
-//
-// It needs the headers of CUDA, but no GPU:
-//
-//   tools/subject fuzz/subjects/peers/gipc.cpp -- -I$GPU_IPC/GPU_IPC -I/usr/local/cuda/include
-//     -I/usr/include/eigen3 -x c++ $GPU_IPC/GPU_IPC/ACCD.cu $GPU_IPC/GPU_IPC/gpu_eigen_libs.cu
+//   tools/subject --pkg-config eigen3 fuzz/subjects/peers/gipc.cpp -- -I$GPU_IPC/GPU_IPC -I$CUDA/include
+//       -x c++ $GPU_IPC/GPU_IPC/ACCD.cu $GPU_IPC/GPU_IPC/gpu_eigen_libs.cu
 #include <ACCD.cuh>
 
-#include "fuzz/subjects/peers/adapter.hpp"
+#include "ccd/nearmiss_functions.hpp"
 
-namespace nearmiss::peers {
 namespace {
+
+using nearmiss::plugin::Answer;
+using nearmiss::plugin::Question;
 
 struct Settings {
   double eta = 1 - 0.8;  // slackness_m in GIPC.cu
 };
 
-constexpr std::array<Option<Settings>, 1> options{{{"eta", &Settings::eta, 1e-3, 0.999}}};
+constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"eta", &Settings::eta, 1e-3, 0.999}}};
 
-Answer decide(const void* state, int kind, const Question& q) {
-  const double eta = static_cast<const Settings*>(state)->eta;
-  const auto v = [&](int i) { return double3{q.start(i)[0], q.start(i)[1], q.start(i)[2]}; };
-  const auto d = [&](int i) {
-    return double3{q.end(i)[0] - q.start(i)[0], q.end(i)[1] - q.start(i)[1], q.end(i)[2] - q.start(i)[2]};
-  };
-  const auto test = kind == NEARMISS_VERTEX_TRIANGLE ? point_triangle_ccd : edge_edge_ccd;
-  const double step = test(v(0), v(1), v(2), v(3), d(0), d(1), d(2), d(3), eta, 0);
+Answer decide(const Settings& set, const Question& q) {
+  const auto test = q.kind == NEARMISS_VERTEX_TRIANGLE ? point_triangle_ccd : edge_edge_ccd;
+  const double step = with_displacements(q, [&](const auto&... v) { return test(v..., set.eta, 0); });
   return Answer::of(!(step >= 1), step);
 }
 
-nearmiss_subject subject() {
-  nearmiss_subject subject = detector<decide>(
-      "gipc", "46594e0", "GIPC's additive CCD, compiled for the host, as its solver asks it; option eta=0.2");
-  subject.time_sort = NEARMISS_TIME_LOWER_BOUND;
-  subject.contract.apart_at_start = 1;
-  take_options<Settings, options>(subject);
-  return subject;
-}
-
 }  // namespace
-}  // namespace nearmiss::peers
 
-const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
-}
+NEARMISS_SUBJECT(detector("gipc", "46594e0",
+                          "GIPC's additive CCD, compiled for the host, as its solver asks it; option eta=0.2")
+                     .options<settings>()
+                     .vertex_triangle(decide)
+                     .edge_edge(decide)
+                     .set(&nearmiss_subject::time_sort, NEARMISS_TIME_LOWER_BOUND)
+                     .set(&nearmiss_contract::apart_at_start, 1))
