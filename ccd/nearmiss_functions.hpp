@@ -385,16 +385,16 @@ const nearmiss_subject* numbered(std::size_t index) {
     return __VA_ARGS__(std::forward<decltype(argument)>(argument)...);                             \
   }
 
-/// Makes the shared object a plug-in with these detectors.
-#define NEARMISS_SUBJECT(...)                                       \
-  namespace {                                                       \
-  struct NearmissDescribed {                                        \
-    static auto describe() {                                        \
-      using namespace nearmiss::plugin; /* NOLINT */                \
-      return std::make_tuple(__VA_ARGS__);                          \
-    }                                                               \
-  };                                                                \
-  }                                                                 \
-  const nearmiss_subject* nearmiss_get_subject(std::size_t index) { \
-    return nearmiss::plugin::numbered<NearmissDescribed>(index);    \
+/// Makes the shared object a plug-in with these detectors, whichever symbols the compiler hides.
+#define NEARMISS_SUBJECT(...)                                                                      \
+  namespace {                                                                                      \
+  struct NearmissDescribed {                                                                       \
+    static auto describe() {                                                                       \
+      using namespace nearmiss::plugin; /* NOLINT */                                               \
+      return std::make_tuple(__VA_ARGS__);                                                         \
+    }                                                                                              \
+  };                                                                                               \
+  }                                                                                                \
+  [[gnu::visibility("default")]] const nearmiss_subject* nearmiss_get_subject(std::size_t index) { \
+    return nearmiss::plugin::numbered<NearmissDescribed>(index);                                   \
   }

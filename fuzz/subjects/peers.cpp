@@ -15,11 +15,11 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::array<Peer, 11> all{{
+constexpr std::array<Peer, 23> all{{
     {.name = "fcl", .object = "fcl", .package = "libfcl-dev"},
     {.name = "fcl-newton", .object = "fcl", .package = "libfcl-dev"},
     {.name = "bullet", .object = "bullet", .package = "libbullet-dev"},
-    {.name = "bullet-double", .object = "bullet-double", .package = "libbullet-dev"},
+    {.name = "bullet-double", .object = "bullet-double", .package = "libbullet-dev", .adapter = "bullet"},
     {.name = "safeccd", .object = "safeccd", .package = ""},
     {.name = "root-parity", .object = "root-parity", .package = ""},
     {.name = "bsc", .object = "bsc", .package = ""},
@@ -27,6 +27,18 @@ constexpr std::array<Peer, 11> all{{
     {.name = "tight-inclusion", .object = "tight-inclusion", .package = ""},
     {.name = "msrf", .object = "msrf", .package = ""},
     {.name = "additive", .object = "additive", .package = ""},
+    {.name = "mujoco", .object = "mujoco", .package = ""},
+    {.name = "ipc-tight-inclusion", .object = "ipc-toolkit", .package = ""},
+    {.name = "ipc-inexact", .object = "ipc-toolkit", .package = ""},
+    {.name = "codim-ipc", .object = "codim-ipc", .package = ""},
+    {.name = "libuipc", .object = "libuipc", .package = ""},
+    {.name = "gipc", .object = "gipc", .package = ""},
+    {.name = "ppf", .object = "ppf", .package = ""},
+    {.name = "ctcd", .object = "ctcd", .package = ""},
+    {.name = "eltopo", .object = "eltopo", .package = ""},
+    {.name = "eltopo-root-parity", .object = "eltopo-root-parity", .package = "", .adapter = "eltopo"},
+    {.name = "arcsim", .object = "arcsim", .package = ""},
+    {.name = "dart", .object = "dart", .package = ""},
 }};
 
 }  // namespace
@@ -50,7 +62,7 @@ std::string how_to_build(const Peer& peer) {
              ? fmt::format(
                    "run tools/subject -o {} with the flags that fuzz/subjects/peers/{}.cpp gives, in "
                    "nearmiss's source tree",
-                   shell_quoted(path_of(peer)), peer.object)
+                   shell_quoted(path_of(peer)), peer.adapter)
              : fmt::format("install {}, remove the build folder, and run tools/setup", peer.package);
 }
 

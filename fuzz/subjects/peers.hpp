@@ -13,6 +13,7 @@ struct Peer {
   std::string_view name;     ///< of the subject
   std::string_view object;   ///< its plug-in: the shared object peers/OBJECT.so beside the program
   std::string_view package;  ///< the Debian package that it is built with; "" if users compile its adapter
+  std::string_view adapter = object;  ///< fuzz/subjects/peers/ADAPTER.cpp
 };
 
 /// All published CCDs that have an adapter, whether built or not.
