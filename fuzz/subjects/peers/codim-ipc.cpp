@@ -1,15 +1,17 @@
-// Additive CCD in the code of its authors (Li, Kaufman and Jiang, "Codimensional incremental potential contact",
-// 2021), Library/Math/Distance/CCD.h, which other solvers have copied. It is asked as
-// Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h asks it: first whether the boxes of the two motions
-// come within the thickness, then with eta = 0.1. The largest step that it allows is the time.
+// Additive CCD in the code of its authors (Li, Kaufman and Jiang, "Codimensional incremental potential
+// contact", 2021), Library/Math/Distance/CCD.h, which other solvers have copied. It is asked as
+// Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h asks it: first whether the boxes of the two
+// motions come within the thickness, then with eta = 0.1. The largest step that it allows is the time.
 // From github.com/ipc-sim/Codim-IPC, 9c6cbe3. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its thickness; the time is a lower bound. It gets displacements,
-// which are rounded; the solver computes the ends from them. The option eta is the share of the distance that
-// remains. Contract: farther apart at t = 0 than the thickness. The solver keeps that invariant, and the code
+// Question: contact, or a separation, which is its thickness; the time is a lower bound. It gets
+// displacements, which are rounded; the solver computes the ends from them. The option eta is the share
+// of the distance that remains.
+// Contract: farther apart at t = 0 than the thickness. The solver keeps that invariant, and the code
 // divides by the distance.
 // $CODIM_IPC is the repository, whose headers contain the whole code, and include pybind11:
 //
-//   tools/subject --pkg-config 'eigen3 python3-embed' fuzz/subjects/peers/codim-ipc.cpp -- -I$CODIM_IPC/Library
+//   tools/subject --pkg-config 'eigen3 python3-embed' fuzz/subjects/peers/codim-ipc.cpp --
+//       -I$CODIM_IPC/Library
 #include <Eigen/Dense>
 #include <algorithm>
 #include <vector>

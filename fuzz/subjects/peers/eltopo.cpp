@@ -1,14 +1,14 @@
-// El Topo's CCD, common/ccd_wrapper.h, in one of its two versions: `eltopo` solves the cubic numerically, which
-// is its default (Brochu and Bridson, "Robust topological operations for dynamic explicit surfaces", 2009);
-// `eltopo-root-parity` is root parity (Brochu, Edwards and Bridson, 2012), if common/ccd_defs.h defines
-// USE_ROOT_PARITY_CCD instead. It is asked as eltopo3d/collisionpipeline.cpp asks it: indices ascend, and the
-// function also finds the place of contact. It gives no time.
+// El Topo's CCD, common/ccd_wrapper.h, in one of its two versions: `eltopo` solves the cubic numerically,
+// which is its default (Brochu and Bridson, "Robust topological operations for dynamic explicit
+// surfaces", 2009); `eltopo-root-parity` is root parity (Brochu, Edwards and Bridson, 2012), if
+// common/ccd_defs.h defines USE_ROOT_PARITY_CCD instead. It is asked as eltopo3d/collisionpipeline.cpp
+// asks it: indices ascend, and the function also finds the place of contact. It gives no time.
 // From github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
 // Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
-// Contract: apart at t = 0, because El Topo starts from a surface without intersections, and keeps it so. For
-// root parity, at most one root, too.
-// $ELTOPO is the repository, with its code compiled into libeltopo.a. Its root parity rounds upwards, which the
-// compiler must know (g++ needs -frounding-math). That version becomes a subject of its own with
+// Contract: apart at t = 0, because El Topo starts from a surface without intersections, and keeps it so.
+// For root parity, at most one root, too.
+// $ELTOPO is the repository, with its code compiled into libeltopo.a. Its root parity rounds upwards,
+// which the compiler must know (g++ needs -frounding-math). The command for that version also has
 // -o build/release/peers/eltopo-root-parity.so:
 //
 //   tools/subject fuzz/subjects/peers/eltopo.cpp -- -I$ELTOPO/common $ELTOPO/libeltopo.a
@@ -24,10 +24,14 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-Answer decide(const Question& q) {
 #ifdef USE_ROOT_PARITY_CCD
-  std::srand(1);  // its rays are random, but an answer must depend only on the query
+constexpr bool is_root_parity = true;
+#else
+constexpr bool is_root_parity = false;
 #endif
+
+Answer decide(const Question& q) {
+  if (is_root_parity) std::srand(1);  // its rays are random, but an answer must depend only on the query
   double a = 0, b = 0, c = 0, normal_displacement = 0;
   Vec3d normal(0.0, 0.0, 0.0);
   const auto test = [&](auto ask, auto&... weights) {
@@ -41,13 +45,10 @@ Answer decide(const Question& q) {
 
 }  // namespace
 
-NEARMISS_SUBJECT(
-#ifdef USE_ROOT_PARITY_CCD
-    detector("eltopo-root-parity", "5579391", "El Topo's CCD, in its version with root parity")
-        .set(&nearmiss_contract::one_root, 1)
-#else
-    detector("eltopo", "5579391", "El Topo's CCD, with its default, a numerical solver for cubics")
-#endif
-        .vertex_triangle(decide)
-        .edge_edge(decide)
-        .set(&nearmiss_contract::apart_at_start, 1))
+NEARMISS_SUBJECT(detector(is_root_parity ? "eltopo-root-parity" : "eltopo", "5579391",
+                          is_root_parity ? "El Topo's CCD, in its version with root parity"
+                                         : "El Topo's CCD, with its default, a numerical solver for cubics")
+                     .vertex_triangle(decide)
+                     .edge_edge(decide)
+                     .set(&nearmiss_contract::apart_at_start, 1)
+                     .set(&nearmiss_contract::one_root, is_root_parity ? 1 : 0))

@@ -1,21 +1,22 @@
-// Two CCDs of ipc-toolkit, as its candidates ask them (src/ipc/candidates/). d0 is the distance at t = 0, less
-// the separation:
+// Two CCDs of ipc-toolkit, as its candidates ask them (src/ipc/candidates/). d0 is the distance at t = 0,
+// less the separation:
 //
 //   ipc-tight-inclusion  TightInclusionCCD, its default: Tight-Inclusion with a minimum distance of
 //                        min(0.2 d0, 1e-4)
-//   ipc-inexact          InexactCCD, the original method of IPC, off by default: CTCD (evouga/collisiondetection)
-//                        with a minimum distance of 0.2 d0
+//   ipc-inexact          InexactCCD, the original method of IPC, off by default: CTCD with a
+//                        minimum distance of 0.2 d0
 //
-// If the time is below 1e-6, both ask again with the separation only. They answer with 0.8 of the time. The
-// minimum distance makes room for the barrier: it makes near misses collisions, by design.
-// From github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD e5fe5c9. Licence: MIT; CTCD states none.
-// Question: contact, or a separation; the time is a lower bound. Contract: none. Primitives that touch at t = 0
-// collide at time 0 (check_initial_distance.hpp).
-// $IPC_TOOLKIT is where it is installed. It is built with IPC_TOOLKIT_WITH_INEXACT_CCD, or leaves out
-// ipc-inexact:
+// If the time is below 1e-6, both ask again with the separation only. They answer with 0.8 of the time.
+// The minimum distance makes room for the barrier: it makes near misses collisions, by design.
+// From github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD from
+// github.com/evouga/collisiondetection, e5fe5c9. Licence: MIT; CTCD states none.
+// Question: contact, or a separation; the time is a lower bound. Contract: none. Primitives that touch at
+// t = 0 collide at time 0 (check_initial_distance.hpp).
+// $IPC_TOOLKIT is where it is installed. Without IPC_TOOLKIT_WITH_INEXACT_CCD, ipc-inexact and evouga_ccd
+// are left out:
 //
 //   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/ipc-toolkit.cpp --
-//       -I$IPC_TOOLKIT/include -L$IPC_TOOLKIT/lib -lipc_toolkit -ltight_inclusion -levouga_ccd
+//       -I$IPC_TOOLKIT/include $IPC_TOOLKIT/lib/lib{ipc_toolkit,tight_inclusion,evouga_ccd}.a
 #include <ipc/ccd/inexact_ccd.hpp>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 
@@ -32,13 +33,19 @@ auto ipc_detector(const char* name, const char* about) {
       .vertex_edge(NEARMISS_CALL(Ccd().point_edge_ccd));
 }
 
+auto tight_inclusion() {
+  return ipc_detector<ipc::TightInclusionCCD>(
+      "ipc-tight-inclusion",
+      "Tight-Inclusion as ipc-toolkit asks it, with a minimum distance of min(0.2 d0, 1e-4)");
+}
+
 }  // namespace
 
-NEARMISS_SUBJECT(
 #ifdef IPC_TOOLKIT_WITH_INEXACT_CCD
-    ipc_detector<ipc::InexactCCD>(
-        "ipc-inexact", "CTCD as ipc-toolkit's InexactCCD asks it, with a minimum distance of 0.2 d0"),
+NEARMISS_SUBJECT(tight_inclusion(),
+                 ipc_detector<ipc::InexactCCD>(
+                     "ipc-inexact",
+                     "CTCD as ipc-toolkit's InexactCCD asks it, with a minimum distance of 0.2 d0"))
+#else
+NEARMISS_SUBJECT(tight_inclusion())
 #endif
-    ipc_detector<ipc::TightInclusionCCD>(
-        "ipc-tight-inclusion",
-        "Tight-Inclusion as ipc-toolkit asks it, with a minimum distance of min(0.2 d0, 1e-4)"))

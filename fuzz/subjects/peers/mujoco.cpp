@@ -1,17 +1,18 @@
 // MuJoCo's conservative advancement of deformables, mjc_advance() in
-// src/engine/engine_collision_continuous.c. It answers how far the step may go: the whole step, alpha = 1, or
+// src/engine/engine_collision_continuous.c. It answers how far the step may go, alpha: the whole step, or
 // less, so that no gap shrinks by more than 80 %. It promises that the advanced configuration has no
 // intersection. Therefore alpha < 1 counts as a collision not before alpha, and a false positive says only
-// that a gap shrinks by 80 %. It gets one pair of a flex vertex and a flex triangle, or of two flex edges,
-// whose vertices are all free, as in its own test.
+// that a gap shrinks by 80 %. It gets one pair of a flex vertex and a flex triangle, or of two flex
+// edges, whose vertices are all free, as in its own test.
 // From github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
-// Question: contact, as above; the time is a lower bound. With same-flex=1, both primitives belong to one flex,
-// and their mean motion does not count.
-// Contract: apart at t = 0. It leaves out pairs whose gap is 0 ("the contact solver owns it"), and its header
-// promises a positive gap at rest.
-// $MUJOCO is the repository, and $MUJOCO_LIBRARY its library, which exports the function if it is static:
+// Question: contact, as above; the time is a lower bound. With same-flex=1, both primitives belong to one
+// flex, and their mean motion does not count.
+// Contract: apart at t = 0. It leaves out pairs whose gap is 0 ("the contact solver owns it"), and its
+// header promises a positive gap at rest.
+// $MUJOCO is the repository, with src/engine/engine_{collision_continuous,util_blas,util_errmem}.c
+// compiled into libmujoco.a:
 //
-//   tools/subject fuzz/subjects/peers/mujoco.cpp -- -I$MUJOCO/include -I$MUJOCO/src $MUJOCO_LIBRARY
+//   tools/subject fuzz/subjects/peers/mujoco.cpp -- -I$MUJOCO/include -I$MUJOCO/src $MUJOCO/libmujoco.a
 #include <engine/engine_collision_continuous.h>
 
 #include "ccd/nearmiss_functions.hpp"

@@ -1,18 +1,19 @@
-// The additive CCD of ZOZO's contact solver, src/cpp/contact/accd.hpp. It is CUDA code in single precision, and
-// is compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may change the
-// last bits. It is asked as contact.cu asks it. The time step is extended to t = 1.25 (line-search-max-t): a
-// time below 1.25 is a collision, which cuts the step to 0.8 of that time (line_search() divides by 1.25).
-// That is the time passed on, and contact between t = 1 and t = 1.25 is a collision, by design. So is a pair
-// that comes within a hundredth of the contact gap, where pairs are parked.
+// The additive CCD of ZOZO's contact solver, src/cpp/contact/accd.hpp. It is CUDA code in single
+// precision, and is compiled for the host. On a GPU, the compiler fuses multiplications with additions,
+// which may change the last bits. It is asked as contact.cu asks it. The time step is extended to
+// t = 1.25 (line-search-max-t): a time below 1.25 is a collision, which cuts the step to 0.8 of that time
+// (line_search() divides by 1.25). That is the time passed on, and contact between t = 1 and t = 1.25 is
+// a collision, by design. So is a pair that comes within a hundredth of the contact gap, where pairs are
+// parked.
 // From github.com/st-tech/ppf-contact-solver, f23b356. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its contact offset; the time is a lower bound. The options are
-// its own defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25 (line-search-max-t).
-// Contract: farther apart at t = 0 than the separation, and than 5e-6; otherwise the solver stops with the error
-// OverlappingStart, and accd.hpp argues that it keeps a clearance of half the distance at which it parks. No
-// edge or path is longer than 10: the margin for rounding is given for "a scene of radius 10". (A separation
-// would need the 5e-6 on top, which a contract cannot say.)
-// $PPF is the repository, whose header contains the whole code, and $CUDA is where CUDA's headers are installed.
-// It needs no GPU:
+// Question: contact, or a separation, which is its contact offset; the time is a lower bound. The options
+// are its own defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25 (line-search-max-t).
+// Contract: farther apart at t = 0 than the separation, and than 5e-6; otherwise the solver stops with
+// the error OverlappingStart, and accd.hpp argues that it keeps a clearance of half the distance at which
+// it parks. No edge or path is longer than 10: the margin for rounding is given for "a scene of radius
+// 10". (A separation would need the 5e-6 on top, which a contract cannot say.)
+// $PPF is the repository, whose header contains the whole code, and $CUDA is where CUDA's headers are
+// installed. No GPU is needed:
 //
 //   tools/subject fuzz/subjects/peers/ppf.cpp -- -I$PPF/crates/ppf-cts-solver/src/cpp -I$CUDA/include
 #include <algorithm>
