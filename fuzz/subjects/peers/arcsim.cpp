@@ -11,7 +11,7 @@
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/arcsim.cpp -- -fopenmp -ffunction-sections
 //       -fdata-sections -Wl,--gc-sections -fvisibility=hidden -I$ARCSIM/src
-//       -I$ARCSIM/dependencies/jsoncpp/include $ARCSIM/src/geometry.cpp $ARCSIM/src/util.cpp $ARCSIM/src/mesh.cpp
+//       -I$ARCSIM/dependencies/jsoncpp/include $ARCSIM/src/{geometry,util,mesh}.cpp
 #include <collision.cpp>
 #undef static_assert  // ARCSim has a macro of this name
 
