@@ -3,7 +3,7 @@
 // From Debian's libfcl-dev 0.7.0, with which it is built. Licence: BSD. Question: contact; the time is
 // that of the first root that its solver happens to find. Contract: none.
 //
-//   tools/subject --pkg-config fcl fuzz/subjects/peers/fcl.cpp
+//   tools/subject --pkg-config fcl fuzz/subjects/peers/fcl.cpp -- -std=c++17
 #include <fcl/config.h>
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
