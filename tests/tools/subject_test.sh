@@ -28,7 +28,8 @@ printf '%s\n' 'add_library(foreign::foreign STATIC IMPORTED)' 'set_target_proper
   "  IMPORTED_LOCATION $folder/lib/libforeign.a INTERFACE_INCLUDE_DIRECTORIES \"$root/tests/plugin;$eigen\")" \
   >lib/cmake/foreign/foreignConfig.cmake
 export PKG_CONFIG_PATH=$folder/lib CMAKE_PREFIX_PATH=$folder
-by_flags=(-- -I"$root/tests/plugin" -isystem "$eigen" lib/libforeign.a)
+# The flags of a user whose compiler hides symbols: the plug-in's one function is visible even so.
+by_flags=(-- -fvisibility=hidden -I"$root/tests/plugin" -isystem "$eigen" lib/libforeign.a)
 
 # adapter NAME MEMBERS: writes NAME.cpp, three lines.
 adapter() { printf '%s\n' '#include "foreign.hpp"' '#include "ccd/nearmiss_functions.hpp"' "NEARMISS_SUBJECT(detector(\"$1\")$2)" >"$1.cpp"; }
