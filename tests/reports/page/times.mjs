@@ -76,8 +76,12 @@ async function checkPictures(page, { extreme_times, findings }) {
   const late = findings.filter(({ what }) => what === "late");
   assert.ok(late.length > 0);
   while (await page.isVisible("#more-findings")) await page.click("#more-findings");
-  const pictures = page.locator("#findings figure", { has: page.locator(".given") });
+  const pictures = page.locator("#findings .card", { hasText: "late time of" }).locator("figure", { has: page.locator(".given") });
   assert.equal(await pictures.count(), late.length);
+  const committed = findings.filter(({ what }) => what === "committed");
+  assert.ok(committed.length > 0);
+  assert.equal(await count(page, "#findings .card h3:text('step with contact of')"), committed.length);
+  assert.match(await page.textContent("#findings-note"), /queries in which the step to a sound time, once rounded, has contact/);
   const legends = await pictures.locator("figcaption").allTextContents();
   late.forEach(({ time, toi }, i) => {
     assert.equal(toi, 0.5);
