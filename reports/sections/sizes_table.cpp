@@ -82,10 +82,10 @@ std::vector<Row> rows_of(const Statistics& statistics) {
 
 std::string kind_of(const Row& row) { return row.kind ? std::string(short_name(*row.kind)) : "all"; }
 
-/// "2^-9 to 2^30", or "none"
+/// "2^-9 to 2^30", or "no range"
 std::string values_of(const RightRange& range) {
   return range.exponents ? fmt::format("2^{} to 2^{}", range.exponents->first, range.exponents->second)
-                         : "none";
+                         : "no range";
 }
 
 /// What is wrong at all other values: "misses 58 of 310", "reports 90 % of the rest"; "" if nothing is.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "reports/statistics/confidence.hpp"
+
 namespace nearmiss {
 
 namespace {
@@ -86,17 +88,26 @@ double false_positive_rate(const FactorCounts& counts) {
   return counts.others == 0 ? 0 : ratio(counts.false_positives, counts.others);
 }
 
-/// The most false positives of a right value: a quarter more than where sizes are about 1.
-double highest_rate(const Powers& powers) {
+constexpr double improbable = 1e-4;
+
+/// The answers where sizes are about 1.
+FactorCounts usual_answers(const Powers& powers) {
   FactorCounts usual;
   for (int x = -2; x <= 2; ++x)
     if (const auto found = powers.find(x); found != powers.end()) usual.merge(found->second);
-  return false_positive_rate(usual) + 0.25;
+  return usual;
+}
+
+/// Whether a quarter more of the queries that do not collide are reported than usually, and not by chance.
+bool reports_more(const FactorCounts& counts, const FactorCounts& usual) {
+  constexpr double more = 0.25;
+  return false_positive_rate(counts) > false_positive_rate(usual) + more &&
+         fisher_test({counts.false_positives, counts.others}, {usual.false_positives, usual.others}).more <
+             improbable;
 }
 
 /// Whether chance may explain that all misses are outside of some of the collisions.
 bool may_be_chance(std::uint64_t some, const FactorCounts& all) {
-  constexpr double improbable = 1e-4;
   if (all.false_negatives == 0) return false;
   return std::pow(1 - ratio(some, all.collisions), all.false_negatives) >= improbable;
 }
@@ -105,10 +116,10 @@ RightRange range_of(const Powers& powers) {
   RightRange range;
   FactorCounts all, longest, run;
   int values = 0, most_values = 0, first = 0;
-  const double highest = highest_rate(powers);
+  const FactorCounts usual = usual_answers(powers);
   for (const auto& [x, counts] : powers) {
     all.merge(counts);
-    if (counts.false_negatives > 0 || false_positive_rate(counts) > highest) {
+    if (counts.false_negatives > 0 || reports_more(counts, usual)) {
       values = 0;
       continue;
     }

@@ -73,7 +73,7 @@ struct CommonFactors {
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
 /// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and its rate of false
-/// positives is at most 0.25 above the one at x from -2 to 2.
+/// positives is not more than 0.25 above the one at x from -2 to 2, chance excluded.
 struct RightRange {
   std::string subject;
   Kind kind{};
