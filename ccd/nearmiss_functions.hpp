@@ -18,8 +18,10 @@
 //   bool f(x0, x0 at t = 1, 0, x1, x1 at t = 1, 1, ..) El Topo              none              no
 //   Answer f(const Question&)                          everything else      none              no
 //
-// The compiler cannot tell that a function wants its vertices in another order, such as the triangle first:
-// call such a function from one that takes a Question (fuzz/subjects/peers/ has examples).
+// The compiler cannot tell that a function wants its vertices in another order, such as the triangle first, or
+// that two numbers mean something else than in the table: call such a function from one that takes a Question
+// (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts, the
+// detector gives those that all of them give.
 //
 // Codim-IPC's functions get eta = 0.1, toi = 1, and displacements that are rounded; a separation stands for
 // their thickness. A vertex may be a const double*, any type of Eigen's if Eigen is included before this
@@ -162,7 +164,16 @@ class Asked {
   template <class Arguments>
   struct Takes;
   template <class... Argument>
-  struct Takes<std::tuple<Argument...>> : std::is_invocable<const F&, Argument...> {};
+  struct Takes<std::tuple<Argument...>> {
+    template <class Result>
+    static constexpr bool is_answer =
+        std::is_same_v<Result, bool> || std::is_same_v<Result, int> || std::is_same_v<Result, Answer>;
+    template <class G, bool = std::is_invocable_v<const G&, Argument...>>
+    static constexpr bool answers = is_answer<std::invoke_result_t<const G&, Argument...>>;
+    template <class G>
+    static constexpr bool answers<G, false> = false;
+    static constexpr bool value = answers<F>;
+  };
 
   using Points = decltype(points(std::declval<Question>(), Vertices()));
   using Indexed = decltype(indexed(std::declval<Question>(), Vertices()));
@@ -172,10 +183,13 @@ class Asked {
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
 
   static constexpr bool is_question = takes<std::tuple<const Question&>>;
-  static constexpr bool is_ipc = takes<Points, double&, double, double>;
-  static constexpr bool is_displaced = takes<Points, double, double, double&>;
-  static constexpr bool is_within = takes<Points, double, double&>;
-  static constexpr bool is_timed = takes<Points, double&>;
+  // A time is taken by reference: a function that takes a number there has another meaning for it.
+  static constexpr bool is_ipc =
+      takes<Points, double&, double, double> && !takes<Points, double, double, double>;
+  static constexpr bool is_displaced =
+      takes<Points, double, double, double&> && !takes<Points, double, double, double>;
+  static constexpr bool is_within = takes<Points, double, double&> && !takes<Points, double, double>;
+  static constexpr bool is_timed = takes<Points, double&> && !takes<Points, double>;
   static constexpr bool is_plain = takes<Points>;
   static constexpr bool is_indexed = takes<Indexed>;
   static_assert(is_question || is_ipc || is_displaced || is_within || is_timed || is_plain || is_indexed,

@@ -60,18 +60,19 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   expect_end(in, name);
 }
 
-/// The truth that a comment " expect=1 ..." records for the next query; nothing if it records none, or says
-/// "expect=-" or "expect=?".
-std::optional<bool> recorded_truth(std::string_view comment, std::string_view where) {
+/// Reads the truth that a comment " expect=1 ..." records for the next query; none if it says "expect=-" or
+/// "expect=?". Other comments change nothing.
+void read_truth(std::string_view comment, std::string_view where, std::optional<bool>& truth) {
   constexpr std::string_view label = "expect=";
   comment.remove_prefix(std::min(comment.find_first_not_of(" \t#"), comment.size()));
-  if (!comment.starts_with(label)) return std::nullopt;
+  if (!comment.starts_with(label)) return;
   comment.remove_prefix(label.size());
   const std::string_view value = comment.substr(0, comment.find_first_of(" \t\r"));
   if (value != "0" && value != "1" && value != "-" && value != "?")
     throw Error(
         fmt::format("{}: found 'expect={}', expected expect=0, expect=1 or expect=-", where, excerpt(value)));
-  return value == "0" || value == "1" ? std::optional(value == "1") : std::nullopt;
+  truth.reset();
+  if (value == "0" || value == "1") truth = value == "1";
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ void read_query_lines(std::istream& in, Kind kind, const std::string& name, cons
     std::string where = lines.where();
     const std::string_view text = lines.text().substr(0, lines.text().find('#'));
     if (text.find_first_not_of(" \t\r,") == std::string_view::npos) {
-      if (text.size() < lines.text().size()) truth = recorded_truth(lines.text().substr(text.size()), where);
+      if (text.size() < lines.text().size()) read_truth(lines.text().substr(text.size()), where, truth);
       continue;
     }
     Case each;

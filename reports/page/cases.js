@@ -117,7 +117,7 @@ function drawFindings() {
   }
   element("findings-note").textContent = `${times(failures)} failures in ${integer(failures.length)} ways. The first few of each way ` +
     "are kept, and shrunk to the simplest query that fails in the same way." + (failures.length === report.signatures.length ? "" :
-    ` So are some of the ${times(report.signatures.filter(isCommitted))} queries in which the step to a sound time, once rounded, has contact. This is no failure.`);
+    ` So are some of the ${times(report.signatures.filter(isCommitted))} queries in which the step to a sound time, once rounded, has contact.`);
   if (report.common_factors) show("common-factors-part");
   for (const each of report.common_factors ?? [])
     element("common-factors").append(made("li", `${each.subject} ${each.kind}, ${each.family}: ${each.text}.`));

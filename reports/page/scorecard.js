@@ -11,10 +11,11 @@ const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 
 
 /** At which lengths of edges, and how far from the origin, the subject is right. */
 const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).map(({ kind, edge, distance }) => {
-  const part = (range, none, text) => range && (range.from === null ? `${none} (${range.wrong})` : `${text}${range.wrong && ` (elsewhere ${range.wrong})`}`);
-  const parts = [part(edge, "with edges of no length", `with edges of ${edge?.values}`),
-    part(distance, "at no distance from the origin", `at ${distance?.values} edges from the origin`)].filter(Boolean);
-  return small(withPowers(`${kind === "all" ? "" : `${kind} `}right ${parts.join(", and ")}`));
+  const part = (range, name) => range && `${name} ${range.values}${range.wrong && ` (elsewhere ${range.wrong})`}`;
+  const parts = [part(edge, "edges"), part(distance, "distance")].filter(Boolean);
+  const note = made("div", withPowers(`${kind === "all" ? "" : `${kind} `}right: ${parts.join("; ")}`), { class: "small wrapped" });
+  note.title = "the lengths of edges, and the distances from the origin in edges, at which it misses nothing and reports little more than at best";
+  return note;
 });
 
 /** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */

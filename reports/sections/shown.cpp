@@ -137,6 +137,7 @@ std::string replay_command(const Campaign& campaign, const ShownFinding& shown) 
   if (!before.empty() && run->info.contains("versions"))
     command += fmt::format(" --versions {}", shell_quoted(before + "," + subject));
   if (is_beyond_contract(subject)) command += " --beyond-contract";
+  if (shown.finding.what == Finding::What::committed) command += " --fail-on committed";
   const bool has_plugin = plugin_text(*run, subject) || plugin_text(*run, before);
   for (const char* option : {"bound", "query-time", "query-memory"})
     if (const auto given = run->info.find(option);

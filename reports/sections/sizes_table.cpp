@@ -42,7 +42,7 @@ std::optional<RightRange> common(const Ranges& ranges, const std::string& factor
       all->exponents = {std::min(all->exponents->first, each.exponents->first),
                         std::max(all->exponents->second, each.exponents->second)};
     } else {
-      if (all->exponents != each.exponents) return std::nullopt;
+      if (all->exponents != each.exponents || all->too_few != each.too_few) return std::nullopt;
       all->elsewhere.merge(each.elsewhere);
     }
   }
@@ -82,20 +82,25 @@ std::vector<Row> rows_of(const Statistics& statistics) {
 
 std::string kind_of(const Row& row) { return row.kind ? std::string(short_name(*row.kind)) : "all"; }
 
-/// "2^-9 to 2^30", or "no range"
+/// "2^-9 to 2^30", "no range" or "too few queries"
 std::string values_of(const RightRange& range) {
+  if (range.too_few) return "too few queries";
   return range.exponents ? fmt::format("2^{} to 2^{}", range.exponents->first, range.exponents->second)
                          : "no range";
 }
 
-/// What is wrong at all other values: "misses 58 of 310", "reports 90 % of the rest"; "" if nothing is.
+/// What is wrong at all other values: "misses 58 of 310, reports 90 % of the rest"; "" if nothing is.
 std::string wrong_elsewhere(const RightRange& range) {
   const FactorCounts& counts = range.elsewhere;
+  std::string wrong;
   if (counts.false_negatives > 0)
-    return fmt::format("misses {} of {}", with_separators(counts.false_negatives),
-                       with_separators(counts.collisions));
-  if (counts.false_positives == 0 || !range.exponents) return "";
-  return fmt::format("reports {} of the rest", percent(counts.false_positives, counts.others));
+    wrong = fmt::format("misses {} of {}", with_separators(counts.false_negatives),
+                        with_separators(counts.collisions));
+  // Usually, a third of the rest is no news.
+  if (3 * counts.false_positives > counts.others)
+    wrong += fmt::format("{}reports {} of the rest", wrong.empty() ? "" : ", ",
+                         percent(counts.false_positives, counts.others));
+  return wrong;
 }
 
 std::vector<std::string> cells_of(const Row& row) {
@@ -127,9 +132,8 @@ std::string sizes_table(const Statistics& statistics) {
   for (const Row& row : rows_of(statistics)) rows.push_back(cells_of(row));
   if (rows.size() == 1) return "";
   return columns(rows, rows.front().size()) +
-         "right: no miss, and at most 25 % more of the other queries reported than at 2^0; distance: from "
-         "the "
-         "origin, in edges\n";
+         "right: no miss, and no more than 25 % above the lowest rate of false positives; distance: from the "
+         "origin, in edges;\nno range: what is wrong does not depend on the size, or is too rare to tell\n";
 }
 
 ordered_json sizes_json(const Statistics& statistics) {

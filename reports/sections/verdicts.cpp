@@ -235,9 +235,9 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
   add_by_class(FailureKind::beyond_bound, "BEYOND ITS BOUND", "refuting");
   add_by_class(FailureKind::fault, no_answer(counts), "unanswered");
   if (failures.contains(FailureKind::committed))
-    parts.push_back(fmt::format("{} of {} to its times, rounded, touch on the way",
+    parts.push_back(fmt::format("{} of {} sound times lead to a step that touches, once rounded",
                                 with_separators(counts.committed),
-                                counted(counts.times_promised, "step", "steps")));
+                                with_separators(counts.times_promised - counts.late)));
   if (failures.contains(FailureKind::slow)) parts.push_back(slow_text(counts));
   if (failures.contains(FailureKind::unknown))
     parts.push_back(fmt::format("UNKNOWN in {} of {}", with_separators(counts.unknown()),

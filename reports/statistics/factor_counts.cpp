@@ -1,5 +1,6 @@
 #include "reports/statistics/factor_counts.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -47,10 +48,27 @@ void count_answer(FactorTable& table, const FactorKey& key, std::span<const std:
 double CommonFactors::share() const { return ratio(with.false_negatives, all.false_negatives); }
 double CommonFactors::share_of_collisions() const { return ratio(with.collisions, all.collisions); }
 
+namespace {
+
+/// FACTOR and x of "FACTOR=2^x"; nothing for any other text.
+std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
+  constexpr std::string_view between = "=2^";
+  const auto at = value.find(between);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view digits = value.substr(at + between.size());
+  int x = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return std::pair{value.substr(0, at), x};
+}
+
+}  // namespace
+
 std::vector<CommonFactors> common_factors(const FactorTable& table) {
   std::vector<CommonFactors> best;
   for (const auto& [key, with] : table) {
-    if (key.values.empty() || with.false_negatives == 0) continue;
+    // What depends on a power of two is told by right_ranges().
+    if (key.values.empty() || with.false_negatives == 0 || power(key.values)) continue;
     FactorKey all = key;
     all.values.clear();
     const auto sum = table.find(all);
@@ -72,73 +90,110 @@ namespace {
 /// The answers by x, of a factor whose values are powers 2^x.
 using Powers = std::map<int, FactorCounts>;
 
-/// FACTOR and x of "FACTOR=2^x"; nothing for any other text.
-std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
-  constexpr std::string_view between = "=2^";
-  const auto at = value.find(between);
-  if (at == std::string_view::npos) return std::nullopt;
-  const std::string_view digits = value.substr(at + between.size());
-  int x = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  return std::pair{value.substr(0, at), x};
-}
-
 double false_positive_rate(const FactorCounts& counts) {
   return counts.others == 0 ? 0 : ratio(counts.false_positives, counts.others);
 }
 
 constexpr double improbable = 1e-4;
 
-/// The answers where sizes are about 1.
-FactorCounts usual_answers(const Powers& powers) {
-  FactorCounts usual;
-  for (int x = -2; x <= 2; ++x)
-    if (const auto found = powers.find(x); found != powers.end()) usual.merge(found->second);
-  return usual;
+/// The answers at one value 2^x, and what is wrong with them.
+struct Level {
+  int x;
+  FactorCounts counts;
+  bool misses = false, reports = false;
+
+  [[nodiscard]] bool is_right() const { return !misses && !reports; }
+};
+
+/// The sum of the answers of some levels.
+FactorCounts sum_of(std::span<const Level> levels) {
+  FactorCounts sum;
+  for (const Level& each : levels) sum.merge(each.counts);
+  return sum;
 }
 
-/// Whether a quarter more of the queries that do not collide are reported than usually, and not by chance.
-bool reports_more(const FactorCounts& counts, const FactorCounts& usual) {
-  constexpr double more = 0.25;
-  return false_positive_rate(counts) > false_positive_rate(usual) + more &&
-         fisher_test({counts.false_positives, counts.others}, {usual.false_positives, usual.others}).more <
+/// The answers at five neighbouring values, or at all if there are fewer, with the lowest rate of false
+/// positives.
+FactorCounts best_answers(std::span<const Level> levels) {
+  constexpr std::size_t most = 5;
+  const std::size_t width = std::min(most, levels.size());
+  FactorCounts best = sum_of(levels.first(width));
+  for (std::size_t i = 1; i + width <= levels.size(); ++i) {
+    const FactorCounts sum = sum_of(levels.subspan(i, width));
+    if (false_positive_rate(sum) < false_positive_rate(best)) best = sum;
+  }
+  return best;
+}
+
+/// Whether most of the queries that do not collide are reported, or by a quarter more of them than at best,
+/// and not by chance.
+bool reports_more(const FactorCounts& counts, const FactorCounts& best) {
+  constexpr double more = 0.25, most = 0.75;
+  const double rate = false_positive_rate(counts);
+  if (counts.others >= 4 && rate > most) return true;
+  return rate > false_positive_rate(best) + more &&
+         fisher_test({counts.false_positives, counts.others}, {best.false_positives, best.others}).more <
              improbable;
 }
 
-/// Whether chance may explain that all misses are outside of some of the collisions.
-bool may_be_chance(std::uint64_t some, const FactorCounts& all) {
-  if (all.false_negatives == 0) return false;
-  return std::pow(1 - ratio(some, all.collisions), all.false_negatives) >= improbable;
+std::vector<Level> levels_of(const Powers& powers) {
+  std::vector<Level> levels;
+  for (const auto& [x, counts] : powers) levels.push_back({x, counts});
+  const FactorCounts best = best_answers(levels);
+  for (Level& each : levels) {
+    each.misses = each.counts.false_negatives > 0;
+    each.reports = reports_more(each.counts, best);
+  }
+  return levels;
+}
+
+/// The first longest run of right levels at neighbouring values.
+std::span<const Level> longest_run(std::span<const Level> levels) {
+  std::span<const Level> longest;
+  for (std::size_t first = 0; first < levels.size();) {
+    std::size_t end = first;
+    while (end < levels.size() && levels[end].is_right() &&
+           (end == first || levels[end].x == levels[end - 1].x + 1))
+      ++end;
+    if (end - first > longest.size()) longest = levels.subspan(first, end - first);
+    first = std::max(end, first + 1);
+  }
+  return longest;
+}
+
+/// Whether chance may explain that none of these collisions is missed: at the rate of misses among some of the
+/// levels that come next, `outside` in the order of their distance, if the nearest one has misses.
+template <class Levels>
+bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
+  if (outside.empty() || !outside.front().misses) return false;
+  FactorCounts sum;
+  for (const Level& each : outside) {
+    sum.merge(each.counts);
+    if (sum.collisions > 0 &&
+        std::pow(1 - ratio(sum.false_negatives, sum.collisions), collisions) >= improbable)
+      return true;
+  }
+  return false;
 }
 
 RightRange range_of(const Powers& powers) {
+  const std::vector<Level> levels = levels_of(powers);
+  const FactorCounts all = sum_of(levels);
+  const std::span<const Level> run = longest_run(levels);
+  const auto start = static_cast<std::size_t>(run.empty() ? 0 : &run.front() - levels.data());
+  const std::span<const Level> below = std::span(levels).first(start);
+  const std::span<const Level> above = std::span(levels).subspan(start + run.size());
+  FactorCounts inside = sum_of(run);
   RightRange range;
-  FactorCounts all, longest, run;
-  int values = 0, most_values = 0, first = 0;
-  const FactorCounts usual = usual_answers(powers);
-  for (const auto& [x, counts] : powers) {
-    all.merge(counts);
-    if (counts.false_negatives > 0 || reports_more(counts, usual)) {
-      values = 0;
-      continue;
-    }
-    if (values++ == 0) {
-      first = x;
-      run = {};
-    }
-    run.merge(counts);
-    if (values <= most_values) continue;
-    most_values = values;
-    longest = run;
-    range.exponents = {first, x};
-  }
-  if (may_be_chance(longest.collisions, all)) {
-    range.exponents.reset();
-    longest = {};
-  }
+  range.too_few = all.collisions < 2 * levels.size();
+  if (!run.empty() && !range.too_few && inside.collisions > 0 &&
+      !may_be_chance(inside.collisions, std::vector<Level>(below.rbegin(), below.rend())) &&
+      !may_be_chance(inside.collisions, above))
+    range.exponents = {run.front().x, run.back().x};
+  else
+    inside = {};
   for_each_counter<FactorCounts>([&](const auto& counter) {
-    range.elsewhere.*counter.member = all.*counter.member - longest.*counter.member;
+    range.elsewhere.*counter.member = all.*counter.member - inside.*counter.member;
   });
   return range;
 }

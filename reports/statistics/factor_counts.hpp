@@ -72,15 +72,16 @@ struct CommonFactors {
 /// in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
-/// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and its rate of false
-/// positives is not more than 0.25 above the one at x from -2 to 2, chance excluded.
+/// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and reports at most three
+/// quarters of the queries that do not collide, and not a quarter more of them than at best.
 struct RightRange {
   std::string subject;
   Kind kind{};
   std::string factor;
-  /// The first and the last x of the longest run of values at which it is right; nothing if there is none, or
-  /// if chance explains why no miss falls into the run.
+  /// The first and the last x of the longest run of neighbouring values at which it is right. Nothing if there
+  /// is none; if the misses next to the run are so rare that chance explains the run; or if `too_few`.
   std::optional<std::pair<int, int>> exponents;
+  bool too_few = false;    ///< whether there are fewer than two collisions for each value
   FactorCounts elsewhere;  ///< the answers at all other values
 };
 

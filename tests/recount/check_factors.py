@@ -4,7 +4,10 @@ import itertools
 import re
 
 import numpy as np
+from scipy.stats import hypergeom
 from asking import KINDS
+
+POWER = re.compile('[a-z]+=2\\^-?[0-9]+')  # sizes, of which check_sizes() takes care
 
 
 def check_common_factors(comparison, where, report, answers):
@@ -39,7 +42,9 @@ def common_factors(answers, subject, kind, family):
     if not misses.get(''):
         return None
     common = [
-        each for each in sorted(misses) if each and misses[each] and 2 * misses[each] >= misses['']
+        each
+        for each in sorted(misses)
+        if each and misses[each] and 2 * misses[each] >= misses[''] and not POWER.fullmatch(each)
     ]
     if not common:
         return None
@@ -85,7 +90,9 @@ def _sizes(answers, subject):
         own = [each for key, each in ranges.items() if key[0] == factor]
         if not own:
             continue
-        everywhere = all(exponents and not elsewhere.any() for exponents, elsewhere in own)
+        everywhere = all(
+            isinstance(exponents, tuple) and not elsewhere.any() for exponents, elsewhere in own
+        )
         if len({exponents for exponents, _ in own}) > 1 and not everywhere:
             return [
                 {
@@ -128,23 +135,36 @@ def _powers(answers, subject, kind, factor):
 
 
 def _right_range(powers):
-    """The exponents of the longest run of powers at which nothing is wrong, or None; and the counts
-    of all other powers."""
-    runs, run = [], []
-    usual = sum((powers[x] for x in powers if abs(x) <= 2), np.zeros(4, int))
-    highest = _rate(usual) + 0.25
-    for x in sorted(powers):
-        if powers[x][1] or _rate(powers[x]) > highest:
-            run = []
-            continue
-        run = [*run, x]
-        runs.append(run)
-    longest = max(runs, key=len, default=[])
+    """The exponents of the longest run of powers at which nothing is wrong, "too few", or None; and
+    the counts of all other powers."""
+    order = sorted(powers)
+    windows = [order[i : i + 5] for i in range(max(1, len(order) - 4))]
+    best = min((sum(powers[x] for x in window) for window in windows), key=_rate)
+    wrong = {x: powers[x][1] > 0 or _reports_more(powers[x], best) for x in order}
+    run, longest = [], []
+    for x in order:
+        run = [] if wrong[x] else [*run, x] if run and run[-1] == x - 1 else [x]
+        longest = max(longest, run, key=len)
     total = sum(powers.values())
+    if total[0] < 2 * len(order):
+        return 'too few', total
     inside = sum((powers[x] for x in longest), np.zeros(4, int))
-    if total[1] and (1 - inside[0] / total[0]) ** total[1] >= 1e-4:
-        longest, inside = [], np.zeros(4, int)
-    return (longest[0], longest[-1]) if longest else None, total - inside
+    below = [x for x in reversed(order) if longest and x < longest[0]]
+    above = [x for x in order if longest and x > longest[-1]]
+    is_chance = any(
+        _may_be_chance(inside[0], [powers[x] for x in side]) for side in (below, above)
+    )
+    if not inside[0] or is_chance:
+        return None, total
+    return (longest[0], longest[-1]), total - inside
+
+
+def _may_be_chance(collisions, outside):
+    """Whether chance explains that none of the collisions is missed, at some rate outside."""
+    if not outside or not outside[0][1]:
+        return False
+    sums = np.cumsum(outside, axis=0)
+    return any(each[0] and (1 - each[1] / each[0]) ** collisions >= 1e-4 for each in sums)
 
 
 def _rate(counts):
@@ -152,26 +172,35 @@ def _rate(counts):
     return counts[3] / counts[2] if counts[2] else 0
 
 
+def _reports_more(counts, best):
+    """Whether most of the rest is reported, or more than 0.25 above the best rate, not by chance."""
+    if counts[2] >= 4 and _rate(counts) > 0.75:
+        return True
+    if _rate(counts) <= _rate(best) + 0.25:
+        return False
+    of_both = counts[2:] + best[2:]
+    return hypergeom.sf(counts[3] - 1, of_both[0], of_both[1], counts[2]) < 1e-4
+
+
 def _as_json(found):
     if found is None:
         return None
     exponents, elsewhere = found
     collisions, misses, others, positives = map(int, elsewhere)
-    if misses:
-        wrong = f'misses {misses:,} of {collisions:,}'
-    elif positives and exponents:
-        wrong = f'reports {100 * positives / others:.3g} % of the rest'
-    else:
-        wrong = ''
+    is_range = isinstance(exponents, tuple)
+    wrong = [f'misses {misses:,} of {collisions:,}'] if misses else []
+    if 3 * positives > others:
+        wrong.append(f'reports {100 * positives / others:.3g} % of the rest')
+    values = {None: 'no range', 'too few': 'too few queries'}
     return {
-        'from': exponents[0] if exponents else None,
-        'to': exponents[1] if exponents else None,
+        'from': exponents[0] if is_range else None,
+        'to': exponents[1] if is_range else None,
         'elsewhere': {
             'collisions': collisions,
             'false_negatives': misses,
             'others': others,
             'false_positives': positives,
         },
-        'values': f'2^{exponents[0]} to 2^{exponents[1]}' if exponents else 'none',
-        'wrong': wrong,
+        'values': f'2^{exponents[0]} to 2^{exponents[1]}' if is_range else values[exponents],
+        'wrong': ', '.join(wrong),
     }

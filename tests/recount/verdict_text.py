@@ -65,8 +65,10 @@ def verdict(row, kinds):
             parts.append(f'{title} {_class_by_class(kinds, failure)}')
             parts += _other_class(kinds, failure, name)
     if counts['committed']:
-        steps = counted(counts['times_promised'], 'step')
-        parts.append(f'{counts["committed"]:,} of {steps} to its times, rounded, touch on the way')
+        sound = counts['times_promised'] - counts['late']
+        parts.append(
+            f'{counts["committed"]:,} of {sound:,} sound times lead to a step that touches, once rounded'
+        )
     if counts['unknown']:
         of = counted(counts['queries'], 'query', 'queries')
         parts.append(f'UNKNOWN in {counts["unknown"]:,} of {of}')

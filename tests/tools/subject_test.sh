@@ -38,7 +38,7 @@ compile() {
   local name=$1 said
   shift
   said=$("$root/tools/subject" "${@/ADAPTER/$name.cpp}" 2>&1) || { fail "$name: $said"; return; }
-  [[ $said == "./$name.so" && -s $name.so && ! -e $name.log ]] || fail "$name: expected ./$name.so, found '$said'"
+  [[ $said == "./$name.so" && -s $name.so && ! -e $name.so.log ]] || fail "$name: expected ./$name.so, found '$said'"
 }
 # refused WHAT OPTIONS...: expects one line that contains WHAT, and no plug-in.
 refused() {
@@ -146,9 +146,15 @@ adapter forgotten '.vertex_triangle(foreign::forgotten)'
 refused 'the plug-in cannot be loaded: ' forgotten.cpp "${by_flags[@]}"
 [[ ! -e forgotten.so ]] || fail "forgotten.so is left"
 adapter unusual '.vertex_triangle([](int) { return true; })'
-refused ', see ./unusual.log' unusual.cpp "${by_flags[@]}"
+# An output that is no plug-in is not replaced.
+echo mine >precious.so
+refused "found './precious.so', which is no plug-in" -o precious.so unusual.cpp
+[[ $(cat precious.so) == mine ]] || fail "precious.so was replaced"
+refused "expected FILE.so" -o unusual.cpp unusual.cpp
+[[ -s unusual.cpp ]] || fail "unusual.cpp was replaced"
+refused ', see ./unusual.so.log' unusual.cpp "${by_flags[@]}"
 refused 'the function has none of the signatures that nearmiss_functions.hpp lists' unusual.cpp "${by_flags[@]}"
-grep -q static_assert unusual.log || fail "unusual.log: found $(cat unusual.log)"
+grep -q static_assert unusual.so.log || fail "unusual.so.log: found $(cat unusual.so.log)"
 adapter broken '.nothing()'
 refused nothing broken.cpp "${by_flags[@]}"
 refused "found no file 'none.cpp'" none.cpp

@@ -81,7 +81,7 @@ async function checkPictures(page, { extreme_times, findings }) {
   const committed = findings.filter(({ what }) => what === "committed");
   assert.ok(committed.length > 0);
   assert.equal(await count(page, "#findings .card h3:text('step with contact of')"), committed.length);
-  assert.match(await page.textContent("#findings-note"), /queries in which the step to a sound time, once rounded, has contact/);
+  assert.match(await page.textContent("#findings-note"), /queries in which the step to a sound time, once rounded, has contact\./);
   const legends = await pictures.locator("figcaption").allTextContents();
   late.forEach(({ time, toi }, i) => {
     assert.equal(toi, 0.5);
