@@ -106,7 +106,8 @@ void read_query_lines(std::istream& in, Kind kind, const std::string& name, cons
     Case each;
     each.query = parse_line(kind, text, where);
     each.name = std::move(where);
-    each.truth = std::exchange(truth, std::nullopt);
+    each.truth = truth;
+    truth = std::nullopt;
     any = true;
     sink(std::move(each));
   }

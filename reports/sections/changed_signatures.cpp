@@ -267,7 +267,8 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, All
   std::vector<Signature> candidates;
   for (const auto& [signature, count] : before.seen) {
     seen_before[{signature.what, signature.subject}] += count;
-    if (now.times_seen(signature) == 0 && !is_beyond_contract(signature.subject))
+    if (now.times_seen(signature) == 0 && !is_beyond_contract(signature.subject) &&
+        signature.what != Finding::What::committed)
       candidates.push_back(signature);
   }
   const double level = level_of(risk, candidates.size() + seen_before.size());
