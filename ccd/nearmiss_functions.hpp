@@ -151,6 +151,17 @@ auto with_displacements(const Question& q, const Act& act) {
   return with_vertices<n>({q.kind, displaced(q).data(), q.separation}, act);
 }
 
+template <class Result>
+constexpr bool is_answer =
+    std::is_same_v<Result, bool> || std::is_same_v<Result, int> || std::is_same_v<Result, Answer>;
+
+/// Whether an F takes these arguments, and returns an answer.
+template <class Void, class F, class... Argument>
+constexpr bool answers = false;
+template <class F, class... Argument>
+constexpr bool answers<std::void_t<std::invoke_result_t<const F&, Argument...>>, F, Argument...> =
+    is_answer<std::invoke_result_t<const F&, Argument...>>;
+
 /// A detector of one kind: asks a function of type F, in the way that its signature calls for. `State` is a
 /// tuple of what the function gets first: the options, or nothing.
 template <class F, class State, int kind>
@@ -164,16 +175,7 @@ class Asked {
   template <class Arguments>
   struct Takes;
   template <class... Argument>
-  struct Takes<std::tuple<Argument...>> {
-    template <class Result>
-    static constexpr bool is_answer =
-        std::is_same_v<Result, bool> || std::is_same_v<Result, int> || std::is_same_v<Result, Answer>;
-    template <class G, bool = std::is_invocable_v<const G&, Argument...>>
-    static constexpr bool answers = is_answer<std::invoke_result_t<const G&, Argument...>>;
-    template <class G>
-    static constexpr bool answers<G, false> = false;
-    static constexpr bool value = answers<F>;
-  };
+  struct Takes<std::tuple<Argument...>> : std::bool_constant<answers<void, F, Argument...>> {};
 
   using Points = decltype(points(std::declval<Question>(), Vertices()));
   using Indexed = decltype(indexed(std::declval<Question>(), Vertices()));
