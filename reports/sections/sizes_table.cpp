@@ -132,7 +132,8 @@ std::string sizes_table(const Statistics& statistics) {
   for (const Row& row : rows_of(statistics)) rows.push_back(cells_of(row));
   if (rows.size() == 1) return "";
   return columns(rows, rows.front().size()) +
-         "right: no miss, and no more than 25 % above the lowest rate of false positives; distance: from the "
+         "right: no miss, and no more than 25 % above the lowest rate of false positives where nothing is "
+         "missed; distance: from the "
          "origin, in edges;\nno range: what is wrong does not depend on the size, or is too rare to tell\n";
 }
 

@@ -112,14 +112,15 @@ FactorCounts sum_of(std::span<const Level> levels) {
   return sum;
 }
 
-/// The answers at five neighbouring values, or at all if there are fewer, with the lowest rate of false
-/// positives.
-FactorCounts best_answers(std::span<const Level> levels) {
+/// The answers at five neighbouring values without misses, or at all if there are fewer, with the lowest rate of
+/// false positives. (A CCD that misses everything has none.)
+FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
+  std::erase_if(levels, [](const Level& each) { return each.misses; });
   const std::size_t width = std::min(most, levels.size());
-  FactorCounts best = sum_of(levels.first(width));
+  FactorCounts best = sum_of(std::span(levels).first(width));
   for (std::size_t i = 1; i + width <= levels.size(); ++i) {
-    const FactorCounts sum = sum_of(levels.subspan(i, width));
+    const FactorCounts sum = sum_of(std::span(levels).subspan(i, width));
     if (false_positive_rate(sum) < false_positive_rate(best)) best = sum;
   }
   return best;
@@ -138,12 +139,9 @@ bool reports_more(const FactorCounts& counts, const FactorCounts& best) {
 
 std::vector<Level> levels_of(const Powers& powers) {
   std::vector<Level> levels;
-  for (const auto& [x, counts] : powers) levels.push_back({x, counts});
+  for (const auto& [x, counts] : powers) levels.push_back({x, counts, counts.false_negatives > 0});
   const FactorCounts best = best_answers(levels);
-  for (Level& each : levels) {
-    each.misses = each.counts.false_negatives > 0;
-    each.reports = reports_more(each.counts, best);
-  }
+  for (Level& each : levels) each.reports = reports_more(each.counts, best);
   return levels;
 }
 

@@ -138,8 +138,10 @@ def _right_range(powers):
     """The exponents of the longest run of powers at which nothing is wrong, "too few", or None; and
     the counts of all other powers."""
     order = sorted(powers)
-    windows = [order[i : i + 5] for i in range(max(1, len(order) - 4))]
-    best = min((sum(powers[x] for x in window) for window in windows), key=_rate)
+    sound = [x for x in order if not powers[x][1]]
+    windows = [sound[i : i + 5] for i in range(max(1, len(sound) - 4))]
+    sums = (sum((powers[x] for x in window), np.zeros(4, int)) for window in windows)
+    best = min(sums, key=_rate)
     wrong = {x: powers[x][1] > 0 or _reports_more(powers[x], best) for x in order}
     run, longest = [], []
     for x in order:

@@ -51,6 +51,23 @@ TEST(RightRange, EndsWhereMissesBegin) {
   EXPECT_EQ(range.elsewhere.false_negatives, 23 * 2);
 }
 
+TEST(RightRange, IsNotMeasuredByFalsePositivesWhereEverythingIsMissed) {
+  // As in conservative advancement that steps over what is small: it reports nothing there.
+  const auto below = [](int x, int /*i*/) { return x < -9; };
+  const auto reported = [](int x, int i) { return x >= -9 && i < 16; };  // of 40
+  EXPECT_THAT(range_of(answers(Kind::edge_edge, 40, below, reported)).exponents, Optional(Pair(-9, 30)));
+}
+
+TEST(RightRange, NeedsEvidence) {
+  EXPECT_TRUE(range_of(answers(Kind::edge_edge, 1, never, never)).too_few);
+  const auto always = [](int /*x*/, int /*i*/) { return true; };
+  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it says always yes
+  // Values without an answer divide a range.
+  FactorTable table = answers(Kind::edge_edge, 8, never, never);
+  std::erase_if(table, [](const auto& each) { return each.first.values == "edge=2^10"; });
+  EXPECT_THAT(range_of(table).exponents, Optional(Pair(-30, 9)));
+}
+
 TEST(RightRange, EndsWhereAQuarterMoreOfTheRestIsReportedThanUsually) {
   const auto reported = [](int x, int i) { return i < (x < -20 ? 7 : x < -10 ? 6 : 4); };  // of 8
   const RightRange range = range_of(answers(Kind::edge_edge, 8, never, reported));
