@@ -31,11 +31,13 @@ struct Row {
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
 /// The range of a factor for all kinds; nothing if they differ, or if there is none. Ranges of all values
-/// that a kind was asked about do not differ.
+/// that a kind was asked about do not differ. Kinds with too few queries do not count beside others.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
+  const bool has_enough = std::ranges::any_of(
+      ranges, [&](const auto& each) { return each.first.first == factor && !each.second.too_few; });
   for (const auto& [key, each] : ranges) {
-    if (key.first != factor) continue;
+    if (key.first != factor || (has_enough && each.too_few)) continue;
     if (!all) {
       all = each;
     } else if (is_everywhere(*all) && is_everywhere(each)) {

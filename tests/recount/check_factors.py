@@ -90,6 +90,7 @@ def _sizes(answers, subject):
         own = [each for key, each in ranges.items() if key[0] == factor]
         if not own:
             continue
+        own = [each for each in own if each[0] != 'too few'] or own
         everywhere = all(
             isinstance(exponents, tuple) and not elsewhere.any() for exponents, elsewhere in own
         )

@@ -113,6 +113,16 @@ TEST(SizesTable, HasARowForEachKindWhoseRangesDiffer) {
   EXPECT_TRUE(json[1]["distance"].is_null());
 }
 
+TEST(SizesTable, LeavesOutKindsWithTooFewQueries) {
+  Statistics statistics;
+  statistics.factors = answers(Kind::edge_edge, 8, never, never);
+  statistics.factors.merge(answers(Kind::vertex_vertex, 1, never, never));
+  EXPECT_THAT(sizes_table(statistics), HasSubstr("yours    all   2^-30 to 2^30"));
+  Statistics few;
+  few.factors = answers(Kind::vertex_vertex, 1, never, never);
+  EXPECT_THAT(sizes_table(few), HasSubstr("yours    all   too few queries"));
+}
+
 TEST(SizesTable, HasOneRowIfTheKindsAreTheSame) {
   Statistics statistics;
   statistics.factors = answers(Kind::edge_edge, 8, never, never);
