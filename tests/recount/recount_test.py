@@ -228,6 +228,8 @@ class Recount(unittest.TestCase):
     def with_other_digit(line):
         """Changes the last digit of the line's last number that is not a run time."""
         end = line.rindex('  ') if re.search(r'  (vt|ee|2\^\S+) ', line) else len(line)
+        if not any(c.isdigit() for c in line):
+            return line + ' 1'  # "too few queries"
         i = max(i for i in range(end) if line[i].isdigit())
         return f'{line[:i]}{(int(line[i]) + 1) % 10}{line[i + 1:]}'
 
