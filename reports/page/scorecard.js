@@ -10,12 +10,13 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
 const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 2 === 0 ? part : ["2", made("sup", part.slice(2).replace("-", "−"))]));
 
 /** At which lengths of edges, and how far from the origin, the subject is right. */
-const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).map(({ kind, edge, distance }) => {
-  const part = (range, name) => range && `${name} ${range.values}${range.wrong && ` (elsewhere ${range.wrong})`}`;
+const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).flatMap(({ kind, edge, distance }) => {
+  const part = (range, name) => range && range.values !== "too few queries" && `${name} ${range.values}${range.wrong && ` (elsewhere ${range.wrong})`}`;
   const parts = [part(edge, "edges"), part(distance, "distance")].filter(Boolean);
+  if (parts.length === 0) return [];
   const note = made("div", withPowers(`${kind === "all" ? "" : `${kind} `}right: ${parts.join("; ")}`), { class: "small wrapped" });
   note.title = "the lengths of edges, and the distances from the origin in edges, at which it misses nothing and reports little more than at best";
-  return note;
+  return [note];
 });
 
 /** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */
