@@ -11,7 +11,7 @@ const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 
 
 /** At which lengths of edges, and how far from the origin, the subject is right. */
 const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).flatMap(({ kind, edge, distance }) => {
-  const part = (range, name) => range && range.values !== "too few queries" && `${name} ${range.values}${range.wrong && ` (elsewhere ${range.wrong})`}`;
+  const part = (range, name) => range && range.from !== null && `${name} ${range.values}${range.wrong && ` (elsewhere ${range.wrong})`}`;
   const parts = [part(edge, "edges"), part(distance, "distance")].filter(Boolean);
   if (parts.length === 0) return [];
   const note = made("div", withPowers(`${kind === "all" ? "" : `${kind} `}right: ${parts.join("; ")}`), { class: "small wrapped" });
