@@ -6,7 +6,6 @@
 #include <fstream>
 #include <istream>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "ccd/query/error.hpp"

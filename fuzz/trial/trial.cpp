@@ -168,6 +168,7 @@ class Judging {
     for (std::size_t i = 0; i < batch_.queries.size(); ++i) {
       Truth truth(batch_.queries[i], decisions_[i]);
       try_oracle(i, truth, by_oracle);
+      if (batch_.factors) factors_ = batch_.factors(i);
       for (std::size_t s = 0; s < subjects_.size(); ++s) {
         if (counts_[s] == nullptr) continue;
         std::optional<Truth> own = rounded_[s].truth(i);
@@ -240,7 +241,7 @@ class Judging {
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
     if (batch_.factors && outcome.verdict.fault == Fault::none)
       count_answer(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
-                   batch_.factors(i), outcome.collision, outcome.verdict.hit);
+                   factors_, outcome.collision, outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
     const bool is_committed =
         failure && failure->what == Finding::What::committed;  // no failure of a version
@@ -275,11 +276,12 @@ class Judging {
   std::vector<Known> known_;  // by subject, before the next query
   const Verdicts& answers_;   // by subject and query
   TrialResult result_;
-  std::vector<Counts*> counts_;      // by subject, in the result; null if it does not decide this kind
-  std::vector<Judge> judges_;        // by subject
-  std::vector<Rounded> rounded_;     // by subject
-  std::vector<Decision> decisions_;  // by query
-  std::vector<bool> near_;           // by query; empty if not asked for
+  std::vector<Counts*> counts_;       // by subject, in the result; null if it does not decide this kind
+  std::vector<Judge> judges_;         // by subject
+  std::vector<Rounded> rounded_;      // by subject
+  std::vector<Decision> decisions_;   // by query
+  std::vector<bool> near_;            // by query; empty if not asked for
+  std::vector<std::string> factors_;  // of the query that is judged, if the batch has factors
   VersionComparison versions_;
 };
 

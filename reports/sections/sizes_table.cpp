@@ -98,7 +98,7 @@ std::string wrong_elsewhere(const RightRange& range) {
   if (counts.false_negatives > 0)
     wrong = fmt::format("misses {} of {}", with_separators(counts.false_negatives),
                         with_separators(counts.collisions));
-  // Usually, a third of the rest is no news.
+  // A CCD that makes room for rounding may report up to a third of the rest everywhere.
   if (3 * counts.false_positives > counts.others)
     wrong += fmt::format("{}reports {} of the rest", wrong.empty() ? "" : ", ",
                          percent(counts.false_positives, counts.others));

@@ -67,7 +67,7 @@ std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
 std::vector<CommonFactors> common_factors(const FactorTable& table) {
   std::vector<CommonFactors> best;
   for (const auto& [key, with] : table) {
-    // What depends on a power of two is told by right_ranges().
+    // right_ranges() tells what depends on a power of two.
     if (key.values.empty() || with.false_negatives == 0 || power(key.values)) continue;
     FactorKey all = key;
     all.values.clear();

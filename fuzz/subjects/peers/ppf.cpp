@@ -19,7 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
-// What the compiler for CUDA knows by itself.
+// The compiler for CUDA defines these names.
 #define __device__  // NOLINT(bugprone-reserved-identifier)
 #define __host__    // NOLINT(bugprone-reserved-identifier)
 #define __global__  // NOLINT(bugprone-reserved-identifier)
