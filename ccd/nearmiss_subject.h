@@ -1,6 +1,6 @@
-/* The plug-in interface of nearmiss, version 3: a shared object that exports nearmiss_get_subject() puts up
+/* The plug-in interface of nearmiss, version 4: a shared object that exports nearmiss_get_subject() puts up
  * to 64 continuous collision detectors on trial. C99; this header is the whole interface. A field that an
- * initialiser leaves out is 0. A shared object that was compiled with version 2 goes on working. */
+ * initialiser leaves out is 0. A shared object that was compiled with version 2 or 3 goes on working. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-#define NEARMISS_INTERFACE 3
+#define NEARMISS_INTERFACE 4
 
 /* Kinds of queries. */
 #define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
@@ -27,6 +27,10 @@ extern "C" {
 #define NEARMISS_NO_TIME 0
 #define NEARMISS_TIME_ESTIMATE 1
 #define NEARMISS_TIME_LOWER_BOUND 2 /* nothing happens before this time */
+
+/* Layouts of the coordinates of n queries. */
+#define NEARMISS_ROWS 0 /* query by query: coordinate k of query i is x[m * i + k]; m: coordinates a query */
+#define NEARMISS_ARRAYS 1 /* coordinate by coordinate: it is x[n * k + i] */
 
 /* What a detector takes for granted. It is not judged on other queries. */
 typedef struct {
@@ -49,7 +53,7 @@ typedef struct {
   int bits;             /* 53; or 24: it gets x and h rounded to float, and is judged on these; 0 means 53 */
   int time_sort;        /* the sort of time that it gives with every collision */
   int takes_separation; /* 1 if it uses h, for all of its kinds */
-  size_t batch;         /* how many queries decide() should get at once, if possible; 0 means 1 */
+  size_t batch;         /* how many queries decide() should get at once, if possible: up to 10^7; 0 means 1 */
   nearmiss_contract contract;
 
   /* Opens the detector for one thread, and returns its state. `options` is what the user wrote after its
@@ -64,7 +68,7 @@ typedef struct {
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
    * any time in [0, 1]; h = 0 asks for contact.
    *   x: n rows of finite doubles, x0 x1 .. at t = 0, then at t = 1; x, y, z of each: 24 numbers, or 12 for
-   *      two vertices, and 18 for a vertex and an edge. The vertices move linearly.
+   *      two vertices, and 18 for a vertex and an edge. The vertices move linearly. `layout` changes the order.
    *   h: n separations, at least 0; 0 unless it uses h for this kind. Rounded to float, like x, if `bits` is
    *      24.
    *   answer: n answers, all to be written.
@@ -88,6 +92,13 @@ typedef struct {
   int separation_kinds; /* sum of the kinds for which it uses h, if these are not all of its kinds */
   /* As distance_bound, which is not called any more if this is not NULL, but it may depend on h. */
   double (*distance_bound_within)(void* state, int kind, const double* x, double h);
+
+  /* New in version 4: */
+
+  int layout; /* in which decide() reads x: NEARMISS_ROWS or NEARMISS_ARRAYS */
+  /* The seconds that the last decide() took without copies to and from a device, or a negative number if that
+   * is unknown; may be NULL. `nearmiss bench` shows them. */
+  double (*seconds_of_kernels)(void* state);
 } nearmiss_subject;
 
 /* The one exported function. Returns detector number `index`, from 0; NULL after the last one. The object

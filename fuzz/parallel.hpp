@@ -1,6 +1,7 @@
 // Parallel loops. Only shrinking (trial/shrinking.hpp), which runs beside them, has threads of its own.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -16,6 +17,19 @@ std::thread start_thread(std::function<void()> work);
 /// Calls work(0) to work(count - 1) on `jobs` threads, or on as many as the system can start. An exception is
 /// passed on to the caller.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// Calls work(first, last) for the parts [first, last) of [0, count): on all processors if there are many
+/// items, and once for all of them if there are few. An exception is passed on to the caller.
+template <class PartWork>
+void in_parts(std::size_t count, const PartWork& work) {
+  constexpr std::size_t part = 16384;
+  if (count <= 4 * part) {
+    work(std::size_t{0}, count);
+    return;
+  }
+  in_parallel(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())), (count + part - 1) / part,
+              [&](std::size_t i) { work(part * i, std::min(count, part * (i + 1))); });
+}
 
 namespace detail {
 using Untyped = std::shared_ptr<void>;

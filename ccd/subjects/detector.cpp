@@ -25,16 +25,6 @@ static_assert(bit_of(Kind::edge_edge) == NEARMISS_EDGE_EDGE);
 static_assert(bit_of(Kind::vertex_vertex) == NEARMISS_VERTEX_VERTEX);
 static_assert(bit_of(Kind::vertex_edge) == NEARMISS_VERTEX_EDGE);
 
-/// The coordinates of `count` queries without those of repeated vertices: x itself if there are none, and a
-/// copy in `shorter` otherwise.
-const double* rows_of(Kind kind, const double* x, std::size_t count, std::vector<double>& shorter) {
-  const std::size_t size = coordinate_count(kind);
-  if (size == std::tuple_size_v<decltype(Query::x)>) return x;
-  shorter.resize(count * size);
-  for (std::size_t i = 0; i < count; ++i) copy_coordinates(kind, x + 24 * i, &shorter[size * i]);
-  return shorter.data();
-}
-
 std::string text_or_empty(const char* text) { return text == nullptr ? "" : text; }
 
 bool is_power_of_two(double x) {
@@ -51,15 +41,21 @@ Contract contract_of(const nearmiss_contract& given) {
           .longest = given.longest};
 }
 
-/// The fields that version 3 added. A shared object that was compiled with version 2 has none of them.
+/// The fields that versions 3 and 4 added. A shared object that was compiled with an earlier version has none
+/// of them.
 struct NewFields {
   int separation_kinds = 0;
   decltype(nearmiss_subject::distance_bound_within) distance_bound_within = nullptr;
+  int layout = NEARMISS_ROWS;
+  decltype(nearmiss_subject::seconds_of_kernels) seconds_of_kernels = nullptr;
 
   explicit NewFields(const nearmiss_subject& subject) {
-    if (subject.interface_version < NEARMISS_INTERFACE) return;
+    if (subject.interface_version < 3) return;
     separation_kinds = subject.separation_kinds;
     distance_bound_within = subject.distance_bound_within;
+    if (subject.interface_version < 4) return;
+    layout = subject.layout;
+    seconds_of_kernels = subject.seconds_of_kernels;
   }
 };
 
@@ -72,7 +68,8 @@ DetectorInfo info_of(const nearmiss_subject& subject, const std::string& options
       .is_narrow = subject.bits == 24,
       .time_sort = static_cast<TimeSort>(subject.time_sort),
       .separation_kinds = subject.takes_separation != 0 ? subject.kinds : NewFields(subject).separation_kinds,
-      .batch = std::max<std::size_t>(1, subject.batch),
+      .batch = std::clamp<std::size_t>(subject.batch, 1, largest_batch),
+      .in_arrays = NewFields(subject).layout == NEARMISS_ARRAYS,
       .claims_bound =
           subject.distance_bound != nullptr || NewFields(subject).distance_bound_within != nullptr,
       .contract = contract_of(subject.contract)};
@@ -99,7 +96,9 @@ const nearmiss_subject& empty_subject() {
                                         .decide = find_nothing,
                                         .distance_bound = nullptr,
                                         .separation_kinds = 0,
-                                        .distance_bound_within = nullptr};
+                                        .distance_bound_within = nullptr,
+                                        .layout = NEARMISS_ROWS,
+                                        .seconds_of_kernels = nullptr};
   return subject;
 }
 
@@ -148,6 +147,8 @@ std::string fault_of(const nearmiss_subject& subject) {
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
   if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
     return "'" + name + "' with an unknown sort of time";
+  if (const int layout = NewFields(subject).layout; layout != NEARMISS_ROWS && layout != NEARMISS_ARRAYS)
+    return "'" + name + "' with an unknown layout";
   const std::string of_contract = fault_of(contract_of(subject.contract));
   return of_contract.empty() ? "" : "'" + name + "' with " + of_contract;
 }
@@ -168,6 +169,17 @@ Query rounded_for(const DetectorInfo& info, const Query& query) {
   for (double& c : rounded.x) round(c);
   round(rounded.separation);
   return rounded;
+}
+
+void lay_out(const DetectorInfo& info, const Query& query, std::size_t i, std::size_t n, double* x) {
+  const std::size_t size = coordinate_count(query.kind);
+  if (!info.in_arrays) {
+    copy_coordinates(query.kind, query.x.data(), x + size * i);
+    return;
+  }
+  std::array<double, std::tuple_size_v<decltype(Query::x)>> row;
+  copy_coordinates(query.kind, query.x.data(), row.data());
+  for (std::size_t k = 0; k < size; ++k) x[n * k + i] = row[k];
 }
 
 Verdict verdict_of(const DetectorInfo& info, int answer, double time) {
@@ -193,7 +205,7 @@ void expect_usable(const std::string& path, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names) {
   if (subject.interface_version < oldest_interface || subject.interface_version > NEARMISS_INTERFACE)
     throw Error(path + ": found version " + std::to_string(subject.interface_version) +
-                " of the plug-in interface, expected " + std::to_string(oldest_interface) + " or " +
+                " of the plug-in interface, expected " + std::to_string(oldest_interface) + " to " +
                 std::to_string(NEARMISS_INTERFACE));
   std::string fault = fault_of(subject);
   if (fault.empty() && std::find(other_names.begin(), other_names.end(), subject.name) != other_names.end())
@@ -262,21 +274,26 @@ void Detector::decide(Kind kind, const double* x, const double* separations, std
                       std::span<double> times) const {
   std::fill(answers.begin(), answers.end(), std::numeric_limits<int>::min());
   std::fill(times.begin(), times.end(), nan);
-  std::vector<double> shorter;
-  subject_.decide(state_, bit_of(kind), answers.size(), rows_of(kind, x, answers.size(), shorter),
-                  separations, answers.data(), times.data());
+  subject_.decide(state_, bit_of(kind), answers.size(), x, separations, answers.data(), times.data());
   make_arithmetic_plain();
 }
 
 BoundAnswer Detector::bound(Kind kind, const double* x, double separation) const {
   if (!info_.claims_bound) return BoundAnswer::given(std::numeric_limits<double>::infinity());
-  std::vector<double> shorter;
-  const double* const row = rows_of(kind, x, 1, shorter);
   const auto within = NewFields(subject_).distance_bound_within;
-  const double bound = within != nullptr ? within(state_, bit_of(kind), row, separation)
-                                         : subject_.distance_bound(state_, bit_of(kind), row);
+  const double bound = within != nullptr ? within(state_, bit_of(kind), x, separation)
+                                         : subject_.distance_bound(state_, bit_of(kind), x);
   make_arithmetic_plain();
   return BoundAnswer::given(bound);
+}
+
+std::uint64_t Detector::kernel_nanoseconds() const {
+  const auto seconds_of_kernels = NewFields(subject_).seconds_of_kernels;
+  if (seconds_of_kernels == nullptr) return 0;
+  const double seconds = seconds_of_kernels(state_);
+  make_arithmetic_plain();
+  constexpr double longest = 1e6;
+  return seconds >= 0 && seconds <= longest ? static_cast<std::uint64_t>(seconds * 1e9) : 0;
 }
 
 const Detector& Detector::empty() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,15 +23,18 @@ struct DetectorInfo {
   TimeSort time_sort{};
   int separation_kinds = 0;  ///< those for which it uses h, as a sum of bits
   std::size_t batch = 1;
+  bool in_arrays = false;  ///< whether it reads coordinates in the layout NEARMISS_ARRAYS
   bool claims_bound = false;
   Contract contract;
 
   bool operator==(const DetectorInfo&) const = default;
 };
 
-/// Limits: the number of detectors in a shared object, and the bytes of a detector's name.
+/// Limits: the number of detectors in a shared object, the bytes of a detector's name, and the number of
+/// queries that it gets at once.
 inline constexpr std::size_t most_detectors = 64;
 inline constexpr std::size_t longest_name = 255;
+inline constexpr std::size_t largest_batch = 10'000'000;
 
 /// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
@@ -44,6 +48,8 @@ bool takes_separation(const DetectorInfo& info, Kind kind);
 /// The query that a detector decides. If the detector is narrow, numbers are rounded to float, and those
 /// beyond the range of float to the largest float.
 Query rounded_for(const DetectorInfo& info, const Query& query);
+/// Writes the coordinates of query i of n, all of one kind, to where a detector reads them in `x`.
+void lay_out(const DetectorInfo& info, const Query& query, std::size_t i, std::size_t n, double* x);
 /// A detector's answer as a verdict. `time` is the time that it gave, or NaN.
 Verdict verdict_of(const DetectorInfo& info, int answer, double time);
 
@@ -81,11 +87,14 @@ class Detector {
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
   [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
 
-  /// Decides answers.size() queries of one kind. x has 24 coordinates for each query, as in Query::x, rounded
-  /// to float if the detector is narrow.
+  /// Decides answers.size() queries of one kind, whose coordinates lie as nearmiss_subject.h says, and are
+  /// rounded to float if the detector is narrow.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
+  /// The bound for one query.
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
+  /// The time that the last decision took without copies, in ns; 0 if the detector does not say it.
+  [[nodiscard]] std::uint64_t kernel_nanoseconds() const;
 
   /// A detector that does nothing and finds no collision.
   static const Detector& empty();

@@ -1,6 +1,7 @@
 #include "ccd/subjects/plugin.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <system_error>
@@ -92,15 +93,19 @@ Verdict Plugin::decide(const Query& query) const {
     const Query seen = rounded(query);
     int answer = 0;
     double time = std::numeric_limits<double>::quiet_NaN();
-    detector.decide(query.kind, seen.x.data(), &seen.separation, std::span(&answer, 1), std::span(&time, 1));
+    std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
+    lay_out(info_, seen, 0, 1, x.data());
+    detector.decide(query.kind, x.data(), &seen.separation, std::span(&answer, 1), std::span(&time, 1));
     return verdict_of(info_, answer, time);
   });
 }
 
 BoundAnswer Plugin::ask_bound(const Query& query) const {
   const Query seen = rounded(query);
+  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
+  lay_out(info_, seen, 0, 1, x.data());
   return with_detector(
-      [&](const Detector& detector) { return detector.bound(query.kind, seen.x.data(), seen.separation); });
+      [&](const Detector& detector) { return detector.bound(query.kind, x.data(), seen.separation); });
 }
 
 double Plugin::distance_bound(const Query& query) const { return ask_bound(query).bound_or_nan(); }

@@ -61,6 +61,8 @@ struct BoundAnswer {
 struct BatchTime {
   std::size_t queries = 0;  ///< timed queries, without the part of a batch in which a process failed
   std::uint64_t nanoseconds = 0;
+  std::uint64_t kernel_nanoseconds =
+      0;  ///< the part without copies to a device; 0 if the subject does not say
 };
 
 /// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic

@@ -10,11 +10,15 @@
 namespace nearmiss {
 
 /// Chooses the size of slices of cases such that one takes at most about a tenth of a second: work looks at
-/// its limits between slices. A slice has no more cases than fit into a processor's caches, with all that is
-/// noted about them. No result except run times depends on it. Many threads use it at once.
+/// its limits between slices. By default, a slice has no more cases than fit into a processor's caches, with
+/// all that is noted about them. No result except run times depends on it. Many threads use it at once.
 class Pace {
  public:
   using Duration = std::chrono::duration<double>;
+  static constexpr std::size_t usual = 1024;
+
+  /// A slice has at most `most` cases.
+  explicit Pace(std::size_t most = usual) : most_(static_cast<double>(most)) {}
 
   /// The number of cases of a family to try next.
   [[nodiscard]] std::size_t cases(const std::string& family) const {
@@ -30,12 +34,12 @@ class Pace {
     const auto longest = static_cast<double>(growth * cases);
     const double fitting = time.count() > 0 ? static_cast<double>(cases) * (wanted / time) : longest;
     const std::lock_guard lock(mutex_);
-    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, std::min(longest, most)));
+    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, std::min(longest, most_)));
   }
 
  private:
   static constexpr std::size_t first = 2;
-  static constexpr double most = 1024;
+  double most_;
   mutable std::mutex mutex_;
   std::map<std::string, std::size_t> cases_;
 };

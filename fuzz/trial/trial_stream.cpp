@@ -1,11 +1,12 @@
 #include "fuzz/trial/trial_stream.hpp"
 
+#include <algorithm>
+
 namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t batch_queries = 1000;
-constexpr std::size_t batches_of_a_thread = 4;  // so that no thread waits long for the others
+constexpr std::size_t queries_of_a_thread = 4 * Pace::usual;  // so that no thread waits long for the others
 
 }  // namespace
 
@@ -15,14 +16,15 @@ bool TrialStream::add(const std::string& family, const Query& query, std::option
   pending.batch.kind = query.kind;
   pending.batch.family = family;
   pending.batch.timed = false;
-  if (pending.batch.queries.empty()) pending.batch.first_number = batch_queries * batches_++;
+  if (pending.batch.queries.empty()) pending.batch.first_number = trials_.batch_size() * batches_++;
   pending.batch.queries.push_back(query);
   pending.batch.truths.push_back(truth);
   pending.provenances.push_back(std::move(provenance));
-  if (pending.batch.queries.size() == batch_queries) {
+  if (const std::size_t size = trials_.batch_size(); pending.batch.queries.size() == size) {
     full_.push_back(std::move(pending));
     pending = {};
-    if (full_.size() == batches_of_a_thread * static_cast<std::size_t>(trials_.jobs())) hold_trials();
+    const std::size_t of_a_thread = std::max(queries_of_a_thread / size, std::size_t{1});
+    if (full_.size() == of_a_thread * static_cast<std::size_t>(trials_.jobs())) hold_trials();
   }
   return !trials_.stop().is_due();
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fuzz/parallel.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
 
 namespace nearmiss {
 
@@ -38,6 +39,15 @@ Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
   return own;
 }
 
+/// The largest number of queries that one of the subjects wants at once, within limits.
+std::size_t largest_batch_of(const Subjects& subjects) {
+  constexpr std::size_t most = 1 << 16;
+  std::size_t largest = Pace::usual;
+  for (const auto& subject : subjects)
+    if (const DetectorInfo* const info = plugin_info(*subject)) largest = std::max(largest, info->batch);
+  return std::min(largest, most);
+}
+
 /// The number of queries over the time limit in some counters.
 std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
   const auto found = statistics.counts.find(key);
@@ -61,6 +71,8 @@ Trials::Trials(const Subjects& subjects, Comparison comparison, int jobs, const 
       jobs_(jobs),
       stop_(stop),
       sink_(std::move(sink)),
+      batch_size_(largest_batch_of(subjects)),
+      pace_(batch_size_),
       shrinking_(subjects, jobs, stop, shrink) {}
 
 void Trials::resume(const Statistics& before, const std::vector<Finding>& findings) {

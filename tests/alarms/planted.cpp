@@ -112,6 +112,8 @@ extern "C" const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
                                         .decide = decide_all,
                                         .distance_bound = nullptr,
                                         .separation_kinds = 0,
-                                        .distance_bound_within = nullptr};
+                                        .distance_bound_within = nullptr,
+                                        .layout = NEARMISS_ROWS,
+                                        .seconds_of_kernels = nullptr};
   return index == 0 ? &subject : nullptr;
 }

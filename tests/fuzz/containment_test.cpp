@@ -77,7 +77,7 @@ std::array<std::size_t, 2> held() {
   for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator("/proc/self/fd")) ++count[0];
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);)
-    count[1] += line.find("nearmiss-worker") != line.npos ? 1 : 0;
+    count[1] += line.find("memfd:nearmiss-") != line.npos ? 1 : 0;
   return count;
 }
 
@@ -289,7 +289,7 @@ TEST(Isolation, WhatAWorkerWritesOfItsPluginIsPossible) {
   EXPECT_EQ(info.name, "+1?[31m?:tolerance=1");
   EXPECT_EQ(info.kinds, bits_of_all_kinds);
   EXPECT_EQ(info.time_sort, TimeSort::none);
-  EXPECT_EQ(info.batch, isolation::batch_size);
+  EXPECT_EQ(info.batch, largest_batch);
 }
 
 TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {

@@ -26,8 +26,8 @@ static void intrude(void) {
 #elif defined(CLOSE)
   for (int file = 0; file < MOST_FILES; ++file) close(file);
 #elif defined(MOVE_ON)
-  /* The answers begin with the number of the query and of the calls. */
-  volatile uint32_t* const shared = shared_memory("rw-s");
+  /* It begins with the number of the query and of the calls. */
+  volatile uint32_t* const shared = shared_memory("nearmiss-worker");
   while (1) ++shared[1];
 #elif defined(FORK)
   for (int i = 0; i < 150; ++i)

@@ -10,6 +10,9 @@
 #ifndef TAKES_SEPARATION
 #define TAKES_SEPARATION 0
 #endif
+#ifndef BATCH
+#define BATCH 0
+#endif
 #ifndef CONTRACT
 #define CONTRACT \
   { 0, 0, 0, 0, 0, 0 }
@@ -34,14 +37,16 @@
                                               .bits = 0,                                           \
                                               .time_sort = TIME_SORT,                              \
                                               .takes_separation = TAKES_SEPARATION,                \
-                                              .batch = 0,                                          \
+                                              .batch = BATCH,                                      \
                                               .contract = CONTRACT,                                \
                                               .open = NULL,                                        \
                                               .close = NULL,                                       \
                                               .decide = decide_one_by_one,                         \
                                               .distance_bound = (bound),                           \
                                               .separation_kinds = 0,                               \
-                                              .distance_bound_within = NULL};                      \
+                                              .distance_bound_within = NULL,                       \
+                                              .layout = NEARMISS_ROWS,                             \
+                                              .seconds_of_kernels = NULL};                         \
     return index == 0 ? &detector : NULL;                                                          \
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,41 @@ TEST_F(Bench, DoesNotTouchAFileThatIsNoHistory) {
   EXPECT_EQ(output.error,
             "nearmiss: notes:1: found 'my notes', expected a run that nearmiss bench --history stored\n");
   EXPECT_EQ(read("notes"), "my notes\n");
+}
+
+TEST_F(Bench, ShowsTheThroughputOfAPluginAndItsTimeWithoutCopies) {
+  const Output output = expect_code(0, "bench --subject basic," + plugin("batches") +
+                                           ":rows --family stiff,uniform --kind ee --queries 3000 --runs 3 "
+                                           "--query-time 1h --json b.json");
+  EXPECT_THAT(output.out, HasSubstr("ns/query     /basic    queries/s   kernels\n"));
+  const auto results = nlohmann::json::parse(read("b.json"))["results"];
+  ASSERT_EQ(results.size(), 4);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    EXPECT_EQ(results[i]["input"], i < 2 ? "stiff" : "uniform");
+    EXPECT_EQ(results[i]["kind"], "ee");
+    EXPECT_EQ(results[i]["queries"], 3000);
+    EXPECT_EQ(results[i].contains("queries_per_second"), i % 2 == 1) << "it is no built-in subject";
+    EXPECT_EQ(results[i].contains("ns_per_query_of_kernels"), i % 2 == 1);
+  }
+  EXPECT_EQ(results[1]["ns_per_query_of_kernels"], results[1]["ns_per_query"])
+      << "it says that it takes forever";
+}
+
+TEST_F(Bench, RefusesABatchThatDoesNotFitBeforeItIsMade) {
+  const std::string large = "bench --kind vt --subject " + plugin("batches") + ":rows ";
+  EXPECT_EQ(
+      expect_code(2, large + "--queries 100000 --query-memory 8000000").error,
+      "nearmiss: rows: a batch of 100000 queries needs 24 MiB of memory, found a limit of 7 MiB, expected a "
+      "larger --query-memory or fewer queries\n");
+  const Output output = expect_code(2, large + "--queries 4000000000");
+  EXPECT_THAT(output.error, HasSubstr("nearmiss: --queries 4000000000 needs "));
+  EXPECT_THAT(output.error, HasSubstr(" MiB of memory, found "));
+  EXPECT_EQ(output.out, "");
+}
+
+TEST_F(Bench, RefusesAKindThatAFamilyLacks) {
+  expect_refused("bench --family uniform --kind vv --queries 5", {"--kind: found vv"});
+  expect_refused("bench --family unifrom --queries 5", {"unifrom"});
 }
 
 }  // namespace

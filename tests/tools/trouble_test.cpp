@@ -213,7 +213,7 @@ TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
                                           "shrink hit.vt" + hang,
                                           "replay hit.vt" + hang,
                                           "bench --runs 1000000",
-                                          "bench --queries 4000000000",
+                                          "bench --queries 3000000 --kind vt --family uniform",
                                           "bench hit.vt" + hang,
                                           "power --time 24h",
                                           "tightness --time 24h",

@@ -6,13 +6,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
+#include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/parallel.hpp"
 #include "fuzz/stop.hpp"
+#include "fuzz/subjects/isolation/room.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
 #include "reports/text/json.hpp"
@@ -38,6 +42,8 @@ struct Options {
   std::vector<std::string> subjects{"basic", "wang"};
   PluginLimitOptions limits;
   SeparationOption separation;
+  std::vector<std::string> families{"uniform", "uniform-end", "uniform-slow"};
+  std::vector<std::string> kinds;  ///< of the random queries; all that a family has if empty
   std::uint64_t queries = 20000;
   int runs = 31;
   JsonOutput json;
@@ -54,21 +60,46 @@ struct Input {
 /// Times of one subject on one input in ns per query, one entry for each run; NaN if it answered no query.
 using RunTimes = std::vector<double>;
 
+/// What is measured of one subject on one input, one entry for each run.
+struct Measured {
+  RunTimes times;
+  RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not say that
+  RunTimes
+      throughput;  ///< queries per second of wall-clock time, passed to a process and back; NaN without one
+};
+
 /// The name of an input, with the separation if one is given.
 std::string named(std::string name, const SeparationOption& separation) {
   return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
 }
 
-/// For each kind, the first `count` queries of a family that pass the box test.
-Input family_input(std::string_view name, std::uint64_t count, const SeparationOption& separation) {
-  const Family family = find_family(name);
-  Input input{named(std::string(name), separation), {}};
-  for (std::uint64_t index = 0;
-       std::ranges::any_of(kinds_of_meshes, [&](Kind kind) { return input.queries[kind].size() < count; });
-       ++index) {
-    const Query query = separation.apply(make_query(family, 1, index));
-    if (auto& same = input.queries[query.kind]; same.size() < count && boxes_meet(query))
-      same.push_back(query);
+/// For each kind that is asked, the first `count` queries of a family that pass the box test. They are made on
+/// all processors. Throws Stopped.
+Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
+                   const Stop& stop) {
+  Input input{named(family.name, separation), {}};
+  for (const Kind kind : kinds_asked(family)) input.queries[kind].reserve(count);
+  const auto lacks = [&](Kind kind) { return input.queries[kind].size() < count; };
+  const std::uint64_t most_at_once = 1 << 18;
+  std::vector<std::optional<Query>> made(std::clamp<std::uint64_t>(2 * count, 64, most_at_once));
+  const QueryMaker make(family, 1);
+  const std::uint64_t most = 1000 * (count + made.size());
+  for (std::uint64_t first = 0; std::ranges::any_of(kinds_asked(family), lacks); first += made.size()) {
+    if (first > most)
+      throw Error(fmt::format("{}: found less than one query in 1000 whose swept boxes meet, expected more",
+                              family.name));
+    in_parts(made.size(), [&](std::size_t begin, std::size_t end) {
+      stop.check();
+      for (std::size_t i = begin; i < end; ++i) {
+        made[i].reset();
+        if (const Kind kind = kind_of(family, first + i); !input.queries.contains(kind) || !lacks(kind))
+          continue;
+        const Query query = separation.apply(make(first + i));
+        if (boxes_meet(query)) made[i] = query;
+      }
+    });
+    for (const auto& query : made)
+      if (query && lacks(query->kind)) input.queries[query->kind].push_back(*query);
   }
   return input;
 }
@@ -92,22 +123,42 @@ bool any_separation(const std::vector<Query>& queries) {
   return std::ranges::any_of(queries, [](const Query& query) { return query.separation > 0; });
 }
 
-/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be
-/// timed. NaN if no query was answered.
-double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
+/// Repeats a pass over some queries until it lasts long enough to be timed. Returns the time that passed.
+template <class Pass>
+std::chrono::duration<double> repeat(const Pass& pass) {
   using std::chrono::steady_clock;
-  const Kind kind = queries.front().kind;
-  if (!subject.is_asked(kind, any_separation(queries))) return std::numeric_limits<double>::quiet_NaN();
   constexpr auto least = std::chrono::microseconds(500);
   const auto start = steady_clock::now();
+  auto now = start;
+  for (; now - start < least; now = steady_clock::now()) pass();
+  return now - start;
+}
+
+/// Times a subject as in a trial, and adds the times per query. Without an answer, they are NaN.
+void time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts,
+               Measured& measured) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   BatchTime sum;
-  do {
-    const BatchTime pass = subject.decide_timed(queries, verdicts);
-    sum.queries += pass.queries;
-    sum.nanoseconds += pass.nanoseconds;
-  } while (steady_clock::now() - start < least);
-  if (sum.queries == 0) return std::numeric_limits<double>::quiet_NaN();
-  return std::max(1.0, static_cast<double>(sum.nanoseconds)) / static_cast<double>(sum.queries);
+  if (subject.is_asked(queries.front().kind, any_separation(queries)))
+    repeat([&] {
+      const BatchTime pass = subject.decide_timed(queries, verdicts);
+      sum.queries += pass.queries;
+      sum.nanoseconds += pass.nanoseconds;
+      sum.kernel_nanoseconds += pass.kernel_nanoseconds;
+    });
+  const auto per_query = [&](std::uint64_t nanoseconds) {
+    return std::max(1.0, static_cast<double>(nanoseconds)) / static_cast<double>(sum.queries);
+  };
+  measured.times.push_back(sum.queries == 0 ? none : per_query(sum.nanoseconds));
+  measured.kernels.push_back(sum.kernel_nanoseconds == 0 ? none : per_query(sum.kernel_nanoseconds));
+  measured.throughput.push_back(none);
+  if (sum.queries == 0 || plugin_info(subject) == nullptr) return;
+  double asked = 0;
+  const auto passed = repeat([&] {
+    subject.decide(queries, verdicts);
+    asked += static_cast<double>(queries.size());
+  });
+  measured.throughput.back() = asked / passed.count();
 }
 
 /// Counts the queries without an answer. The answers themselves are not judged.
@@ -119,19 +170,19 @@ void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
 
 /// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
 /// Adds the queries and faults of each subject to `answered`.
-std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
+std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                const Stop& stop, Statistics& answered) {
-  std::vector<RunTimes> times(subjects.size());
+  std::vector<Measured> measured(subjects.size());
   std::vector<Verdict> verdicts(queries.size());
   const Kind kind = queries.front().kind;
   for (int run = 0; run < runs; ++run)
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       stop.check();
-      times[s].push_back(time_once(*subjects[s], queries, verdicts));
+      time_once(*subjects[s], queries, verdicts, measured[s]);
       Counts& counts = answered.counts[{subjects[s]->name(), kind, ""}];
       if (subjects[s]->decides(kind)) count_faults(verdicts, counts);
     }
-  return times;
+  return measured;
 }
 
 /// The median, over the runs, of a subject's time divided by the first subject's time in the same run.
@@ -142,31 +193,56 @@ double median_ratio(const RunTimes& times, const RunTimes& first) {
 }
 
 /// Times of all kinds together, each kind weighted by its number of queries.
-std::vector<RunTimes> together(const std::vector<std::vector<RunTimes>>& by_kind,
+std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind,
                                const std::vector<double>& weights) {
-  std::vector<RunTimes> sum(by_kind.front().size(), RunTimes(by_kind.front().front().size(), 0));
+  const std::size_t runs = by_kind.front().front().times.size();
+  const RunTimes none(runs, std::numeric_limits<double>::quiet_NaN());
+  std::vector<Measured> sum(by_kind.front().size(), {RunTimes(runs, 0), none, none});
   double total = 0;
   for (const double weight : weights) total += weight;
   for (std::size_t k = 0; k < by_kind.size(); ++k)
     for (std::size_t s = 0; s < sum.size(); ++s)
-      for (std::size_t i = 0; i < sum[s].size(); ++i) sum[s][i] += by_kind[k][s][i] * weights[k] / total;
+      for (std::size_t i = 0; i < runs; ++i) sum[s].times[i] += by_kind[k][s].times[i] * weights[k] / total;
   return sum;
 }
 
-std::vector<Input> inputs_of(const Options& options) {
-  std::vector<Input> inputs;
-  for (const auto& path : options.paths) inputs.push_back(file_input(path, options.separation));
-  for (const std::string_view name : {"uniform", "uniform-end", "uniform-slow"})
-    inputs.push_back(family_input(name, options.queries, options.separation));
-  return inputs;
+/// The chosen families, each with the chosen kinds. Throws Error.
+std::vector<Family> families_of(const Options& options) {
+  std::vector<Kind> kinds;
+  for (const std::string& each : options.kinds) kinds.push_back(parse_kind(each, "--kind"));
+  std::vector<Family> families;
+  for (const std::string& name : options.families) {
+    families.push_back(as_asked(find_family(name)));
+    for (const Kind kind : kinds) expect_kind(families.back(), kind, "--kind");
+    if (!kinds.empty()) families.back() = of_kinds(families.back(), kinds).value();
+  }
+  return families;
+}
+
+/// Throws Error unless there is memory for the random queries of a family, their answers, and what each plug-in
+/// shares with nearmiss.
+void expect_room(const Options& options, const std::vector<Family>& families, const Subjects& subjects,
+                 const isolation::PluginLimits& limits) {
+  std::uint64_t bytes = options.queries * sizeof(Verdict);
+  for (const auto& subject : subjects)
+    if (const DetectorInfo* const info = plugin_info(*subject))
+      bytes += isolation::memory_of_batch(*info, options.queries, limits);
+  std::uint64_t most = 0;
+  for (const Family& family : families)
+    most = std::max(most, kinds_asked(family).size() * options.queries * sizeof(Query));
+  isolation::expect_memory(fmt::format("--queries {}", options.queries), bytes + most);
 }
 
 /// Throws Error if a subject can answer no kind of the queries that have a separation.
-void expect_separations_of(const std::vector<Input>& inputs, const Subjects& subjects) {
+void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
+                           const Options& options, const Subjects& subjects) {
   std::set<Kind> separated;
   for (const Input& input : inputs)
     for (const auto& [kind, queries] : input.queries)
       if (any_separation(queries)) separated.insert(kind);
+  for (const Family& family : families)
+    if (options.separation.is_given() || family.has_separation)
+      separated.insert(kinds_asked(family).begin(), kinds_asked(family).end());
   if (!separated.empty()) expect_separations(subjects, std::vector(separated.begin(), separated.end()));
 }
 
@@ -177,11 +253,16 @@ std::string in_table(double number, int decimals) {
 
 /// Prints a line for each subject to `out`. `kind` is vt, ee or both.
 void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, std::string_view kind,
-                std::size_t queries, const std::vector<RunTimes>& times) {
-  for (std::size_t s = 0; s < subjects.size(); ++s)
-    fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", input.name, kind, queries,
-               subjects[s]->name(), in_table(median(times[s]), 1),
-               in_table(median_ratio(times[s], times.front()), 3));
+                std::size_t queries, const std::vector<Measured>& measured) {
+  for (std::size_t s = 0; s < subjects.size(); ++s) {
+    const Measured& own = measured[s];
+    fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}", input.name, kind, queries, subjects[s]->name(),
+               in_table(median(own.times), 1), in_table(median_ratio(own.times, measured.front().times), 3));
+    const double throughput = median(own.throughput);
+    if (!std::isnan(throughput)) fmt::print(out, " {:>12.0f}", throughput);
+    if (!std::isnan(median(own.kernels))) fmt::print(out, " {:>9.1f}", median(own.kernels));
+    fmt::print(out, "\n");
+  }
 }
 
 /// The results for all inputs that were timed.
@@ -192,26 +273,32 @@ struct Results {
 };
 
 void add_rows(Results& results, const Subjects& subjects, const Input& input, Kind kind,
-              const std::vector<RunTimes>& times) {
+              const std::vector<Measured>& measured) {
   for (std::size_t s = 0; s < subjects.size(); ++s) {
+    const RunTimes& times = measured[s].times;
     results.run.times[{.input = input.name,
                        .kind = std::string(short_name(kind)),
                        .queries = input.queries.at(kind).size(),
-                       .subject = subjects[s]->name()}] = times[s];
+                       .subject = subjects[s]->name()}] = times;
     results.json.push_back({{"subject", subjects[s]->name()},
                             {"kind", short_name(kind)},
                             {"input", input.name},
-                            {"ns_per_query", median(times[s])},
-                            {"runs", times[s].size()},
+                            {"ns_per_query", median(times)},
+                            {"runs", times.size()},
                             {"queries", input.queries.at(kind).size()},
-                            {"ratio", median_ratio(times[s], times.front())}});
+                            {"ratio", median_ratio(times, measured.front().times)}});
+    const auto add = [&](const char* name, const RunTimes& numbers) {
+      if (const double number = median(numbers); !std::isnan(number)) results.json.back()[name] = number;
+    };
+    add("queries_per_second", measured[s].throughput);
+    add("ns_per_query_of_kernels", measured[s].kernels);
   }
 }
 
 /// Times, prints to `out` and records one input: each of its kinds, then both together.
 void time_input(const Subjects& subjects, const Input& input, int runs, const Stop& stop, std::FILE* out,
                 Results& results) {
-  std::vector<std::vector<RunTimes>> by_kind;
+  std::vector<std::vector<Measured>> by_kind;
   std::vector<double> weights;
   std::size_t count = 0;
   for (const auto& [kind, queries] : input.queries) {
@@ -239,16 +326,26 @@ int run(const Options& options) {
   isolation::PluginLimits limits = options.limits.limits();
   limits.stop = &stop;
   const Subjects subjects = make_subjects(options.subjects, limits);
-  const std::vector<Input> inputs = inputs_of(options);
-  expect_separations_of(inputs, subjects);
+  const std::vector<Family> families = families_of(options);
+  std::vector<Input> files;
+  for (const auto& path : options.paths) files.push_back(file_input(path, options.separation));
+  expect_separations_of(files, families, options, subjects);
+  expect_room(options, families, subjects, limits);
+  const bool has_plugin =
+      std::ranges::any_of(subjects, [](const auto& each) { return plugin_info(*each) != nullptr; });
   const std::string over = "/" + subjects.front()->name();
   std::FILE* const out = options.json.text();
-  fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
-             "ns/query", over);
+  fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}{}\n", "input", "kind", "queries", "subject",
+             "ns/query", over, has_plugin ? "    queries/s   kernels" : "");
   Results results;
   stop_on_signals();
   try {
-    for (const Input& input : inputs) time_input(subjects, input, options.runs, stop, out, results);
+    const auto time = [&](const Input& input) {
+      time_input(subjects, input, options.runs, stop, out, results);
+    };
+    std::ranges::for_each(files, time);
+    for (const Family& family : families)  // one after the other, because they may need much memory
+      time(family_input(family, options.queries, options.separation, stop));
   } catch (const Stopped&) {  // the inputs that were timed before the stop are still reported
   }
   if (!options.history.empty() && !stop.is_requested()) {
@@ -262,6 +359,11 @@ int run(const Options& options) {
       "subject; "
       "median of {} runs, the subjects in turn in each; {}: median of the ratios within a run.\n",
       options.runs, over);
+  if (has_plugin)
+    fmt::print(
+        out,
+        "queries/s: of wall-clock time, with the passing of queries to the plug-in's process and of answers "
+        "back. kernels: ns/query without copies to a device, if the plug-in says it.\n");
   options.json.write({{"results", results.json}});
   return stop.is_requested() ? exit_interrupted : options.fail_on.exit_code(results.answered);
 }
@@ -276,8 +378,17 @@ void add_bench(CLI::App& app, int& exit_code) {
   add_subject_option(*command, options->subjects);
   options->limits.add_to(*command);
   options->separation.add_to(*command);
-  add_count_option(*command, "--queries", options->queries, 1, std::uint64_t{1} << 32,
-                   "Number of random queries of each kind");
+  command->add_option("--family", options->families, "Families of the random queries, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command
+      ->add_option("--kind", options->kinds,
+                   "Kinds of the random queries, separated by commas; all that a family has by default")
+      ->delimiter(',');
+  add_count_option(
+      *command, "--queries", options->queries, 1, std::uint64_t{1} << 32,
+      "Number of random queries of each kind, which are asked together: a plug-in gets as many at "
+      "once as it wants");
   add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
   options->json.add_to(*command, "Write the results as JSON");
   options->fail_on.add_to(*command);

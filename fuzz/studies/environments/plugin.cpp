@@ -74,7 +74,9 @@ constexpr nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
                                    .decide = decide,
                                    .distance_bound = distance_bound,
                                    .separation_kinds = 0,
-                                   .distance_bound_within = nullptr};
+                                   .distance_bound_within = nullptr,
+                                   .layout = NEARMISS_ROWS,
+                                   .seconds_of_kernels = nullptr};
 
 }  // namespace
 

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
-#include <new>
 #include <utility>
 
 #include "fuzz/subjects/isolation/trial_error.hpp"
@@ -42,33 +42,52 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Memory with a `Content` that a process can share with another one. Nobody can change its size.
-template <class Content>
+/// Memory that a process can share with another one. Nobody can change its size. The system gives memory to
+/// the parts that are used.
 class SharedMemory {
  public:
+  SharedMemory() = default;
   /// `others_may_write`: whether other processes can write to it. Throws NoWorker.
-  explicit SharedMemory(bool others_may_write)
-      : file_(memfd_create("nearmiss-worker", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
-    check(file_.number() >= 0 && ftruncate(file_.number(), sizeof(Content)) == 0, "memory");
-    void* const mapped =
-        mmap(nullptr, sizeof(Content), PROT_READ | PROT_WRITE, MAP_SHARED, file_.number(), 0);
+  SharedMemory(const char* name, std::size_t bytes, bool others_may_write)
+      : file_(memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING)), bytes_(bytes) {
+    check(file_.number() >= 0 && ftruncate(file_.number(), static_cast<off_t>(bytes)) == 0, "memory");
+    void* const mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_.number(), 0);
     check(mapped != MAP_FAILED, "memory");
-    content_ = new (mapped) Content;
+    start_ = mapped;
     const int size = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
     check(fcntl(file_.number(), F_ADD_SEALS, others_may_write ? size : size | F_SEAL_FUTURE_WRITE) == 0,
           "sealed memory");
   }
-  SharedMemory(const SharedMemory&) = delete;
-  SharedMemory& operator=(const SharedMemory&) = delete;
-  ~SharedMemory() { munmap(content_, sizeof(Content)); }
+  SharedMemory(SharedMemory&& other) noexcept { swap(other); }
+  SharedMemory& operator=(SharedMemory&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~SharedMemory() {
+    if (start_ != nullptr) munmap(start_, bytes_);
+  }
 
   [[nodiscard]] int file() const { return file_.number(); }
-  Content& operator*() const { return *content_; }
-  Content* operator->() const { return content_; }
+  template <class Content>
+  [[nodiscard]] Content* as() const {
+    return static_cast<Content*>(start_);
+  }
+
+  /// Gets memory for the first bytes, so that their use cannot fail later. Returns whether there is enough.
+  [[nodiscard]] bool reserve(std::size_t bytes) const {
+    return fallocate(file_.number(), 0, 0, static_cast<off_t>(bytes)) == 0;
+  }
 
  private:
+  void swap(SharedMemory& other) {
+    std::swap(file_, other.file_);
+    std::swap(start_, other.start_);
+    std::swap(bytes_, other.bytes_);
+  }
+
   Descriptor file_;
-  Content* content_ = nullptr;
+  void* start_ = nullptr;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace nearmiss::isolation

@@ -11,6 +11,7 @@
 
 #include "ccd/query/error.hpp"
 #include "ccd/subjects/plugin.hpp"
+#include "fuzz/parallel.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
@@ -58,8 +59,9 @@ class IsolatedPlugin final : public BatchSubject {
     perform(Request::decide_timed, queries, [&](const Done& done) {
       answer(done, verdicts);
       if (done.failure) return;
-      sum.queries += done.end - done.first;
+      sum.queries += done.count;
       sum.nanoseconds += done.worker->measured();
+      sum.kernel_nanoseconds += done.worker->measured_kernels();
     });
     return sum;
   }
@@ -67,9 +69,8 @@ class IsolatedPlugin final : public BatchSubject {
   void time_each(std::span<const Query> queries,
                  std::span<std::optional<std::uint64_t>> nanoseconds) const override {
     perform(Request::time_each, queries, [&](const Done& done) {
-      for (std::uint32_t i = done.first; i < done.end; ++i)
-        nanoseconds[done.start + i] = done.worker->measured(i);
-      if (done.failure) nanoseconds[done.start + done.end].reset();
+      for (std::uint32_t i = 0; i < done.count; ++i) nanoseconds[done.first + i] = done.worker->measured(i);
+      if (done.failure) nanoseconds[done.first + done.count].reset();
     });
   }
 
@@ -94,7 +95,7 @@ class IsolatedPlugin final : public BatchSubject {
       if (done.failure) {
         answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
       } else {
-        answer = BoundAnswer::given(done.worker->answer(0).number);
+        answer = BoundAnswer::given(done.worker->number(0));
       }
     });
     return answer;
@@ -109,21 +110,23 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
  private:
-  /// What a worker has done of a batch: the queries [first, end), and a failure at `end` if there is one.
+  /// What a worker has done in its last call: it answered the first queries. If there is a failure, it is that
+  /// of the next query.
   struct Done {
     const WorkerProcess* worker;  ///< null if there is none, and nothing is done
-    std::size_t start;            ///< index of the batch's first query among all queries
-    std::uint32_t first, end;
+    std::size_t first;            ///< index of the call's first query among all queries
+    std::uint32_t count;          ///< number of queries that were answered
     const std::optional<WorkerFailure>& failure;
   };
 
   void answer(const Done& done, std::span<Verdict> verdicts) const {
-    for (std::uint32_t i = done.first; i < done.end; ++i) {
-      const isolation::PluginAnswer& given = done.worker->answer(i);
-      verdicts[done.start + i] = verdict_of(info_, given.value, given.number);
-    }
+    in_parts(done.count, [&](std::size_t first, std::size_t last) {
+      for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+        verdicts[done.first + i] = verdict_of(info_, done.worker->value(i), done.worker->number(i));
+    });
     if (done.failure)
-      verdicts[done.start + done.end] = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+      verdicts[done.first + done.count] = {.fault = done.failure->fault,
+                                           .fault_code = code_of(*done.failure)};
   }
 
   std::int32_t code_of(const WorkerFailure& failure) const {
@@ -134,13 +137,13 @@ class IsolatedPlugin final : public BatchSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch: up to batch_size queries of one kind. The plug-in can decide all or none of
-  /// them.
+  /// The size of the next batch: queries of one kind, as many as a worker gets at once. The plug-in can decide
+  /// all or none of them.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
-    while (count < std::min(queries.size(), isolation::batch_size) && queries[count].kind == first.kind &&
-           can_decide(queries[count]) == can_decide(first))
+    while (count < std::min(queries.size(), isolation::capacity_for(info_)) &&
+           queries[count].kind == first.kind && can_decide(queries[count]) == can_decide(first))
       ++count;
     return count;
   }
@@ -148,15 +151,16 @@ class IsolatedPlugin final : public BatchSubject {
   /// Has workers perform the request for all queries, batch by batch, and passes on what they have done.
   template <class Take>
   void perform(Request request, std::span<const Query> queries, const Take& take_done) const {
-    for (const Query& query : queries)
-      if (!is_finite(query)) refuse_coordinates(name());
+    in_parts(queries.size(), [&](std::size_t first, std::size_t last) {
+      if (!std::ranges::all_of(queries.subspan(first, last - first), is_finite)) refuse_coordinates(name());
+    });
     std::unique_ptr<WorkerProcess> worker = take();
     std::uint64_t late = 0;
     for (std::size_t start = 0; start < queries.size();) {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
       perform_batch(worker, request, batch, late,
                     [&](std::uint32_t first, std::uint32_t end, const std::optional<WorkerFailure>& failure) {
-                      take_done(Done{worker.get(), start, first, end, failure});
+                      take_done(Done{worker.get(), start + first, end - first, failure});
                     });
       start += batch.size();
     }
@@ -164,21 +168,18 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   /// Has a worker perform the request for one batch. A worker that cannot be used any more is replaced by a
-  /// new one, which continues after the query that failed. A call that fails as a whole is repeated query by
-  /// query, to find the query that is to blame. If no single query fails, the last one is to blame: a failure
-  /// that depends on earlier queries, such as a crash at every 1000th query, is a fault, too. (If only the
-  /// call as a whole was late, no query is to blame, because the queries together may take that long.) `late`
-  /// counts the queries over the time limit.
+  /// new one, which continues after the query that failed. A call that fails as a whole is repeated in parts,
+  /// and a part that fails in smaller ones, at last query by query, to find the query that is to blame. If no
+  /// part of a part fails, its last query is to blame: a failure that depends on earlier queries, such as a
+  /// crash at every 1000th query, is a fault, too. (If only the call as a whole was late, no query is to blame,
+  /// because the queries together may take that long.) `late` counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
     const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
     const bool is_asked = can_decide(batch.front());
-    if (worker) worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
-    bool is_split = false;
-    std::optional<WorkerFailure> of_call;  // the failure of a call that is repeated query by query
-    std::uint32_t end_of_call = 0;
+    std::vector<Repeated> repeated;  // each call is a part of the one before
     for (std::uint32_t first = 0; first < size;) {
       if (!is_asked || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
@@ -191,27 +192,45 @@ class IsolatedPlugin final : public BatchSubject {
         ++first;
         continue;
       }
-      const std::uint32_t last = first + (is_split ? 1 : std::min(size - first, in_a_call_.load()));
-      const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
+      const std::uint32_t end_of_call = repeated.empty() ? size : repeated.back().end;
+      const std::uint32_t part = repeated.empty() ? in_a_call_.load() : repeated.back().part;
+      const std::uint32_t last = first + std::min(end_of_call - first, part);
+      std::optional<WorkerFailure> failure = worker->perform(request, batch.subspan(first, last - first));
+      if (failure) failure->query += first;
       code_->expect_unchanged(*limits_.stop);  // a running process, too, may see what is written to its file
-      if (!is_split) adapt(last - first, *worker, failure);
+      if (repeated.empty()) adapt(last - first, *worker, failure);
       if (failure && failure->of_call) {
-        is_split = true;
-        if (failure->fault != Fault::time) of_call = failure;
-        end_of_call = last;
+        repeated.push_back(
+            {last, part_of(last - first), failure->fault == Fault::time ? std::nullopt : failure});
       } else {
-        if (failure) of_call.reset();
-        const bool is_to_blame = of_call && last == end_of_call;
-        const std::uint32_t end = failure ? failure->query : is_to_blame ? first : last;
-        take_part(first, end, is_to_blame ? std::exchange(of_call, {}) : failure);
+        const auto unexplained = std::ranges::find_if(
+            repeated, [&](const Repeated& call) { return call.end == last && call.failure; });
+        const bool is_last_to_blame = !failure && unexplained != repeated.end();
+        const std::uint32_t end = failure ? failure->query : is_last_to_blame ? last - 1 : last;
+        take_part(first, end, is_last_to_blame ? unexplained->failure : failure);
+        if (failure || is_last_to_blame)
+          for (Repeated& call : repeated) call.failure.reset();
         first = failure ? end + 1 : last;
+        while (!repeated.empty() && repeated.back().end <= first) repeated.pop_back();
       }
       if (!failure) continue;
       late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
       if (failure->goes_on) continue;
       worker = start_worker();
-      if (worker) worker->give(batch);
     }
+  }
+
+  /// A call that failed as a whole, and is repeated in parts.
+  struct Repeated {
+    std::uint32_t end, part;
+    std::optional<WorkerFailure> failure;  ///< until a query is to blame for it
+  };
+
+  /// The size of the parts in which a call of this size is repeated.
+  static std::uint32_t part_of(std::uint32_t size) {
+    constexpr std::uint32_t few = 4096;
+    constexpr std::uint32_t parts = 64;
+    return size <= few ? 1 : size / parts;
   }
 
   /// Adapts the number of queries that later calls have.
@@ -220,7 +239,9 @@ class IsolatedPlugin final : public BatchSubject {
     constexpr std::uint32_t fewer = 8;
     if (failure && failure->of_call) in_a_call_ = std::max(1U, count / fewer);
     const bool quick = !failure && fewer * worker.elapsed() < isolation::call_limit * limits_.time;
-    if (quick && count == in_a_call_) in_a_call_ = std::min<std::uint32_t>(2 * count, isolation::batch_size);
+    if (quick && count == in_a_call_)
+      in_a_call_ = static_cast<std::uint32_t>(
+          std::min<std::size_t>(2 * std::size_t{count}, isolation::capacity_for(info_)));
   }
 
   std::unique_ptr<WorkerProcess> take() const {
@@ -285,7 +306,7 @@ class IsolatedPlugin final : public BatchSubject {
   std::shared_ptr<const PluginCode> code_;
   PluginLimits limits_;
   DetectorInfo info_;
-  mutable std::atomic<std::uint32_t> in_a_call_ = isolation::batch_size;
+  mutable std::atomic<std::uint32_t> in_a_call_ = static_cast<std::uint32_t>(isolation::capacity_for(info_));
   mutable FaultTexts texts_;
   mutable std::atomic<int> failed_starts_ = 0;  // in a row
   mutable std::mutex mutex_;

@@ -11,29 +11,33 @@
 namespace nearmiss::isolation {
 
 /// File descriptors with which a worker starts.
-inline constexpr int reply_socket = 3;   ///< a `Call` requests a batch; its number is the reply
+inline constexpr int reply_socket = 3;   ///< a `Call` requests something; its number is the reply
 inline constexpr int status_socket = 4;  ///< a `Status` for each change
-inline constexpr int questions_memory = 5;
-inline constexpr int answers_memory = 6;
+inline constexpr int answers_memory = 5;
 
-inline constexpr std::size_t batch_size = 2048;
+/// The number of queries for which a worker always has memory. Some detectors want more at once.
+inline constexpr std::size_t least_capacity = 2048;
 
 /// A reply to a call whose answers cannot be used, because the plug-in breaks the protocol.
 inline constexpr std::uint64_t no_reply = ~std::uint64_t{0};
 
 /// What a worker does with the queries of a batch.
 enum class Request : std::uint8_t {
-  load,  ///< loads the plug-in; comes first
+  load,   ///< loads the plug-in; comes first
+  share,  ///< takes the memory of batches (BatchMemory), whose files come with the call; comes second
   decide,
   decide_timed,  ///< decides, and measures the time of all queries together
   time_each,     ///< measures the time of each query
   bounds,        ///< gives the distance bound of each query
 };
 
-/// A message that requests something. The number distinguishes its answers from those of earlier calls.
+/// A message that requests something about a batch of queries of one kind. The number distinguishes its
+/// answers from those of earlier calls.
 struct Call {
   std::uint64_t number;
   Request request;
+  Kind kind = {};
+  std::uint32_t queries = 0;  ///< `share` gives the most queries that a batch may have
 };
 
 /// A message about the plug-in's process. The first one comes from that process before it loads the plug-in,
@@ -45,13 +49,41 @@ struct Status {
   std::int32_t is_in_namespace;  ///< in the first message: 1 if the process is in a PID namespace of its own
 };
 
-/// Written by nearmiss. The worker can only read it.
-struct SharedQuestions {
-  Kind kind{};
-  std::uint32_t first = 0;  ///< the request is about the queries [first, last)
-  std::uint32_t last = 0;
-  std::array<std::array<double, 24>, batch_size> queries{};
-  std::array<double, batch_size> separations{};
+/// Where the questions and answers of a batch of n queries lie in two blocks of shared memory: without gaps,
+/// so that a small batch uses only the start of blocks that have room for a large one. Nearmiss writes the
+/// questions, which the worker can only read. The worker writes the answers, and so can the plug-in.
+struct BatchMemory {
+  double* questions;
+  std::byte* answers;
+  std::size_t n;
+
+  static constexpr std::size_t bytes_of_question = 25 * sizeof(double);
+  static constexpr std::size_t bytes_of_answer = 5 * sizeof(std::uint64_t) + 2 * sizeof(int);
+
+  /// The coordinates, as the detector reads them.
+  [[nodiscard]] double* x() const { return questions; }
+  [[nodiscard]] double* separations() const { return questions + 24 * n; }
+
+  /// For each query, the call that it was answered in.
+  [[nodiscard]] std::uint64_t* calls() const { return at<std::uint64_t>(0); }
+  /// The times that were measured by time_each.
+  [[nodiscard]] std::uint64_t* nanoseconds() const { return at<std::uint64_t>(1); }
+  /// The times of impact, or the bounds.
+  [[nodiscard]] double* numbers() const { return at<double>(2); }
+  /// The plug-in's return values.
+  [[nodiscard]] int* values() const { return at<int>(5); }
+
+  /// The same for the answers of the empty detector, which nobody must take for those of the plug-in.
+  [[nodiscard]] std::uint64_t* calls_of_empty() const { return at<std::uint64_t>(3); }
+  [[nodiscard]] double* numbers_of_empty() const { return at<double>(4); }
+  [[nodiscard]] int* values_of_empty() const { return values() + n; }
+
+ private:
+  /// A column of numbers of eight bytes, or the first one behind them.
+  template <class T>
+  [[nodiscard]] T* at(std::size_t column) const {
+    return reinterpret_cast<T*>(answers + column * n * sizeof(std::uint64_t));
+  }
 };
 
 /// DetectorInfo and Contract (ccd/) as plain numbers, which can be read whatever the plug-in wrote.
@@ -60,18 +92,10 @@ struct PluginDescription {
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
       names{};  ///< of all detectors in the shared object, a line each
-  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, claims_bound = 0;
+  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, in_arrays = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
   double apart_by = 0, grid = 0, shortest = 0, longest = 0;
   std::uint64_t batch = 0;
-};
-
-/// The plug-in's answer to one query.
-struct PluginAnswer {
-  std::uint64_t call = 0;         ///< the call that it answers
-  std::uint64_t nanoseconds = 0;  ///< measured by time_each
-  double number = 0;              ///< the time of impact, or the bound
-  std::int32_t value = 0;         ///< the plug-in's return value
 };
 
 /// Written by the worker. The plug-in runs in the same process, and can write anything here.
@@ -79,9 +103,9 @@ struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
-  std::array<PluginAnswer, batch_size> of{};
-  std::uint64_t nanoseconds = 0;        ///< measured by decide_timed
-  std::array<char, 256> exception{};    ///< what() of an exception that the plug-in did not catch
+  std::uint64_t nanoseconds = 0;                 ///< measured by decide_timed
+  std::uint64_t kernel_nanoseconds = 0;          ///< as the plug-in says; 0 if it does not
+  std::array<char, 256> exception{};             ///< what() of an exception that the plug-in did not catch
   std::atomic<std::uint64_t> threw{0};  ///< the last call that an exception ended, at the query `current`
   // Written after loading, before any request:
   PluginDescription about;

@@ -103,7 +103,6 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files, c
     Spawn spawn;  // has copies of the descriptors; only those of the worker may stay open
     spawn.pass(files.replies, reply_socket);
     spawn.pass(status.theirs.number(), status_socket);
-    spawn.pass(files.questions, questions_memory);
     spawn.pass(files.answers, answers_memory);
     worker_ = spawn.run(program, std::move(arguments));
   }

@@ -28,7 +28,7 @@ class Supervisor {
  public:
   /// Descriptors that the worker gets.
   struct Files {
-    int replies, questions, answers;
+    int replies, answers;
   };
 
   Supervisor() = default;

@@ -10,12 +10,15 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <mutex>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "ccd/query/printable.hpp"
 #include "ccd/subjects/plugin.hpp"
+#include "fuzz/parallel.hpp"
+#include "fuzz/subjects/isolation/room.hpp"
 
 namespace nearmiss::isolation {
 
@@ -36,6 +39,13 @@ std::string text(const std::array<char, n>& written) {
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
 constexpr double most_asked_twice = 2;  // some queries are decided before the time counts, and then again
 
+constexpr std::uint64_t mebibyte = 1 << 20;
+
+/// A batch as messages call it.
+std::string name_of_batch(const DetectorInfo& info, std::size_t queries) {
+  return fmt::format("{}: a batch of {} queries", info.name, queries);
+}
+
 /// Throws Error if a description has a fault.
 void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
@@ -55,6 +65,17 @@ double calls_per_query(Request request) {
 
 }  // namespace
 
+std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits) {
+  queries = std::min(queries, capacity_for(info));
+  const std::uint64_t bytes = queries * (BatchMemory::bytes_of_question + BatchMemory::bytes_of_answer);
+  if (queries > least_capacity && limits.bytes != 0 && bytes > limits.bytes)
+    throw TrialError(
+        fmt::format("{} needs {} MiB of memory, found a limit of {} MiB, expected a larger --query-memory or "
+                    "fewer queries",
+                    name_of_batch(info, queries), bytes / mebibyte + 1, limits.bytes / mebibyte));
+  return bytes;
+}
+
 DetectorInfo info_of(const PluginDescription& about, const std::string& options) {
   DetectorInfo info;
   info.name = text(about.name);
@@ -65,7 +86,8 @@ DetectorInfo info_of(const PluginDescription& about, const std::string& options)
   info.time_sort =
       static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
   info.separation_kinds = about.separation_kinds & info.kinds;
-  info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
+  info.batch = std::clamp<std::uint64_t>(about.batch, 1, largest_batch);
+  info.in_arrays = about.in_arrays != 0;
   info.claims_bound = about.claims_bound != 0;
   info.contract = {.apart_at_start = about.apart_at_start != 0,
                    .one_root = about.one_root != 0,
@@ -159,7 +181,7 @@ void WorkerProcess::start(const std::string& plugin) {
   SocketPair replies;
   replies_ = std::move(replies.ours);
   supervisor_.start({plugin, std::to_string(limits_.bytes), limits_.own_namespace ? "1" : "0"},
-                    {replies.theirs.number(), questions_.file(), answers_.file()}, *limits_.stop);
+                    {replies.theirs.number(), header_.file()}, *limits_.stop);
 }
 
 std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervisor_.worker()); }
@@ -186,39 +208,69 @@ void WorkerProcess::load(const std::string& plugin) {
                 " while it was loaded" + memory);
   }
   if (answers_->error[0] != '\0') throw Error(text(answers_->error) + memory);
-  look_at_others();
-  others_compute_ = false;  // what they computed until now does not count
   try {
     info_ = info_of(answers_->about, is_program(plugin) ? "" : PluginName::parse(plugin).options);
     names_ = names_of(answers_->about);
   } catch (const Error& fault) {
     throw Error(plugin + ": " + fault.what());
   }
+  share();
+  look_at_others();
+  others_compute_ = false;  // what they computed until now does not count
+}
+
+void WorkerProcess::share() {
+  const std::size_t most = capacity_for(info_);
+  questions_of_batch_ = SharedMemory("nearmiss-questions", most * BatchMemory::bytes_of_question, false);
+  answers_of_batch_ = SharedMemory("nearmiss-answers", most * BatchMemory::bytes_of_answer, true);
+  batch_ = {
+      .questions = questions_of_batch_.as<double>(), .answers = answers_of_batch_.as<std::byte>(), .n = 0};
+  const Elapsed limit{limits_.loading, limits_.loading};
+  const Call call{.number = 0, .request = Request::share, .queries = static_cast<std::uint32_t>(most)};
+  if (ask(call, limit, limit) != End::done)
+    throw Error(info_.name + ": the plug-in's process does not take the memory of batches");
+}
+
+void WorkerProcess::reserve(std::size_t queries) {
+  if (queries <= reserved_) return;
+  const std::string what = name_of_batch(info_, queries);
+  const std::uint64_t bytes = memory_of_batch(info_, queries, limits_);
+  static std::mutex one_by_one;  // so that all workers together do not get more than is left
+  const std::lock_guard lock(one_by_one);
+  expect_memory(what, bytes);
+  if (!questions_of_batch_.reserve(queries * BatchMemory::bytes_of_question) ||
+      !answers_of_batch_.reserve(queries * BatchMemory::bytes_of_answer))
+    throw TrialError(fmt::format("{}: found no shared memory: {}", what, std::strerror(errno)));
+  reserved_ = queries;
 }
 
 void WorkerProcess::give(std::span<const Query> queries) {
-  questions_->kind = queries.front().kind;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const Query seen = rounded_for(info_, queries[i]);
-    questions_->queries[i] = seen.x;
-    questions_->separations[i] = seen.separation;
-  }
+  const std::size_t n = queries.size();
+  reserve(n);
+  batch_.n = n;
+  in_parts(n, [&](std::size_t first, std::size_t last) {
+    limits_.stop->check(Stop::grace);
+    for (std::size_t i = first; i < last; ++i) {
+      const Query seen = rounded_for(info_, queries[i]);
+      lay_out(info_, seen, i, n, batch_.x());
+      batch_.separations()[i] = seen.separation;
+    }
+  });
 }
 
-std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32_t first,
-                                                    std::uint32_t last) {
-  questions_->first = first;
-  questions_->last = last;
-  answers_->current = first;
+std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::span<const Query> queries) {
+  give(queries);
+  const auto n = static_cast<std::uint32_t>(queries.size());
+  answers_->current = 0;
   answers_->exception[0] = '\0';
-  const Call call{++call_, request};
+  const Call call{++call_, request, queries.front().kind, n};
   const Duration of_queries = limits_.time * calls_per_query(request);
-  const Duration of_call = last - first == 1 ? of_queries : call_limit * of_queries;
+  const Duration of_call = n == 1 ? of_queries : call_limit * of_queries;
   End end = ask(call, Elapsed::with_waiting(info_.batch == 1 ? limits_.time : of_call),
                 Elapsed::with_waiting(of_call));
-  const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
+  const auto answers = [&](std::uint32_t i) { return batch_.calls()[i] == call.number; };
   if (end == End::done && answers_->threw == call.number) end = End::threw;
-  for (std::uint32_t i = first; i < last && end == End::done; ++i)
+  for (std::uint32_t i = 0; i < n && end == End::done; ++i)
     if (!answers(i)) end = End::broken;
   if (end == End::done) {
     const bool is_first = call.number == 1;  // which may prepare what the plug-in needs
@@ -226,11 +278,11 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
     return std::nullopt;
   }
   // An honest worker has answered all queries before the current one.
-  std::uint32_t query = std::clamp<std::uint32_t>(answers_->current, first, last - 1);
-  for (std::uint32_t i = first; i < query; ++i)
+  std::uint32_t query = std::min<std::uint32_t>(answers_->current, n - 1);
+  for (std::uint32_t i = 0; i < query; ++i)
     if (!answers(i)) query = i;
   WorkerFailure found = failure(end, query);
-  found.of_call |= info_.batch > 1 && last - first > 1;
+  found.of_call |= info_.batch > 1 && n > 1;
   return found;
 }
 
@@ -240,7 +292,7 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
     case End::query_late:
       return {query, Fault::time};
     case End::call_late:
-      return {.query = query, .fault = Fault::time, .of_call = questions_->last - questions_->first > 1};
+      return {.query = query, .fault = Fault::time, .of_call = batch_.n > 1};
     case End::threw:
       return {.query = query, .fault = Fault::exception, .text = text(answers_->exception), .goes_on = true};
     case End::dead: {
@@ -273,7 +325,7 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
   std::uint32_t calls = answers_->calls;
   // If the worker is dead or does not read, no reply comes.
-  static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
+  send_call(call);
   std::optional<Watch> query_watch(watch);
   auto turn = steady_clock::now();
   while (true) {
@@ -300,6 +352,26 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
     }
     if (elapsed_.exceeds(of_call)) return End::call_late;
   }
+}
+
+void WorkerProcess::send_call(const Call& call) const {
+  Call copy = call;
+  iovec content{&copy, sizeof copy};
+  const std::array files{questions_of_batch_.file(), answers_of_batch_.file()};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof files)> control{};
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  if (call.request == Request::share) {
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    cmsghdr* const attached = CMSG_FIRSTHDR(&message);
+    attached->cmsg_level = SOL_SOCKET;
+    attached->cmsg_type = SCM_RIGHTS;
+    attached->cmsg_len = CMSG_LEN(sizeof files);
+    std::memcpy(CMSG_DATA(attached), files.data(), sizeof files);
+  }
+  static_cast<void>(sendmsg(replies_.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
 std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {

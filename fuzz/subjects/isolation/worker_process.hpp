@@ -1,8 +1,10 @@
 // One worker process, as nearmiss sees it. It trusts nothing that the worker writes.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +35,13 @@ struct PluginLimits {
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
   bool own_namespace = true;
 };
+
+/// The most queries that a worker gets at once: as many as the detector wants, and at least least_capacity.
+constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
+
+/// The memory in bytes that a worker shares with nearmiss for a batch of this size, or of its capacity if
+/// that is less. Throws a TrialError if it exceeds the limit of a plug-in.
+std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A call with several queries may take this many times the limit of a query.
 inline constexpr double call_limit = 10;
@@ -72,22 +81,25 @@ class WorkerProcess {
   /// The names of all detectors in a shared object.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
-  /// Gives the worker a batch of queries of one kind, at most batch_size.
-  void give(std::span<const Query> queries);
+  /// Has the worker perform a request for a batch of queries of one kind, at most capacity_for(info()).
+  /// Returns why one failed; nothing if all succeeded. Throws Stopped, and TrialError if there is no memory
+  /// for the batch.
+  std::optional<WorkerFailure> perform(Request request, std::span<const Query> queries);
 
-  /// Has the worker perform a request for the queries [first, last) of the batch. Returns why one failed;
-  /// nothing if all succeeded. Throws Stopped.
-  std::optional<WorkerFailure> perform(Request request, std::uint32_t first, std::uint32_t last);
-
-  /// The answer to a query of the batch.
-  [[nodiscard]] const PluginAnswer& answer(std::uint32_t i) const { return answers_->of[i]; }
+  /// The plug-in's return value for a query of the batch, and the time of impact or the bound.
+  [[nodiscard]] int value(std::uint32_t i) const { return batch_.values()[i]; }
+  [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
   /// Times in ns that the worker measured in the last call: of the call, or of a query. They are limited to
   /// the time that the call took. The time of a call is also at least half of the computing time of all
   /// threads and processes of the plug-in (less what the worker itself may compute); half, because the
   /// plug-in may have decided each query twice. The first call has no such lower limit.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
-    return limited(answers_->of[i].nanoseconds, Duration{});
+    return limited(batch_.nanoseconds()[i], Duration{});
+  }
+  /// The part of measured() without copies to a device; 0 if the plug-in does not say it.
+  [[nodiscard]] std::uint64_t measured_kernels() const {
+    return std::min(answers_->kernel_nanoseconds, measured());
   }
   /// The computing time of the last call.
   [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
@@ -111,6 +123,12 @@ class WorkerProcess {
 
   void start(const std::string& plugin);
   void load(const std::string& plugin);
+  /// Shares the memory of batches.
+  void share();
+  /// Gets memory for a batch of this size. Throws TrialError.
+  void reserve(std::size_t queries);
+  /// Writes a batch to the shared memory.
+  void give(std::span<const Query> queries);
   /// The computing time of the plug-in's process.
   [[nodiscard]] Duration own_computing() const;
   /// Brings others_ and others_compute_ up to date. That takes longer than a call of a fast plug-in. So it is
@@ -120,6 +138,8 @@ class WorkerProcess {
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// Like `ask`, but without updating is_waiting_.
   End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
+  /// Sends a call, with the files of the shared memory if it shares them.
+  void send_call(const Call& call) const;
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
@@ -131,8 +151,11 @@ class WorkerProcess {
   [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds, Duration least) const;
 
   PluginLimits limits_;
-  SharedMemory<SharedQuestions> questions_{false};
-  SharedMemory<SharedAnswers> answers_{true};
+  SharedMemory header_{"nearmiss-worker", sizeof(SharedAnswers), true};
+  SharedAnswers* answers_ = new (header_.as<void>()) SharedAnswers;
+  SharedMemory questions_of_batch_, answers_of_batch_;
+  BatchMemory batch_{};                    ///< of the last call
+  std::size_t reserved_ = least_capacity;  ///< queries for whose batch there is memory
   Descriptor replies_;
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended

@@ -32,8 +32,9 @@ namespace {
 using namespace nearmiss;
 using namespace nearmiss::isolation;
 
-const SharedQuestions* questions = nullptr;
 SharedAnswers* answers = nullptr;
+BatchMemory shared{};            // of the current batch
+std::uint32_t most_queries = 0;  // that a batch may have
 
 template <std::size_t n>
 void copy(std::string_view text, std::array<char, n>& to) {
@@ -72,88 +73,124 @@ void begin(std::uint32_t i) {
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Notes an answer. The number of its call comes last, because the process may end at any moment.
-void note(PluginAnswer& to, std::uint64_t call, double number, int value) {
-  to.number = number;
-  to.value = value;
-  std::atomic_ref(to.call).store(call, std::memory_order_release);
+/// Notes that queries are answered by a call, or by none (0). This comes behind the answers, because the
+/// process may end at any moment.
+void note(std::uint64_t* calls, std::uint32_t n, std::uint64_t call) {
+  for (std::uint32_t i = 0; i < n; ++i) std::atomic_ref(calls[i]).store(call, std::memory_order_release);
 }
 
-using Answers = std::array<PluginAnswer, batch_size>;
+/// The coordinates of the queries [first, first + n) of the batch, as the detector reads them.
+const double* coordinates(const Detector& detector, Kind kind, std::uint32_t first, std::uint32_t n) {
+  const std::size_t size = coordinate_count(kind);
+  if (!detector.info().in_arrays) return shared.x() + size * first;
+  if (n == shared.n) return shared.x();
+  static std::array<double, 24 * least_capacity> part;  // a larger detector gets its batch as a whole
+  for (std::size_t k = 0; k < size; ++k) std::copy_n(shared.x() + shared.n * k + first, n, &part[n * k]);
+  return part.data();
+}
 
-/// Has a detector decide the queries [first, last) in steps of `step`, and notes the answers in `noted`.
-void ask(const Detector& detector, Answers& noted, std::uint64_t call, std::uint32_t first,
-         std::uint32_t last, std::uint32_t step) {
-  static std::array<int, batch_size> values;
-  static std::array<double, batch_size> times;
-  for (std::uint32_t i = first; i < last; i += step) {
-    const std::uint32_t n = std::min(step, last - i);
-    begin(i);
-    detector.decide(questions->kind, questions->queries[i].data(), &questions->separations[i],
-                    std::span(values).first(n), std::span(times).first(n));
-    for (std::uint32_t k = 0; k < n; ++k) note(noted[i + k], call, times[k], values[k]);
+/// Where the answers of a detector go.
+struct Answers {
+  std::uint64_t* calls;
+  double* numbers;
+  int* values;
+};
+
+/// Asks a detector about batches that the plug-in's detector reads.
+class Asking {
+ public:
+  Asking(const Detector& plugin, const Call& call)
+      : plugin_(plugin),
+        call_(call),
+        step_(static_cast<std::uint32_t>(std::min<std::size_t>(plugin.info().batch, most_queries))) {}
+
+  /// Has the plug-in's detector decide the queries [first, last), up to `step` at once.
+  void ask(std::uint32_t first, std::uint32_t last, std::uint32_t step) {
+    ask(plugin_, {shared.calls(), shared.numbers(), shared.values()}, first, last, step);
   }
-}
+  void ask(std::uint32_t first, std::uint32_t last) { ask(first, last, step_); }
 
-/// Asks the empty detector. Its answers go elsewhere, so that nobody takes them for those of the plug-in.
-void ask_empty(std::uint64_t call, std::uint32_t first, std::uint32_t last, std::uint32_t step) {
-  static Answers of_empty;
-  ask(Detector::empty(), of_empty, call, first, last, step);
-}
-
-/// Asks the plug-in's detector, and measures the time of all threads, since a plug-in may have threads of its
-/// own. Some queries are decided before that, so that the code is in the caches; but not if the first takes
-/// so long that this makes no difference.
-std::uint64_t time_of_warm(const Detector& detector, std::uint64_t call, std::uint32_t first,
-                           std::uint32_t last, std::uint32_t step) {
-  constexpr std::uint64_t long_query = 1'000'000;
-  const auto ask_some = [&](std::uint32_t from, std::uint32_t to) {
-    ask(detector, answers->of, call, from, to, step);
-  };
-  const auto timed = [&](std::uint32_t from, std::uint32_t to) {
-    return time_beyond(
-        CLOCK_PROCESS_CPUTIME_ID, [&] { ask_some(from, to); }, [&] { ask_empty(call, from, to, step); });
-  };
-  const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
-  ask_empty(call, first, few, step);
-  if (step == 1 && first < last) {
-    const std::uint64_t of_first = timed(first, first + 1);
-    if (of_first >= long_query) return of_first + timed(first + 1, last);
+  void ask_empty(std::uint32_t first, std::uint32_t last, std::uint32_t step) {
+    ask(Detector::empty(), {shared.calls_of_empty(), shared.numbers_of_empty(), shared.values_of_empty()},
+        first, last, step);
   }
-  ask_some(first, few);
-  return timed(first, last);
-}
 
-void give_bounds(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last) {
-  for (std::uint32_t i = first; i < last; ++i) {
-    begin(i);
-    const BoundAnswer given =
-        detector.bound(questions->kind, questions->queries[i].data(), questions->separations[i]);
-    note(answers->of[i], call, given.bound, 0);
+  /// Asks the plug-in's detector about the whole batch, and measures the time of all threads, since a plug-in
+  /// may have threads of its own. Some queries are decided before that, so that the code is in the caches;
+  /// but not if the first takes so long that this makes no difference.
+  std::uint64_t time_of_warm() {
+    constexpr std::uint64_t long_query = 1'000'000;
+    const std::uint32_t all = call_.queries;
+    const auto timed = [&](std::uint32_t from, std::uint32_t to) {
+      return time_beyond(
+          CLOCK_PROCESS_CPUTIME_ID, [&] { ask(from, to); }, [&] { ask_empty(from, to, step_); });
+    };
+    const auto few = std::min<std::uint32_t>(warm_up_queries, all);
+    ask_empty(0, few, step_);
+    if (step_ == 1 && all > 0) {
+      const std::uint64_t of_first = timed(0, 1);
+      if (of_first >= long_query) return of_first + timed(1, all);
+    }
+    ask(0, few);
+    kernel_nanoseconds_ = 0;
+    return timed(0, all);
   }
-}
+
+  /// The part of the last time without copies.
+  [[nodiscard]] std::uint64_t kernel_nanoseconds() const { return kernel_nanoseconds_; }
+
+  void give_bounds() {
+    for (std::uint32_t i = 0; i < call_.queries; ++i) {
+      begin(i);
+      const BoundAnswer given =
+          plugin_.bound(call_.kind, coordinates(plugin_, call_.kind, i, 1), shared.separations()[i]);
+      shared.numbers()[i] = given.bound;
+      note(shared.calls() + i, 1, call_.number);
+    }
+  }
+
+ private:
+  void ask(const Detector& detector, const Answers& to, std::uint32_t first, std::uint32_t last,
+           std::uint32_t step) {
+    for (std::uint32_t i = first; i < last; i += step) {
+      const std::uint32_t n = std::min(step, last - i);
+      note(to.calls + i, n, 0);
+      begin(i);
+      detector.decide(call_.kind, coordinates(plugin_, call_.kind, i, n), shared.separations() + i,
+                      std::span(to.values + i, n), std::span(to.numbers + i, n));
+      note(to.calls + i, n, call_.number);
+      kernel_nanoseconds_ += detector.kernel_nanoseconds();
+    }
+  }
+
+  const Detector& plugin_;
+  const Call& call_;
+  std::uint32_t step_;
+  std::uint64_t kernel_nanoseconds_ = 0;
+};
 
 void answer(const Detector& detector, const Call& call) {
-  const std::uint32_t first = questions->first;
-  const std::uint32_t last = std::min<std::uint32_t>(questions->last, batch_size);
-  const auto step = static_cast<std::uint32_t>(std::min(detector.info().batch, batch_size));
+  shared.n = call.queries;
+  Asking asking(detector, call);
   switch (call.request) {
     case Request::load:
-      break;  // it is loaded already
+    case Request::share:
+      break;  // that is done already
     case Request::decide:
-      ask(detector, answers->of, call.number, first, last, step);
+      asking.ask(0, call.queries);
       break;
     case Request::decide_timed:
-      answers->nanoseconds = time_of_warm(detector, call.number, first, last, step);
+      answers->nanoseconds = asking.time_of_warm();
+      answers->kernel_nanoseconds = asking.kernel_nanoseconds();
       break;
     case Request::time_each:
-      for (std::uint32_t i = first; i < last; ++i)
-        answers->of[i].nanoseconds = best_time_beyond(
-            CLOCK_PROCESS_CPUTIME_ID, [&] { ask(detector, answers->of, call.number, i, i + 1, 1); },
-            [&] { ask_empty(call.number, i, i + 1, 1); });
+      for (std::uint32_t i = 0; i < call.queries; ++i)
+        shared.nanoseconds()[i] = best_time_beyond(
+            CLOCK_PROCESS_CPUTIME_ID, [&] { asking.ask(i, i + 1, 1); },
+            [&] { asking.ask_empty(i, i + 1, 1); });
       break;
     case Request::bounds:
-      give_bounds(detector, call.number, first, last);
+      asking.give_bounds();
       break;
   }
 }
@@ -163,18 +200,47 @@ void reply(std::uint64_t number) {
   }
 }
 
-bool receive(Call& call) {
-  while (true) {
-    const ssize_t size = recv(reply_socket, &call, sizeof call, 0);
-    if (size >= 0 || errno != EINTR) return size == sizeof call;
+/// The files that come with a call: those of the questions and the answers.
+using Files = std::array<int, 2>;
+
+/// Receives a call that has no more than `most` queries, and the files that come with it, if any.
+bool receive(Call& call, std::uint32_t most, Files* files = nullptr) {
+  iovec content{&call, sizeof call};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Files))> control{};
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = files == nullptr ? 0 : control.size();
+  ssize_t size = -1;
+  while ((size = recvmsg(reply_socket, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) {
   }
+  if (size != sizeof call || call.queries > most) return false;
+  if (files == nullptr) return true;
+  const cmsghdr* const attached = CMSG_FIRSTHDR(&message);
+  if (attached == nullptr || attached->cmsg_len != CMSG_LEN(sizeof(Files))) return false;
+  std::memcpy(files, CMSG_DATA(attached), sizeof(Files));
+  return true;
 }
 
+/// Maps shared memory, and closes its file. Null if that fails.
 template <class Memory>
-Memory* map(int descriptor, int protection) {
-  void* const memory = mmap(nullptr, sizeof(Memory), protection, MAP_SHARED, descriptor, 0);
-  close(descriptor);
+Memory* map(int file, int protection, std::size_t bytes) {
+  void* const memory = mmap(nullptr, bytes, protection, MAP_SHARED, file, 0);
+  close(file);
   return memory == MAP_FAILED ? nullptr : static_cast<Memory*>(memory);
+}
+
+/// Receives the call that shares the memory of batches. Returns whether it can be used.
+bool receive_memory(Call& call) {
+  Files files{};
+  if (!receive(call, largest_batch, &files)) return false;
+  most_queries = call.queries;
+  shared = {.questions = map<double>(files[0], PROT_READ, most_queries * BatchMemory::bytes_of_question),
+            .answers =
+                map<std::byte>(files[1], PROT_READ | PROT_WRITE, most_queries * BatchMemory::bytes_of_answer),
+            .n = 0};
+  return shared.questions != nullptr && shared.answers != nullptr;
 }
 
 void describe(const DetectorInfo& info, const std::string& names) {
@@ -190,6 +256,7 @@ void describe(const DetectorInfo& info, const std::string& names) {
   about.is_narrow = info.is_narrow ? 1 : 0;
   about.time_sort = static_cast<std::int32_t>(info.time_sort);
   about.separation_kinds = info.separation_kinds;
+  about.in_arrays = info.in_arrays ? 1 : 0;
   about.claims_bound = info.claims_bound ? 1 : 0;
   about.apart_at_start = info.contract.apart_at_start ? 1 : 0;
   about.one_root = info.contract.one_root ? 1 : 0;
@@ -239,18 +306,19 @@ Loaded load(std::string_view name) {
 namespace nearmiss::isolation {
 
 int answer_requests(const char* plugin, std::uint64_t bytes) {
-  questions = map<const SharedQuestions>(questions_memory, PROT_READ);
-  answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE);
-  if (questions == nullptr || answers == nullptr) return 1;
+  answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE, sizeof(SharedAnswers));
+  if (answers == nullptr) return 1;
   note_refusals_in(answers->memory_refused);
   prepare_for_faults();
   Call call{};
-  if (!receive(call)) return 0;
+  if (!receive(call, 0)) return 0;
   limit_memory_of_loading(bytes);
   const Loaded loaded = load(plugin);
+  reply(call.number);
+  if (!loaded.detector || !receive_memory(call)) return 0;
   limit_memory(loaded.process, bytes);
   reply(call.number);
-  while (loaded.detector && receive(call)) {
+  while (receive(call, most_queries)) {
     try {
       answer(*loaded.detector, call);
     } catch (const UnaskedBytes&) {

@@ -46,7 +46,7 @@ unsigned long threads_of_user() {
 void close_files() {
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
-  constexpr int first_other = std::max({reply_socket, status_socket, questions_memory, answers_memory}) + 1;
+  constexpr int first_other = std::max({reply_socket, status_socket, answers_memory}) + 1;
   closefrom(first_other);
 }
 

@@ -154,7 +154,13 @@ void confine_to_itself() {
 }
 
 void keep_out_of_other_processes() {
-  const landlock_ruleset_attr wanted{.handled_access_fs = LANDLOCK_ACCESS_FS_WRITE_FILE};
+  // To move files from one folder to another, as compilers of kernels do, must be allowed explicitly; the first
+  // version of Landlock refuses it.
+  const bool can_allow_moves =
+      syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 1;
+  const __u64 of_folders =
+      LANDLOCK_ACCESS_FS_WRITE_FILE | (can_allow_moves ? LANDLOCK_ACCESS_FS_REFER : __u64{0});
+  const landlock_ruleset_attr wanted{.handled_access_fs = of_folders};
   const auto rules = static_cast<int>(syscall(SYS_landlock_create_ruleset, &wanted, sizeof wanted, 0));
   if (rules < 0) return;
   DIR* const root = opendir("/");
@@ -162,9 +168,10 @@ void keep_out_of_other_processes() {
     const std::string_view name = entry->d_name;
     if (name == "." || name == ".." || name == "proc") continue;
     const int parent = openat(dirfd(root), entry->d_name, O_PATH | O_CLOEXEC);
-    const landlock_path_beneath_attr rule{.allowed_access = LANDLOCK_ACCESS_FS_WRITE_FILE,
-                                          .parent_fd = parent};
-    syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+    for (const __u64 access : {of_folders, __u64{LANDLOCK_ACCESS_FS_WRITE_FILE}}) {  // the second for files
+      const landlock_path_beneath_attr rule{.allowed_access = access, .parent_fd = parent};
+      syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+    }
     close(parent);
   }
   if (root != nullptr) closedir(root);

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -21,6 +22,7 @@ namespace nearmiss::isolation {
 namespace {
 
 constexpr int look_again_ms = 5;
+constexpr std::size_t rows_at_once = 2048;  // are written or read
 
 /// The program that the functions of a nearmiss_subject ask.
 Program* the_program = nullptr;
@@ -69,6 +71,7 @@ Program::Program(const std::string& command) : command_(command) {
   subject.version = description_.version.c_str();
   subject.about = description_.about.c_str();
   subject.decide = decide_with_the_program;
+  if (description_.says_seconds) subject.seconds_of_kernels = seconds_it_says;
   if (description_.claims_bound && description_.ignores_separation_in_bounds)
     subject.distance_bound = bound_of_contact;
   else if (description_.claims_bound)
@@ -79,21 +82,22 @@ Program::Program(const std::string& command) : command_(command) {
 
 void Program::decide_with_the_program(void* /*state*/, int kind, std::size_t n, const double* x,
                                       const double* h, int* answer, double* toi) {
-  std::vector<double> answers(2 * n);
-  the_program->ask(Question::decide, kind, n, x, h, answers.data());
-  for (std::size_t i = 0; i < n; ++i) {
-    const double given = answers[2 * i];
+  the_program->ask(Question::decide, kind, n, x, h);
+  the_program->read_answers(n, [&](std::size_t i, double given, double time) {
     answer[i] =
         given >= -1e9 && given <= 1e9 && given == static_cast<int>(given) ? static_cast<int>(given) : 1 << 30;
-    toi[i] = answers[2 * i + 1];
-  }
+    toi[i] = time;
+  });
 }
 
 double Program::bound_of_the_program(void* /*state*/, int kind, const double* x, double h) {
-  std::array<double, 2> answer{};
-  the_program->ask(Question::bound, kind, 1, x, &h, answer.data());
-  return answer[0];
+  double bound = 0;
+  the_program->ask(Question::bound, kind, 1, x, &h);
+  the_program->read_answers(1, [&](std::size_t /*i*/, double given, double /*time*/) { bound = given; });
+  return bound;
 }
+
+double Program::seconds_it_says(void* /*state*/) { return the_program->seconds_; }
 
 double Program::bound_of_contact(void* state, int kind, const double* x) {
   return bound_of_the_program(state, kind, x, 0);
@@ -132,18 +136,36 @@ std::string Program::read_description() {
   return text;
 }
 
-void Program::ask(Question question, int kind, std::size_t n, const double* x, const double* h,
-                  double* answers) {
-  std::vector<double> frame{static_cast<double>(question), static_cast<double>(kind), static_cast<double>(n)};
+void Program::ask(Question question, int kind, std::size_t n, const double* x, const double* h) {
   const std::size_t size = coordinate_count(kind_of_bit(kind).value());
-  frame.reserve(frame.size() + (size + 1) * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    frame.insert(frame.end(), x + size * i, x + size * (i + 1));
-    frame.push_back(h[i]);
-  }
   expect_silence();
-  write_all(frame.data(), frame.size() * sizeof(double));
-  read_all(answers, 2 * n * sizeof(double));
+  std::vector<double> part{static_cast<double>(question), static_cast<double>(kind), static_cast<double>(n)};
+  const auto write_part = [&] {
+    write_all(part.data(), part.size() * sizeof(double));
+    part.clear();
+  };
+  if (subject().layout == NEARMISS_ARRAYS) {
+    write_part();
+    write_all(x, size * n * sizeof(double));
+    write_all(h, n * sizeof(double));
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    part.insert(part.end(), x + size * i, x + size * (i + 1));
+    part.push_back(h[i]);
+    if (i % rows_at_once == rows_at_once - 1 || i == n - 1) write_part();
+  }
+}
+
+template <class Take>
+void Program::read_answers(std::size_t n, const Take& take) {
+  std::vector<double> rows(2 * std::min(n, rows_at_once));
+  for (std::size_t first = 0; first < n; first += rows_at_once) {
+    const std::size_t count = std::min(rows_at_once, n - first);
+    read_all(rows.data(), 2 * count * sizeof(double));
+    for (std::size_t i = 0; i < count; ++i) take(first + i, rows[2 * i], rows[2 * i + 1]);
+  }
+  if (description_.says_seconds) read_all(&seconds_, sizeof seconds_);
   expect_silence();
 }
 

@@ -38,12 +38,16 @@ class Program {
                                       int* answer, double* toi);
   static double bound_of_the_program(void* state, int kind, const double* x, double h);
   static double bound_of_contact(void* state, int kind, const double* x);
+  static double seconds_it_says(void* state);
 
   void start(const std::string& command);
   std::string read_description();
 
-  /// Throws UnaskedBytes.
-  void ask(Question question, int kind, std::size_t n, const double* x, const double* h, double* answers);
+  /// Writes a request. Throws UnaskedBytes.
+  void ask(Question question, int kind, std::size_t n, const double* x, const double* h);
+  /// Reads the answer, and calls take(i, number, time) for each query. Throws UnaskedBytes.
+  template <class Take>
+  void read_answers(std::size_t n, const Take& take);
   void expect_silence() const;
   void write_all(const void* data, std::size_t size);
   void read_all(void* data, std::size_t size);
@@ -61,6 +65,7 @@ class Program {
       errors_ = -1;          ///< pipes to its standard input, and from its standard output and error
   std::string last_errors_;  ///< the end of what it wrote to standard error
   ProgramDescription description_;
+  double seconds_ = -1;  ///< that the last answer took without copies, if the program says it
 };
 
 }  // namespace nearmiss::isolation

@@ -104,6 +104,10 @@ void read_line(std::string_view key, const std::string& value, ProgramDescriptio
       subject.separation_kinds = sum_of_kinds(value);
   } else if (key == "batch") {
     subject.batch = whole_number(value);
+  } else if (key == "layout") {
+    subject.layout = place(value, {"rows", "arrays"}, NEARMISS_ROWS);
+  } else if (key == "seconds") {
+    into.says_seconds = yes_or_no(value) == 1;
   } else if (key == "bound") {
     into.claims_bound = yes_or_no(value) == 1;
   } else if (!read_contract_line(key, value, subject.contract)) {
@@ -120,8 +124,10 @@ ProgramDescription ProgramDescription::parse(const std::string& text) {
   std::set<std::string> keys;
   std::size_t at = text.find('\n') + 1;
   description.ignores_separation_in_bounds = text.starts_with("nearmiss 2\n");
-  if (!description.ignores_separation_in_bounds && !text.starts_with("nearmiss 3\n"))
-    throw Error("found '" + text.substr(0, at - 1) + "', expected 'nearmiss 3' or 'nearmiss 2'");
+  const bool is_known = description.ignores_separation_in_bounds || text.starts_with("nearmiss 3\n") ||
+                        text.starts_with("nearmiss 4\n");
+  if (!is_known)
+    throw Error("found '" + text.substr(0, at - 1) + "', expected 'nearmiss 4', or an earlier version");
   while (at + 1 < text.size()) {
     const std::size_t end = text.find('\n', at);
     const std::string line = text.substr(at, end - at);

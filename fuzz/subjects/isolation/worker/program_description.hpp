@@ -11,6 +11,7 @@ namespace nearmiss::isolation {
 struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;
+  bool says_seconds = false;  ///< each answer ends with the seconds that it took without copies
   bool ignores_separation_in_bounds = false;  ///< version 2: is asked for bounds without the separation
   nearmiss_subject subject{};                 ///< the rest, without texts and functions
 

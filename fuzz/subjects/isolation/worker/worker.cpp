@@ -43,7 +43,7 @@ void tell(const Status& status) {
 }
 
 void close_channel() {
-  for (const int each : {reply_socket, questions_memory, answers_memory}) close(each);
+  for (const int each : {reply_socket, answers_memory}) close(each);
 }
 
 sigset_t end_of_child() {

@@ -1,6 +1,6 @@
-/* A plug-in that was compiled with version 2 of the interface: its structure ends with distance_bound. What
- * stands behind it in memory would be wrong fields of version 3. Reports all queries; claims the bound 0.125.
- */
+/* A plug-in that was compiled with version 2 or 3 of the interface (VERSION): its structure ends earlier. What
+ * stands behind it in memory would be wrong fields of later versions. Reports all queries; claims the bound
+ * 0.125, in version 3 plus the separation. */
 #include <stddef.h>
 
 typedef struct {
@@ -16,7 +16,11 @@ typedef struct {
   void (*close)(void*);
   void (*decide)(void*, int, size_t, const double*, const double*, int*, double*);
   double (*distance_bound)(void*, int, const double*);
-} subject_of_version_2;
+#if VERSION >= 3
+  int separation_kinds;
+  double (*distance_bound_within)(void*, int, const double*, double);
+#endif
+} older_subject;
 
 static void decide(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
                    double* toi) {
@@ -24,21 +28,34 @@ static void decide(void* state, int kind, size_t n, const double* x, const doubl
   for (size_t i = 0; i < n; ++i) answer[i] = 1;
 }
 
+#if VERSION >= 3
+static double bound_within(void* state, int kind, const double* x, double h) {
+  (void)state, (void)kind, (void)x;
+  return 0.125 + h;
+}
+#else
 static double bound(void* state, int kind, const double* x) {
   (void)state, (void)kind, (void)x;
   return 0.125;
 }
+#endif
 
-const subject_of_version_2* nearmiss_get_subject(size_t index) {
+const older_subject* nearmiss_get_subject(size_t index) {
   static const struct {
-    subject_of_version_2 subject;
+    older_subject subject;
     size_t behind_it[8];
-  } detector = {{.interface_version = 2,
-                 .name = "version-2",
+  } detector = {{.interface_version = VERSION,
+                 .name = "older-version",
                  .kinds = 3,
-                 .takes_separation = 1,
                  .decide = decide,
-                 .distance_bound = bound},
+#if VERSION >= 3
+                 .separation_kinds = 3,
+                 .distance_bound_within = bound_within
+#else
+                 .takes_separation = 1,
+                 .distance_bound = bound
+#endif
+                },
                 {12345, 12345, 12345, 12345, 12345, 12345, 12345, 12345}};
   return index == 0 ? &detector.subject : NULL;
 }

@@ -1,0 +1,98 @@
+/* Detectors that want up to 10^5 queries at once.
+ *   rows, arrays: give a mean of a query's coordinates, which are in [0, 1], as the time of impact. They read
+ *     the coordinates in these layouts. The first one says that it computes forever, the second one nothing.
+ *   counts: answers every query with an error code: minus the number of queries in the call. Crashes if
+ *     x[0] > 0.9.
+ *   wearing: crashes at the 5000th query of its process, whatever the query is. */
+#include <math.h>
+#include <signal.h>
+#include <stddef.h>
+
+#include "ccd/nearmiss_subject.h"
+
+#define ANY_KIND \
+  (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE + NEARMISS_VERTEX_VERTEX + NEARMISS_VERTEX_EDGE)
+
+/* The coordinates of two queries are `of_query` apart, those of one query `of_coordinate`. */
+static void give_means(int kind, size_t n, const double* x, size_t of_query, size_t of_coordinate,
+                       int* answer, double* toi) {
+  const size_t size = kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;
+  for (size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (size_t k = 0; k < size; ++k) sum += (double)(k + 1) * x[of_query * i + of_coordinate * k];
+    answer[i] = NEARMISS_COLLISION;
+    toi[i] = sum / (double)(size * (size + 1) / 2);
+  }
+}
+
+static void decide_rows(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                        double* toi) {
+  (void)state, (void)h;
+  const size_t size = kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;
+  give_means(kind, n, x, size, 1, answer, toi);
+}
+
+static void decide_arrays(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                          double* toi) {
+  (void)state, (void)h;
+  give_means(kind, n, x, 1, n, answer, toi);
+}
+
+static void count(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                  double* toi) {
+  (void)state, (void)kind, (void)h, (void)toi;
+  for (size_t i = 0; i < n; ++i) {
+    if (x[24 * i] > 0.9) raise(SIGSEGV);
+    answer[i] = -(int)n;
+  }
+}
+
+static void wear_out(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                     double* toi) {
+  static size_t done;
+  (void)state, (void)kind, (void)x, (void)h, (void)toi;
+  for (size_t i = 0; i < n; ++i) {
+    if (++done == 5000) raise(SIGSEGV);
+    answer[i] = NEARMISS_NO_COLLISION;
+  }
+}
+
+static double forever(void* state) { return (void)state, 1e5; }
+static double unknown(void* state) { return (void)state, NAN; }
+
+static const nearmiss_subject detectors[] = {{.interface_version = NEARMISS_INTERFACE,
+                                              .name = "rows",
+                                              .kinds = ANY_KIND,
+                                              .time_sort = NEARMISS_TIME_ESTIMATE,
+                                              .batch = 100000,
+                                              .decide = decide_rows,
+                                              .seconds_of_kernels = forever},
+                                             {.interface_version = NEARMISS_INTERFACE,
+                                              .name = "arrays",
+                                              .kinds = ANY_KIND,
+                                              .time_sort = NEARMISS_TIME_ESTIMATE,
+                                              .batch = 100000,
+                                              .decide = decide_arrays,
+                                              .layout = NEARMISS_ARRAYS,
+                                              .seconds_of_kernels = unknown},
+                                             {.interface_version = NEARMISS_INTERFACE,
+                                              .name = "small-arrays",
+                                              .kinds = ANY_KIND,
+                                              .time_sort = NEARMISS_TIME_ESTIMATE,
+                                              .batch = 7,
+                                              .decide = decide_arrays,
+                                              .layout = NEARMISS_ARRAYS},
+                                             {.interface_version = NEARMISS_INTERFACE,
+                                              .name = "counts",
+                                              .kinds = ANY_KIND,
+                                              .batch = 100000,
+                                              .decide = count},
+                                             {.interface_version = NEARMISS_INTERFACE,
+                                              .name = "wearing",
+                                              .kinds = ANY_KIND,
+                                              .batch = 100000,
+                                              .decide = wear_out}};
+
+const nearmiss_subject* nearmiss_get_subject(size_t index) {
+  return index < sizeof detectors / sizeof detectors[0] ? &detectors[index] : NULL;
+}
