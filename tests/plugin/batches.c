@@ -1,6 +1,7 @@
 /* Detectors that want up to 10^5 queries at once.
- *   rows, arrays: give a mean of a query's coordinates, which are in [0, 1], as the time of impact. They read
- *     the coordinates in these layouts. The first one says that it computes forever, the second one nothing.
+ *   rows, arrays, small-arrays: give a mean of a query's coordinates, without its integer part, as the time of
+ *     impact. They read the coordinates in these layouts. The first one says that it computes forever, the second
+ *     one that it does not know. The last one wants 7 queries at once.
  *   counts: answers every query with an error code: minus the number of queries in the call. Crashes if
  *     x[0] > 0.9.
  *   wearing: crashes at the 5000th query of its process, whatever the query is. */
@@ -21,7 +22,8 @@ static void give_means(int kind, size_t n, const double* x, size_t of_query, siz
     double sum = 0;
     for (size_t k = 0; k < size; ++k) sum += (double)(k + 1) * x[of_query * i + of_coordinate * k];
     answer[i] = NEARMISS_COLLISION;
-    toi[i] = sum / (double)(size * (size + 1) / 2);
+    const double mean = sum / (double)(size * (size + 1) / 2);
+    toi[i] = mean - floor(mean);
   }
 }
 

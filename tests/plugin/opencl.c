@@ -54,7 +54,7 @@ static const char* const text = TEXT(
         const float3 d[8] = {(float3)(1, 0, 0),    (float3)(0, 1, 0),
                              (float3)(0, 0, 1),    normal,
                              cross(normal, u),     cross(normal, v),
-                             cross(normal, v - u), from[2] + from[3] - from[0] - from[1]};
+                             cross(normal, v - u), from[2] + from[3] - from[0] - from[split == 1 ? 0 : 1]};
         int apart = largest > 0x1p-90f; /* not if subnormal coordinates may become 0 */
         for (int k = 0; apart && !stay_apart(from, to, split, d[k]); ++k) apart = k < 7;
         if (!apart) {
