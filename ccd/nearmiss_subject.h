@@ -68,7 +68,8 @@ typedef struct {
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
    * any time in [0, 1]; h = 0 asks for contact.
    *   x: n rows of finite doubles, x0 x1 .. at t = 0, then at t = 1; x, y, z of each: 24 numbers, or 12 for
-   *      two vertices, and 18 for a vertex and an edge. The vertices move linearly. `layout` changes the order.
+   *      two vertices, and 18 for a vertex and an edge. The vertices move linearly. `layout` may change the
+   *      order.
    *   h: n separations, at least 0; 0 unless it uses h for this kind. Rounded to float, like x, if `bits` is
    *      24.
    *   answer: n answers, all to be written.

@@ -39,8 +39,8 @@ class Trials {
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const Stop& stop() const { return stop_; }
   [[nodiscard]] int jobs() const { return jobs_; }
-  /// The number of queries that a batch should have, so that the subjects get as many at once as they want: up
-  /// to 2^16, because a batch is judged by one thread, and each thread has one.
+  /// The number of queries that a batch should have, so that the subjects get as many at once as they want:
+  /// up to 2^16, because a batch is judged by one thread, and each thread has one.
   [[nodiscard]] std::size_t batch_size() const { return batch_size_; }
   /// How many queries of a family to make at once.
   [[nodiscard]] const Pace& pace() const { return pace_; }

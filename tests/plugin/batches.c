@@ -1,7 +1,7 @@
 /* Detectors that want up to 10^5 queries at once.
- *   rows, arrays, small-arrays: give a mean of a query's coordinates, without its integer part, as the time of
- *     impact. They read the coordinates in these layouts. The first one says that it computes forever, the second
- *     one that it does not know. The last one wants 7 queries at once.
+ *   rows, arrays, small-arrays: give a mean of a query's coordinates, without its integer part, as the time
+ *     of impact. They read the coordinates in these layouts. The first one says that it computes forever, the
+ *     second one that it does not know. The last one wants 7 queries at once.
  *   counts: answers every query with an error code: minus the number of queries in the call. Crashes if
  *     x[0] > 0.9.
  *   wearing: crashes at the 5000th query of its process, whatever the query is. */

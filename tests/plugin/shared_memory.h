@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The memory with this name in /proc/self/maps: "nearmiss-worker", "nearmiss-questions" or "nearmiss-answers". */
+/* The memory with this name in /proc/self/maps: "nearmiss-worker", "nearmiss-questions" or
+ * "nearmiss-answers". */
 __attribute__((unused)) static void* shared_memory(const char* name) {
   FILE* const maps = fopen("/proc/self/maps", "r");
   char line[512];

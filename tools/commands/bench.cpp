@@ -73,8 +73,8 @@ std::string named(std::string name, const SeparationOption& separation) {
   return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
 }
 
-/// For each kind that is asked, the first `count` queries of a family that pass the box test. They are made on
-/// all processors. Throws Stopped.
+/// For each kind that is asked, the first `count` queries of a family that pass the box test. They are made
+/// on all processors. Throws Stopped.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};
@@ -219,8 +219,8 @@ std::vector<Family> families_of(const Options& options) {
   return families;
 }
 
-/// Throws Error unless there is memory for the random queries of a family, their answers, and what each plug-in
-/// shares with nearmiss.
+/// Throws Error unless there is memory for the random queries of a family, their answers, and what each
+/// plug-in shares with nearmiss.
 void expect_room(const Options& options, const std::vector<Family>& families, const Subjects& subjects,
                  const isolation::PluginLimits& limits) {
   std::uint64_t bytes = options.queries * sizeof(Verdict);

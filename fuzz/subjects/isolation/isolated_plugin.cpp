@@ -110,8 +110,8 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
  private:
-  /// What a worker has done in its last call: it answered the first queries. If there is a failure, it is that
-  /// of the next query.
+  /// What a worker has done in its last call: it answered the first queries. If there is a failure, it is
+  /// that of the next query.
   struct Done {
     const WorkerProcess* worker;  ///< null if there is none, and nothing is done
     std::size_t first;            ///< index of the call's first query among all queries
@@ -137,8 +137,8 @@ class IsolatedPlugin final : public BatchSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch: queries of one kind, as many as a worker gets at once. The plug-in can decide
-  /// all or none of them.
+  /// The size of the next batch: queries of one kind, as many as a worker gets at once. The plug-in can
+  /// decide all or none of them.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -171,8 +171,8 @@ class IsolatedPlugin final : public BatchSubject {
   /// new one, which continues after the query that failed. A call that fails as a whole is repeated in parts,
   /// and a part that fails in smaller ones, at last query by query, to find the query that is to blame. If no
   /// part of a part fails, its last query is to blame: a failure that depends on earlier queries, such as a
-  /// crash at every 1000th query, is a fault, too. (If only the call as a whole was late, no query is to blame,
-  /// because the queries together may take that long.) `late` counts the queries over the time limit.
+  /// crash at every 1000th query, is a fault, too. (If only the call as a whole was late, no query is to
+  /// blame, because the queries together may take that long.) `late` counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {

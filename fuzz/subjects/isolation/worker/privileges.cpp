@@ -154,8 +154,8 @@ void confine_to_itself() {
 }
 
 void keep_out_of_other_processes() {
-  // To move files from one folder to another, as compilers of kernels do, must be allowed explicitly; the first
-  // version of Landlock refuses it.
+  // To move files from one folder to another, as compilers of kernels do, must be allowed explicitly; the
+  // first version of Landlock refuses it.
   const bool can_allow_moves =
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 1;
   const __u64 of_folders =
