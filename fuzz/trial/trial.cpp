@@ -243,11 +243,11 @@ class Judging {
       count_answer(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
                    factors_, outcome.collision, outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
-    const bool is_committed =
-        failure && failure->what == Finding::What::committed;  // no failure of a version
-    versions_.note(s, outcome,
-                   failure && !is_committed ? std::optional(result_.findings.size()) : std::nullopt);
-    if (failure) keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);
+    const bool counts = failure && !is_only_shown(failure->what);
+    versions_.note(s, outcome, counts ? std::optional(result_.findings.size()) : std::nullopt);
+    if (!failure) return;
+    const bool is_committed = failure->what == Finding::What::committed;
+    keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);
     if (is_committed)
       result_.findings.back().step =
           committed_step(truth.query(), outcome.verdict.time, subjects_[s]->rounds()).value_or(Query());

@@ -239,7 +239,7 @@ void find_new(const Statistics& now, std::span<const Campaign> baseline, const S
   const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
   const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
   for (const auto& [signature, count] : now.seen) {
-    if (is_beyond_contract(signature.subject) || signature.what == Finding::What::committed ||
+    if (is_beyond_contract(signature.subject) || is_only_shown(signature.what) ||
         std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
       continue;
     const bool is_unseen = before.times_seen(signature) == 0;
@@ -268,7 +268,7 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, All
   for (const auto& [signature, count] : before.seen) {
     seen_before[{signature.what, signature.subject}] += count;
     if (now.times_seen(signature) == 0 && !is_beyond_contract(signature.subject) &&
-        signature.what != Finding::What::committed)
+        !is_only_shown(signature.what))
       candidates.push_back(signature);
   }
   const double level = level_of(risk, candidates.size() + seen_before.size());

@@ -65,6 +65,10 @@ constexpr bool has_time(Finding::What what) {
   return what == Finding::What::late || what == Finding::What::committed;
 }
 
+/// Whether a finding of this sort is only shown: it breaks no promise, so it is no failure of a version, no new way
+/// to fail since a baseline, and nothing that a test of a user should fail for.
+constexpr bool is_only_shown(Finding::What what) { return what == Finding::What::committed; }
+
 /// A way to fail.
 struct Signature {
   Finding::What what{};

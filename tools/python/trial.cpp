@@ -202,8 +202,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
     const Stop stop(ending());
     const py::gil_scoped_release others_run;
     result = decide_all(plan, subjects, stop);
-    std::erase_if(result.findings,  // these are no failures
-                  [](const Finding& each) { return each.what == Finding::What::committed; });
+    std::erase_if(result.findings, [](const Finding& each) { return is_only_shown(each.what); });
     shrink(result.findings, subjects, shrunk_of_each_signature, stop);
   } catch (const Stopped&) {
     end_silently();  // only the end of the interpreter stops a trial
