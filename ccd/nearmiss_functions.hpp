@@ -32,10 +32,19 @@
 // nearmiss_subject.h:
 //
 //   .set(&nearmiss_subject::time_sort, NEARMISS_NO_TIME).set(&nearmiss_contract::apart_at_start, 1)
+//
+// A function that returns the distance of two primitives at rest, from the vertices x0 x1 .., is added in the
+// same way; squared(f) is for one that returns its square:
+//
+//   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
+//
+// A filter of steps, double f(const Question&, double* y), writes the positions at the end of the safe step, and
+// returns the clearance that it claims on the way (nearmiss_subject.h): .edge_edge_step(f), and so on.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <functional>
@@ -245,6 +254,33 @@ struct Part {
   F f;
 };
 
+/// The function that gives the distance of primitives of a kind.
+template <class F, int its_kind>
+struct Measure {
+  static constexpr int kind = its_kind;
+  F f;
+
+  template <class Front, std::size_t... i>
+  double operator()(const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) const {
+    return std::apply(f, std::tuple_cat(front, std::tuple(Point(x + 3 * i)...)));
+  }
+};
+
+/// The function that filters the steps of primitives of a kind.
+template <class F, int its_kind>
+struct Filter {
+  static constexpr int kind = its_kind;
+  F f;
+};
+
+/// For a function that returns the square of a distance: the distance.
+template <class F>
+auto squared(F f) {
+  return [f](auto&&... argument) -> decltype(std::sqrt(f(std::forward<decltype(argument)>(argument)...))) {
+    return std::sqrt(f(std::forward<decltype(argument)>(argument)...));
+  };
+}
+
 struct NoOptions {};
 
 /// A detector, as its members describe it step by step.
@@ -253,26 +289,57 @@ struct Detector {
   nearmiss_subject subject;
   std::tuple<Parts...> parts;
 
-  template <int kind, class F>
-  auto with(F f) const {
-    return Detector<Settings, Parts..., Part<F, kind>>{subject,
-                                                       std::tuple_cat(parts, std::tuple(Part<F, kind>{f}))};
+  template <class Added>
+  auto with(Added part) const {
+    return Detector<Settings, Parts..., Added>{subject, std::tuple_cat(parts, std::tuple(part))};
   }
   template <class F>
   auto vertex_triangle(F f) const {
-    return with<NEARMISS_VERTEX_TRIANGLE>(f);
+    return with(Part<F, NEARMISS_VERTEX_TRIANGLE>{f});
   }
   template <class F>
   auto edge_edge(F f) const {
-    return with<NEARMISS_EDGE_EDGE>(f);
+    return with(Part<F, NEARMISS_EDGE_EDGE>{f});
   }
   template <class F>
   auto vertex_vertex(F f) const {
-    return with<NEARMISS_VERTEX_VERTEX>(f);
+    return with(Part<F, NEARMISS_VERTEX_VERTEX>{f});
   }
   template <class F>
   auto vertex_edge(F f) const {
-    return with<NEARMISS_VERTEX_EDGE>(f);
+    return with(Part<F, NEARMISS_VERTEX_EDGE>{f});
+  }
+  template <class F>
+  auto vertex_triangle_distance(F f) const {
+    return with(Measure<F, NEARMISS_VERTEX_TRIANGLE>{f});
+  }
+  template <class F>
+  auto edge_edge_distance(F f) const {
+    return with(Measure<F, NEARMISS_EDGE_EDGE>{f});
+  }
+  template <class F>
+  auto vertex_vertex_distance(F f) const {
+    return with(Measure<F, NEARMISS_VERTEX_VERTEX>{f});
+  }
+  template <class F>
+  auto vertex_edge_distance(F f) const {
+    return with(Measure<F, NEARMISS_VERTEX_EDGE>{f});
+  }
+  template <class F>
+  auto vertex_triangle_step(F f) const {
+    return with(Filter<F, NEARMISS_VERTEX_TRIANGLE>{f});
+  }
+  template <class F>
+  auto edge_edge_step(F f) const {
+    return with(Filter<F, NEARMISS_EDGE_EDGE>{f});
+  }
+  template <class F>
+  auto vertex_vertex_step(F f) const {
+    return with(Filter<F, NEARMISS_VERTEX_VERTEX>{f});
+  }
+  template <class F>
+  auto vertex_edge_step(F f) const {
+    return with(Filter<F, NEARMISS_VERTEX_EDGE>{f});
   }
 
   /// Sets a field of nearmiss_subject.h.
@@ -314,16 +381,26 @@ struct Detector {
       return {*static_cast<const Settings*>(state)};
   }
 
-  /// Calls act(part, Asked) for each kind that the detector decides.
+  /// Calls act(part) for each function.
   template <class Act>
-  void for_each_kind(const Act& act) const {
-    std::apply([&](const auto&... part) { (act(part, asked(part)), ...); }, parts);
+  void for_each_part(const Act& act) const {
+    std::apply([&](const auto&... part) { (act(part), ...); }, parts);
   }
+  /// How the function that decides queries of a kind is asked.
   template <class F, int kind>
   static Asked<F, Front, kind> asked(const Part<F, kind>& /*part*/) {
     return {};
   }
 };
+
+template <class>
+constexpr bool decides = false;
+template <class F, int kind>
+constexpr bool decides<Part<F, kind>> = true;
+template <class>
+constexpr bool measures = false;
+template <class F, int kind>
+constexpr bool measures<Measure<F, kind>> = true;
 
 constexpr int from_signatures = -1;  ///< of a field that nobody sets: what the functions' signatures say
 
@@ -351,15 +428,45 @@ template <class Described, std::size_t i>
 void decide_each(void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
                  double* toi) {
   const auto& detector = described<Described, i>();
-  detector.for_each_kind([&](const auto& part, auto asked) {
-    if (part.kind != kind) return;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Answer said =
-          asked.ask(part.f, detector.front(state), {kind, x + 6 * vertices_of(kind) * k, h[k]});
-      answer[k] = said.value;
-      toi[k] = said.time;
+  detector.for_each_part([&](const auto& part) {
+    if constexpr (decides<std::decay_t<decltype(part)>>) {
+      if (part.kind != kind) return;
+      for (std::size_t k = 0; k < n; ++k) {
+        const Answer said = detector.asked(part).ask(part.f, detector.front(state),
+                                                     {kind, x + 6 * vertices_of(kind) * k, h[k]});
+        answer[k] = said.value;
+        toi[k] = said.time;
+      }
     }
   });
+}
+
+/// The function distance() of the interface.
+template <class Described, std::size_t i>
+double distance_of(void* state, int kind, const double* x, double* /*weights*/) {
+  const auto& detector = described<Described, i>();
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  detector.for_each_part([&](const auto& part) {
+    if constexpr (measures<std::decay_t<decltype(part)>>)
+      if (part.kind == kind)
+        distance = part(detector.front(state), x, std::make_index_sequence<vertices_of(part.kind)>());
+  });
+  return distance;
+}
+
+/// The function step() of the interface.
+template <class Described, std::size_t i>
+double step_of(void* state, int kind, const double* x, double* y) {
+  const auto& detector = described<Described, i>();
+  double clearance = std::numeric_limits<double>::quiet_NaN();
+  detector.for_each_part([&](const auto& part) {
+    using Kind = std::decay_t<decltype(part)>;
+    if constexpr (!decides<Kind> && !measures<Kind>)
+      if (part.kind == kind)
+        clearance =
+            std::apply(part.f, std::tuple_cat(detector.front(state), std::tuple(Question{kind, x, 0}, y)));
+  });
+  return clearance;
 }
 
 template <class Described, std::size_t i>
@@ -367,17 +474,26 @@ nearmiss_subject subject_of() {
   const auto& detector = described<Described, i>();
   nearmiss_subject subject = detector.subject;
   int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that a function gives
-  detector.for_each_kind([&](const auto& part, auto asked) {
-    subject.kinds |= part.kind;
-    sort = std::min(sort, asked.time_sort);
-    with_separation |= asked.takes_separation ? part.kind : 0;
+  detector.for_each_part([&](const auto& part) {
+    using Its = std::decay_t<decltype(part)>;
+    if constexpr (decides<Its>) {
+      const auto asked = detector.asked(part);
+      subject.kinds |= part.kind;
+      sort = std::min(sort, asked.time_sort);
+      with_separation |= asked.takes_separation ? part.kind : 0;
+    } else {
+      (measures<Its> ? subject.distance_kinds : subject.step_kinds) |= part.kind;
+    }
   });
+  if (subject.kinds == 0) sort = NEARMISS_NO_TIME;
   if (subject.time_sort == from_signatures) subject.time_sort = sort;
   if (subject.takes_separation == from_signatures) {
     subject.takes_separation = with_separation == subject.kinds ? 1 : 0;
     if (subject.takes_separation == 0) subject.separation_kinds = with_separation;
   }
   subject.decide = decide_each<Described, i>;
+  if (subject.distance_kinds != 0) subject.distance = distance_of<Described, i>;
+  if (subject.step_kinds != 0) subject.step = step_of<Described, i>;
   return subject;
 }
 

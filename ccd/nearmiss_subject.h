@@ -49,7 +49,7 @@ typedef struct {
    * and without any of : = / , - `version` and `about` are one line of text each, of which the first 255
    * bytes are shown. */
   const char *name, *version, *about;
-  int kinds;            /* sum of the kinds that it decides */
+  int kinds;            /* sum of the kinds that it decides; 0 if it only gives distances */
   int bits;             /* 53; or 24: it gets x and h rounded to float, and is judged on these; 0 means 53 */
   int time_sort;        /* the sort of time that it gives with every collision */
   int takes_separation; /* 1 if it uses h, for all of its kinds */
@@ -95,6 +95,21 @@ typedef struct {
   double (*distance_bound_within)(void* state, int kind, const double* x, double h);
 
   /* New in version 4: */
+
+  int distance_kinds; /* sum of the kinds for which it gives the distance; NULL below if there are none */
+  /* The distance of two primitives at rest, in the unit of the coordinates: finite and at least 0. A solver
+   * that moves them by at most this distance relies on it, so a larger one than the exact one is unsafe.
+   *   x: x, y, z of each vertex: 12 numbers, or 6 for two vertices, and 9 for a vertex and an edge.
+   *   weights: the weights of the vertices in the closest points of the two primitives, in the order of x; those
+   *      of each primitive add up to 1. They are NaN on entry, and may stay so. */
+  double (*distance)(void* state, int kind, const double* x, double* weights);
+
+  int step_kinds; /* sum of the kinds for which it filters steps; NULL below if there are none */
+  /* The part of a step that is safe. Writes the positions to which the vertices may move, instead of those at
+   * t = 1, to `y`: 12 numbers, or 6 for two vertices, and 9 for a vertex and an edge. Returns the clearance that
+   * it claims, finite and at least 0: on the straight way from their positions at t = 0 to y, the primitives do
+   * not come nearer than that; 0 claims that they do not touch. x is one row, as for decide(). */
+  double (*step)(void* state, int kind, const double* x, double* y);
 
   int layout; /* in which decide() reads x: NEARMISS_ROWS or NEARMISS_ARRAYS */
   /* The seconds that the last decide() took without copies to and from a device, or a negative number if that

@@ -153,6 +153,7 @@ void add_context(ordered_json& json, const Campaign& campaign, const ReportConte
                  const std::optional<Changes>& since) {
   if (!context.audit.empty()) json["audit"] = ordered_json::parse(context.audit);
   if (!context.paper.empty()) json["paper"] = ordered_json::parse(context.paper);
+  if (!context.distances.empty()) json["distances"] = ordered_json::parse(context.distances);
   if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
   if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
   if (!since) return;

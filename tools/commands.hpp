@@ -25,6 +25,8 @@ void add_fuzz(CLI::App& app, int& exit_code);
 void add_shrink(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_distance(CLI::App& app, int& exit_code);
+void add_step(CLI::App& app, int& exit_code);
 void add_paper(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);

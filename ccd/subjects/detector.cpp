@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "ccd/query/arithmetic.hpp"
 #include "ccd/query/error.hpp"
@@ -41,11 +42,12 @@ Contract contract_of(const nearmiss_contract& given) {
           .longest = given.longest};
 }
 
-/// The fields that versions 3 and 4 added. A shared object that was compiled with an earlier version has none
-/// of them.
+/// The fields that versions 3 and 4 added. A shared object that was compiled with an older version lacks them.
 struct NewFields {
-  int separation_kinds = 0;
+  int separation_kinds = 0, distance_kinds = 0, step_kinds = 0;
   decltype(nearmiss_subject::distance_bound_within) distance_bound_within = nullptr;
+  decltype(nearmiss_subject::distance) distance = nullptr;
+  decltype(nearmiss_subject::step) step = nullptr;
   int layout = NEARMISS_ROWS;
   decltype(nearmiss_subject::seconds_of_kernels) seconds_of_kernels = nullptr;
 
@@ -54,6 +56,10 @@ struct NewFields {
     separation_kinds = subject.separation_kinds;
     distance_bound_within = subject.distance_bound_within;
     if (subject.interface_version < 4) return;
+    distance_kinds = subject.distance_kinds;
+    distance = subject.distance;
+    step_kinds = subject.step_kinds;
+    step = subject.step;
     layout = subject.layout;
     seconds_of_kernels = subject.seconds_of_kernels;
   }
@@ -68,6 +74,8 @@ DetectorInfo info_of(const nearmiss_subject& subject, const std::string& options
       .is_narrow = subject.bits == 24,
       .time_sort = static_cast<TimeSort>(subject.time_sort),
       .separation_kinds = subject.takes_separation != 0 ? subject.kinds : NewFields(subject).separation_kinds,
+      .distance_kinds = NewFields(subject).distance_kinds,
+      .step_kinds = NewFields(subject).step_kinds,
       .batch = std::clamp<std::size_t>(subject.batch, 1, largest_batch),
       .in_arrays = NewFields(subject).layout == NEARMISS_ARRAYS,
       .claims_bound =
@@ -97,6 +105,10 @@ const nearmiss_subject& empty_subject() {
                                         .distance_bound = nullptr,
                                         .separation_kinds = 0,
                                         .distance_bound_within = nullptr,
+                                        .distance_kinds = 0,
+                                        .distance = nullptr,
+                                        .step_kinds = 0,
+                                        .step = nullptr,
                                         .layout = NEARMISS_ROWS,
                                         .seconds_of_kernels = nullptr};
   return subject;
@@ -138,11 +150,20 @@ std::string fault_of(const Contract& contract) {
 std::string fault_of(const nearmiss_subject& subject) {
   const std::string name = text_or_empty(subject.name);
   if (std::string fault = fault_of_name(name); !fault.empty()) return fault;
-  if (subject.decide == nullptr) return "'" + name + "' without the function decide";
-  if (subject.kinds < 1 || subject.kinds > bits_of_all_kinds)
-    return "'" + name + "' with no known kind of queries";
-  if (const int of = NewFields(subject).separation_kinds; (of & subject.kinds) != of)
+  const NewFields added(subject);
+  const bool decides_nothing = subject.kinds == 0 && (added.distance_kinds != 0 || added.step_kinds != 0);
+  if (subject.decide == nullptr && !decides_nothing) return "'" + name + "' without the function decide";
+  const auto is_known = [](int some) { return some > 0 && some <= bits_of_all_kinds; };
+  if (!is_known(subject.kinds) && !decides_nothing) return "'" + name + "' with no known kind of queries";
+  if ((added.separation_kinds & subject.kinds) != added.separation_kinds)
     return "'" + name + "' with separations for a kind of queries that it does not decide";
+  for (const auto& [what, of, has_function] :
+       {std::tuple{"distance", added.distance_kinds, added.distance != nullptr},
+        std::tuple{"step", added.step_kinds, added.step != nullptr}}) {
+    if (of != 0 && !is_known(of)) return "'" + name + "' with unknown kinds in " + what + "_kinds";
+    if ((of != 0) != has_function)
+      return "'" + name + "' with " + what + "_kinds or the function " + what + ", but not both";
+  }
   if (subject.bits != 0 && subject.bits != 24 && subject.bits != 53)
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
   if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
@@ -154,6 +175,10 @@ std::string fault_of(const nearmiss_subject& subject) {
 }
 
 bool decides(const DetectorInfo& info, Kind kind) { return (info.kinds & bit_of(kind)) != 0; }
+
+bool gives_distance(const DetectorInfo& info, Kind kind) { return (info.distance_kinds & bit_of(kind)) != 0; }
+
+bool filters_step(const DetectorInfo& info, Kind kind) { return (info.step_kinds & bit_of(kind)) != 0; }
 
 bool takes_separation(const DetectorInfo& info, Kind kind) {
   return (info.separation_kinds & bit_of(kind)) != 0;
@@ -285,6 +310,21 @@ BoundAnswer Detector::bound(Kind kind, const double* x, double separation) const
                                          : subject_.distance_bound(state_, bit_of(kind), x);
   make_arithmetic_plain();
   return BoundAnswer::given(bound);
+}
+
+DistanceAnswer Detector::distance(Kind kind, const double* x) const {
+  std::array<double, 4> weights = DistanceAnswer().weights;
+  const double distance = NewFields(subject_).distance(state_, bit_of(kind), x, weights.data());
+  make_arithmetic_plain();
+  return DistanceAnswer::given(distance, weights);
+}
+
+StepAnswer Detector::step(Kind kind, const double* x) const {
+  StepAnswer none;
+  none.y.fill(nan);
+  const double clearance = NewFields(subject_).step(state_, bit_of(kind), x, none.y.data());
+  make_arithmetic_plain();
+  return StepAnswer::given(none.y, clearance, vertices(kind));
 }
 
 std::uint64_t Detector::kernel_nanoseconds() const {

@@ -22,6 +22,8 @@ struct DetectorInfo {
   bool is_narrow = false;  ///< whether it takes coordinates of 24 bits
   TimeSort time_sort{};
   int separation_kinds = 0;  ///< those for which it uses h, as a sum of bits
+  int distance_kinds = 0;    ///< those for which it gives the distance, as a sum of bits
+  int step_kinds = 0;        ///< those for which it filters steps, as a sum of bits
   std::size_t batch = 1;
   bool in_arrays = false;  ///< whether it reads coordinates in the layout NEARMISS_ARRAYS
   bool claims_bound = false;
@@ -43,6 +45,10 @@ std::string fault_of(const Contract& contract);
 
 /// Whether a detector decides queries of a kind.
 bool decides(const DetectorInfo& info, Kind kind);
+/// Whether a detector gives the distance of primitives of a kind.
+bool gives_distance(const DetectorInfo& info, Kind kind);
+/// Whether a detector filters the steps of primitives of a kind.
+bool filters_step(const DetectorInfo& info, Kind kind);
 /// Whether a detector uses the separation of queries of a kind.
 bool takes_separation(const DetectorInfo& info, Kind kind);
 /// The query that a detector decides. If the detector is narrow, numbers are rounded to float, and those
@@ -93,6 +99,10 @@ class Detector {
               std::span<double> times) const;
   /// The bound for one query.
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
+  /// The distance at t = 0, for a kind of which the detector gives distances.
+  [[nodiscard]] DistanceAnswer distance(Kind kind, const double* x) const;
+  /// The filtered step, for a kind of which the detector filters steps.
+  [[nodiscard]] StepAnswer step(Kind kind, const double* x) const;
   /// The time that the last decision took without copies, in ns; 0 if the detector does not say it.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const;
 

@@ -108,6 +108,20 @@ BoundAnswer Plugin::ask_bound(const Query& query) const {
       [&](const Detector& detector) { return detector.bound(query.kind, x.data(), seen.separation); });
 }
 
+DistanceAnswer Plugin::ask_distance(const Query& query) const {
+  const Query seen = rounded(query);
+  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
+  lay_out(info_, seen, 0, 1, x.data());
+  return with_detector([&](const Detector& detector) { return detector.distance(query.kind, x.data()); });
+}
+
+StepAnswer Plugin::ask_step(const Query& query) const {
+  const Query seen = rounded(query);
+  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
+  lay_out(info_, seen, 0, 1, x.data());
+  return with_detector([&](const Detector& detector) { return detector.step(query.kind, x.data()); });
+}
+
 double Plugin::distance_bound(const Query& query) const { return ask_bound(query).bound_or_nan(); }
 
 }  // namespace nearmiss

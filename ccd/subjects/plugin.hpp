@@ -48,6 +48,12 @@ class Plugin final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override;
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override;
   [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
+  [[nodiscard]] bool gives_distance(Kind kind) const override {
+    return nearmiss::gives_distance(info_, kind);
+  }
+  [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override;
+  [[nodiscard]] bool filters_step(Kind kind) const override { return nearmiss::filters_step(info_, kind); }
+  [[nodiscard]] StepAnswer ask_step(const Query& query) const override;
   [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
   [[nodiscard]] bool takes_separation(Kind kind) const override {
     return nearmiss::takes_separation(info_, kind);

@@ -56,6 +56,42 @@ struct BoundAnswer {
   }
 };
 
+/// A subject's answer when it is asked for the distance of two primitives.
+struct DistanceAnswer {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  double distance = none;
+  /// Of the vertices in the closest points; those of each primitive add up to 1. NaN if the subject gives none.
+  std::array<double, 4> weights{none, none, none, none};
+  Fault fault = Fault::none;    ///< if not `none`, there is no distance
+  std::int32_t fault_code = 0;  ///< as in Verdict
+
+  /// What a subject gave; a fault if it is not a distance.
+  static DistanceAnswer given(double distance, const std::array<double, 4>& weights) {
+    const bool is_distance = distance >= 0 && distance <= std::numeric_limits<double>::max();
+    return {distance, weights, is_distance ? Fault::none : Fault::invalid};
+  }
+};
+
+/// A subject's answer when it is asked to filter a step.
+struct StepAnswer {
+  std::array<double, 12> y{};  ///< the positions to which the vertices may move; x, y, z of each
+  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< that it claims on the way
+  Fault fault = Fault::none;                                    ///< if not `none`, there is no answer
+  std::int32_t fault_code = 0;                                  ///< as in Verdict
+
+  /// What a subject gave for a number of vertices; a fault if it is not finite, or the clearance is negative.
+  static StepAnswer given(const std::array<double, 12>& y, double clearance, int vertices) {
+    constexpr double most = std::numeric_limits<double>::max();
+    bool is_finite = clearance >= 0 && clearance <= most;
+    for (int i = 0; i < 3 * vertices; ++i) {
+      const double c = y[static_cast<std::size_t>(i)];
+      is_finite = is_finite && c >= -most && c <= most;
+    }
+    return {y, clearance, is_finite ? Fault::none : Fault::invalid};
+  }
+};
+
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
 /// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
@@ -100,6 +136,22 @@ class Subject {
   /// The distance bound, or why the subject fails to give it.
   [[nodiscard]] virtual BoundAnswer ask_bound(const Query& query) const {
     return BoundAnswer::given(distance_bound(query));
+  }
+
+  /// Whether the subject gives distances of primitives of a kind.
+  [[nodiscard]] virtual bool gives_distance(Kind /*kind*/) const { return false; }
+
+  /// The distance of the primitives at t = 0, for a kind of which the subject gives distances.
+  [[nodiscard]] virtual DistanceAnswer ask_distance(const Query& /*query*/) const {
+    return {.fault = Fault::not_asked};
+  }
+
+  /// Whether the subject filters steps of primitives of a kind.
+  [[nodiscard]] virtual bool filters_step(Kind /*kind*/) const { return false; }
+
+  /// The part of the query's step that is safe, for a kind of which the subject filters steps.
+  [[nodiscard]] virtual StepAnswer ask_step(const Query& /*query*/) const {
+    return {.fault = Fault::not_asked};
   }
 
   /// Whether the subject claims a bound; it does so for all queries or for none.

@@ -290,8 +290,8 @@ bool is_coplanar_at_an_end(const Query& query, double length) {
 
 /// The first rule by which a query is degenerate; "" if there is none. The query must not be extreme.
 std::string_view degeneracy(const Query& query) {
-  const auto [longest, shortest, fastest] = lengths<double>(query);
-  if (longest == 0 || fastest == 0) return "no size or no motion";
+  const double longest = lengths<double>(query).longest;
+  if (longest == 0) return "no size";
   if (filtered([&] { return edges_differ(1e3, lengths<Interval>(query)); },
                [&] { return edges_differ(1e3, lengths<Number>(query)); }))
     return "lengths of edges";

@@ -207,9 +207,19 @@ std::span<const Family> mesh_families() {
   return all;
 }
 
+std::span<const Family> families_at_rest() {
+  static const std::vector<Family> all = [] {
+    std::vector<Family> found = rest_families();
+    for (const Family& each : rest_families()) found.push_back(of_vertices(each));
+    return found;
+  }();
+  return all;
+}
+
 std::span<const Family> all_families() {
   static const std::vector<Family> all = joined({{mesh_families().begin(), mesh_families().end()},
-                                                 {vertex_families().begin(), vertex_families().end()}});
+                                                 {vertex_families().begin(), vertex_families().end()},
+                                                 {families_at_rest().begin(), families_at_rest().end()}});
   return all;
 }
 

@@ -90,7 +90,11 @@ Family as_asked(const Family& family);
 /// families() and separation_families(), whose queries are pairs of triangle meshes.
 std::span<const Family> mesh_families();
 
-/// mesh_families() and vertex_families().
+/// Families whose primitives are at rest, of pairs of meshes and of vertices and edges. Functions that give a
+/// distance are asked them; campaigns are not.
+std::span<const Family> families_at_rest();
+
+/// mesh_families(), vertex_families() and families_at_rest().
 std::span<const Family> all_families();
 
 /// Finds a family by its name: NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name,

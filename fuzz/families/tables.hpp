@@ -17,5 +17,6 @@ std::vector<Family> file_families();
 std::vector<Family> crossed_families();
 std::vector<Family> approach_families();
 std::vector<Family> edge_families();
+std::vector<Family> rest_families();
 
 }  // namespace nearmiss

@@ -46,6 +46,14 @@ class Contracted final : public ForwardingSubject {
     part.spread(times, nanoseconds, std::optional<std::uint64_t>());
   }
 
+  [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {
+    return asks(query) ? subject_->ask_distance(query) : DistanceAnswer{.fault = Fault::contract};
+  }
+
+  [[nodiscard]] StepAnswer ask_step(const Query& query) const override {
+    return asks(query) ? subject_->ask_step(query) : StepAnswer{.fault = Fault::contract};
+  }
+
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
     return asks(query) ? subject_->needed_tolerance(query) : ForwardingSubject::needed_tolerance(query);
   }

@@ -33,6 +33,12 @@ class ForwardingSubject : public BatchSubject {
   [[nodiscard]] double distance_bound(const Query& query) const override { return to_.distance_bound(query); }
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override { return to_.ask_bound(query); }
   [[nodiscard]] bool claims_bound() const override { return to_.claims_bound(); }
+  [[nodiscard]] bool gives_distance(Kind kind) const override { return to_.gives_distance(kind); }
+  [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {
+    return to_.ask_distance(query);
+  }
+  [[nodiscard]] bool filters_step(Kind kind) const override { return to_.filters_step(kind); }
+  [[nodiscard]] StepAnswer ask_step(const Query& query) const override { return to_.ask_step(query); }
   [[nodiscard]] bool decides(Kind kind) const override { return to_.decides(kind); }
   [[nodiscard]] bool takes_separation(Kind kind) const override { return to_.takes_separation(kind); }
   [[nodiscard]] TimeSort time_sort() const override { return to_.time_sort(); }

@@ -234,6 +234,30 @@ function drawPaper() {
   ], report.paper.claims);
 }
 
+function drawFeatureDistances() {
+  if (!report.distances) return;
+  show("feature-distances-section");
+  const { counts, right, findings } = report.distances;
+  fillTable(element("feature-distances"), [
+    text("subject", "subject"), text("kind", "kind"), count("distances", "queries"),
+    count("over-reported", "over_reported", true), count("ordinary", "ordinary", true), number("largest / size", "largest_over"),
+    count("under-reported", "under_reported"), number("largest / size", "largest_under"),
+    count("wrong weights", "wrong_weights", true), count("no answer", "faults", true),
+  ], counts, true);
+  const ranges = right.filter((r) => r.from !== null && r.unsafe_elsewhere > 0);
+  fillTable(element("feature-ranges"), [
+    text("subject", "subject"), text("kind", "kind"), text("factor", "factor"),
+    { title: "right from", text: (r) => `2^${r.from} to 2^${r.to}` },
+    count("over-reported elsewhere", "unsafe_elsewhere", true), count("of", "answers_elsewhere"),
+  ], ranges);
+  if (ranges.length > 0) show("feature-ranges-part");
+  fillTable(element("feature-findings"), [
+    text("subject", "subject"), text("closest", "signature"), text("class", "class"), text("failure", "text"),
+    text("vertices", "places"),
+  ], findings);
+  if (findings.length > 0) show("feature-findings-part");
+}
+
 function drawEnvironments() {
   if (!report.environments) return;
   show("environments-section");
@@ -282,7 +306,7 @@ function drawPart(draw) {
   }
 }
 for (const draw of [drawHead, drawScorecard, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawSimulations, drawTimes, drawSlowest,
-  drawDeciders, drawOracle, drawPaper, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
+  drawDeciders, drawOracle, drawPaper, drawFeatureDistances, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
   drawPart(draw);
 for (const id of ["by-class", "by-family"]) element(id).addEventListener("change", drawCounts);
 element("by-step").addEventListener("change", drawScenes);

@@ -113,6 +113,10 @@ extern "C" const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
                                         .distance_bound = nullptr,
                                         .separation_kinds = 0,
                                         .distance_bound_within = nullptr,
+                                        .distance_kinds = 0,
+                                        .distance = nullptr,
+                                        .step_kinds = 0,
+                                        .step = nullptr,
                                         .layout = NEARMISS_ROWS,
                                         .seconds_of_kernels = nullptr};
   return index == 0 ? &subject : nullptr;

@@ -126,6 +126,42 @@ TEST(DetectorName, HasNoneOfTheCharactersThatSeparateNames) {
   }
 }
 
+TEST(DetectorDistance, NeedsKindsAndAFunction) {
+  nearmiss_subject subject = sound();
+  subject.distance_kinds = NEARMISS_EDGE_EDGE;
+  EXPECT_THAT(fault_of(subject),
+              HasSubstr("'mine' with distance_kinds or the function distance, but not both"));
+  subject.distance = [](void*, int, const double*, double*) { return 0.0; };
+  EXPECT_EQ(fault_of(subject), "");
+  subject.distance_kinds = 16;
+  EXPECT_THAT(fault_of(subject), HasSubstr("'mine' with unknown kinds in distance_kinds"));
+  subject.distance_kinds = 0;
+  EXPECT_THAT(fault_of(subject), HasSubstr("but not both"));
+}
+
+TEST(DetectorDistance, IsEnoughWithoutDecisions) {
+  nearmiss_subject subject = sound();
+  subject.kinds = 0;
+  subject.decide = nullptr;
+  EXPECT_THAT(fault_of(subject), HasSubstr("'mine' without the function decide"));
+  subject.distance_kinds = NEARMISS_VERTEX_EDGE;
+  subject.distance = [](void*, int, const double* x, double*) { return x[8]; };
+  EXPECT_EQ(fault_of(subject), "");
+  const Detector detector(subject, "");
+  Query query{.kind = Kind::vertex_edge};
+  query.x[8] = 0.5;  // the last coordinate of x2 at t = 0
+  EXPECT_EQ(detector.distance(query.kind, query.x.data()).distance, 0.5);
+}
+
+// What stands behind the structure of an older version belongs to something else.
+TEST(DetectorDistance, IsNotReadFromAnOlderVersion) {
+  nearmiss_subject subject = sound();
+  subject.interface_version = 3;
+  subject.distance_kinds = 12345;
+  EXPECT_EQ(fault_of(subject), "");
+  EXPECT_FALSE(gives_distance(Detector(subject, "").info(), Kind::edge_edge));
+}
+
 TEST(DetectorContract, HasFiniteSizes) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto fault = [](const Contract& contract) { return fault_of(contract); };

@@ -101,6 +101,30 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
   EXPECT_EQ(subject->distance_bound(Query{.kind = Kind::edge_edge}), 0.25);
 }
 
+TEST_F(ProgramTest, GivesDistances) {
+  // Of a vertex and an edge, the program gets two times the same nine numbers.
+  const auto subject = make_any_subject(
+      program("if question == 2: answers = [rows[0][8] if rows[0][:9] == rows[0][9:18] else -1, 0]",
+              "distance ve\\n"));
+  EXPECT_TRUE(subject->gives_distance(Kind::vertex_edge));
+  EXPECT_FALSE(subject->gives_distance(Kind::edge_edge));
+  Query query{.kind = Kind::vertex_edge};
+  query.x[8] = 0.5;
+  query.x[20] = 7;  // at t = 1, which does not count
+  EXPECT_EQ(subject->ask_distance(query).distance, 0.5);
+}
+
+TEST_F(ProgramTest, FiltersSteps) {
+  const auto subject =
+      make_any_subject(program("if question == 3: answers = [0.125] + list(rows[0][6:12])", "step vv\\n"));
+  EXPECT_TRUE(subject->filters_step(Kind::vertex_vertex));
+  Query query{.kind = Kind::vertex_vertex};
+  query.x[12] = 7;  // x0 at t = 1
+  const StepAnswer answer = subject->ask_step(query);
+  EXPECT_EQ(answer.y[0], 7);
+  EXPECT_EQ(answer.clearance, 0.125);
+}
+
 // Row by row, the answer is whether the separation is the row's last number.
 TEST_F(ProgramTest, GetsTheNumbersOfEachKindAndTheSeparation) {
   const std::string then =

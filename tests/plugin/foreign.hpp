@@ -127,4 +127,16 @@ inline bool vertex_vertex(Float3 a, Float3 b, Float3 a1, Float3 b1, double& toi)
 /// Declared, but never defined.
 bool forgotten(plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P);
 
+namespace distances {  // of primitives at rest; the second one squared, and overloaded
+
+inline double vertex_vertex(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
+inline double vertex_edge_squared(Eigen::Vector3d p, Eigen::Vector3d a, Eigen::Vector3d b, double scale = 1) {
+  const Eigen::Vector3d edge = b - a;
+  const double length = edge.squaredNorm(), along = (p - a).dot(edge);
+  const double t = along <= 0 || length == 0 ? 0 : along >= length ? 1 : along / length;
+  return scale * (p - a - t * edge).squaredNorm();
+}
+
+}  // namespace distances
+
 }  // namespace foreign

@@ -45,6 +45,10 @@
                                               .distance_bound = (bound),                           \
                                               .separation_kinds = 0,                               \
                                               .distance_bound_within = NULL,                       \
+                                              .distance_kinds = 0,                                 \
+                                              .distance = NULL,                                    \
+                                              .step_kinds = 0,                                     \
+                                              .step = NULL,                                        \
                                               .layout = NEARMISS_ROWS,                             \
                                               .seconds_of_kernels = NULL};                         \
     return index == 0 ? &detector : NULL;                                                          \

@@ -102,6 +102,23 @@ is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
 adapter timed '.edge_edge(foreign::plain::edge_edge)'
 compile timed ADAPTER "${by_flags[@]}"
 is timed 'ee; 53 bits; an estimate of the time; batches of 1'
+# Distances: with a CCD, and alone.
+adapter distances '.vertex_vertex(foreign::plain::vertex_vertex).vertex_vertex_distance(foreign::distances::vertex_vertex)
+  .vertex_edge_distance(squared(NEARMISS_CALL(foreign::distances::vertex_edge_squared)))'
+compile distances ADAPTER "${by_flags[@]}"
+is distances 'vv; 53 bits; an estimate of the time; gives distances of vv and ve; batches of 1'
+adapter alone '.vertex_vertex_distance(foreign::distances::vertex_vertex)'
+compile alone ADAPTER "${by_flags[@]}"
+is alone 'decides nothing; 53 bits; no time; gives distances of vv; batches of 1'
+for each in distances alone; do
+  "$nearmiss" distance --subject ./$each.so --cases 2000 >said 2>&1 || fail "$each: $(cat said)"
+done
+"$nearmiss" distance --subject ./distances.so --kind ve - <<<"${miss[ve]}" >said && grep -q '^right 0x1p+1 ' said || fail "distances: $(cat said)"
+# A filter of steps, which lets nothing move.
+adapter still '.vertex_vertex_step([](const Question& q, double* y) { std::copy(q.x, q.x + 6, y); return 0.0; })'
+compile still ADAPTER "${by_flags[@]}"
+is still 'decides nothing; 53 bits; no time; filters steps of vv; batches of 1'
+"$nearmiss" step --subject ./still.so --cases 2000 >said 2>&1 || fail "still: $(cat said)"
 # Two detectors, one with an option and a separation for one of its kinds.
 cat >two.cpp <<'END'
 #include "foreign.hpp"

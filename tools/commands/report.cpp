@@ -16,6 +16,7 @@
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"
 #include "tools/paper/claims.hpp"
+#include "tools/question_results.hpp"
 
 namespace nearmiss::tools {
 
@@ -23,7 +24,7 @@ namespace {
 
 struct Options {
   std::vector<std::filesystem::path> stores, baseline;
-  std::filesystem::path folder, power, audit, paper, environments;
+  std::filesystem::path folder, power, audit, paper, distances, environments;
   FailOnOption fail_on;
 };
 
@@ -63,6 +64,14 @@ std::string load_paper(const std::filesystem::path& file) {
   return json_text(paper);
 }
 
+/// The section of the JSON that nearmiss distance --json writes. Throws Error if the file is something else.
+std::string load_distances(const std::filesystem::path& file) {
+  std::string text;
+  read_json_file(file, "what nearmiss distance --json keeps",
+                 [&](const nlohmann::ordered_json& json) { text = json_text(distances_section(json)); });
+  return text;
+}
+
 /// Throws Error if the stores are so large that their report might take all memory: it needs about 20 bytes for
 /// each byte of its stores.
 void expect_to_fit(const Options& options) {
@@ -90,6 +99,7 @@ int run(const Options& options) {
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
   if (!options.audit.empty()) context.audit = load_audit(options.audit);
   if (!options.paper.empty()) context.paper = load_paper(options.paper);
+  if (!options.distances.empty()) context.distances = load_distances(options.distances);
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics, context.failing));
@@ -125,6 +135,8 @@ void add_report(CLI::App& app, int& exit_code) {
   add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");
   add_file("--paper", options->paper,
            "Show the paper's claims beside our results, from nearmiss paper --json");
+  add_file("--distances", options->distances,
+           "Show how far the distances of closest features are off, from nearmiss distance --json");
   add_file("--environments", options->environments,
            "Show which compilers, flags and modes keep the guarantee, from tools/environments");
   options->fail_on.add_to(*command);

@@ -31,16 +31,26 @@ std::string separations_of(const DetectorInfo& info) {
   return fmt::format("takes a separation for {}; ", names_of_kinds(info.separation_kinds, " and "));
 }
 
+/// Of which kinds a plug-in gives distances and filters steps, in words; "" for none.
+std::string further_questions(const DetectorInfo& info) {
+  std::string text;
+  for (const auto& [what, of] :
+       {std::pair{"gives distances", info.distance_kinds}, std::pair{"filters steps", info.step_kinds}})
+    if (of != 0) text += fmt::format("{} of {}; ", what, names_of_kinds(of, " and "));
+  return text;
+}
+
 /// Prints some lines about a plug-in.
 void print(const Subject& subject) {
   const DetectorInfo& info = *plugin_info(subject);
   constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
                                              "a lower bound of the time"};
   fmt::print("{:<23} {}\n", subject.name(), info.about);
-  fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}\n", "",
-             info.version.empty() ? "?" : info.version, names_of_kinds(info.kinds, " and "),
-             info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
-             info.claims_bound ? "claims a bound; " : "", separations_of(info), info.batch);
+  const std::string kinds = info.kinds == 0 ? "decides nothing" : names_of_kinds(info.kinds, " and ");
+  fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}{}batches of {}\n", "",
+             info.version.empty() ? "?" : info.version, kinds, info.is_narrow ? 24 : 53,
+             times[static_cast<std::size_t>(info.time_sort)], info.claims_bound ? "claims a bound; " : "",
+             separations_of(info), further_questions(info), info.batch);
   if (const std::string contract = in_words(info.contract); !contract.empty())
     fmt::print("{:<23} presumes: {}\n", "", contract);
 }

@@ -75,6 +75,10 @@ constexpr nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
                                    .distance_bound = distance_bound,
                                    .separation_kinds = 0,
                                    .distance_bound_within = nullptr,
+                                   .distance_kinds = 0,
+                                   .distance = nullptr,
+                                   .step_kinds = 0,
+                                   .step = nullptr,
                                    .layout = NEARMISS_ROWS,
                                    .seconds_of_kernels = nullptr};
 

@@ -101,6 +101,38 @@ class IsolatedPlugin final : public BatchSubject {
     return answer;
   }
 
+  [[nodiscard]] bool gives_distance(Kind kind) const override {
+    return nearmiss::gives_distance(info_, kind);
+  }
+
+  [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {
+    DistanceAnswer answer;
+    perform(Request::distances, std::span(&query, 1), [&](const Done& done) {
+      if (done.failure) {
+        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+      } else {
+        std::array<double, 4> weights{};
+        std::copy_n(done.worker->more().begin(), weights.size(), weights.begin());
+        answer = DistanceAnswer::given(done.worker->number(0), weights);
+      }
+    });
+    return answer;
+  }
+
+  [[nodiscard]] bool filters_step(Kind kind) const override { return nearmiss::filters_step(info_, kind); }
+
+  [[nodiscard]] StepAnswer ask_step(const Query& query) const override {
+    StepAnswer answer;
+    perform(Request::steps, std::span(&query, 1), [&](const Done& done) {
+      if (done.failure) {
+        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+      } else {
+        answer = StepAnswer::given(done.worker->more(), done.worker->number(0), vertices(query.kind));
+      }
+    });
+    return answer;
+  }
+
   [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
     return has_text(verdict.fault) ? texts_.text(verdict.fault_code) : "";
   }
@@ -177,7 +209,8 @@ class IsolatedPlugin final : public BatchSubject {
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
     const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
-    const bool is_asked = can_decide(batch.front());
+    const bool is_decided = request != Request::distances && request != Request::steps;
+    const bool is_asked = !is_decided || can_decide(batch.front());
     const auto size = static_cast<std::uint32_t>(batch.size());
     std::vector<Repeated> repeated;  // each call is a part of the one before
     for (std::uint32_t first = 0; first < size;) {

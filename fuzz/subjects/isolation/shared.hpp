@@ -29,6 +29,8 @@ enum class Request : std::uint8_t {
   decide_timed,  ///< decides, and measures the time of all queries together
   time_each,     ///< measures the time of each query
   bounds,        ///< gives the distance bound of each query
+  distances,     ///< gives the distance of the first query's primitives
+  steps,         ///< filters the first query's step
 };
 
 /// A message that requests something about a batch of queries of one kind. The number distinguishes its
@@ -92,7 +94,8 @@ struct PluginDescription {
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
       names{};  ///< of all detectors in the shared object, a line each
-  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, in_arrays = 0, claims_bound = 0;
+  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, distance_kinds = 0,
+               step_kinds = 0, in_arrays = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
   double apart_by = 0, grid = 0, shortest = 0, longest = 0;
   std::uint64_t batch = 0;
@@ -103,6 +106,7 @@ struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
+  std::array<double, 12> more{};                 ///< weights of the closest points, or the filtered step
   std::uint64_t nanoseconds = 0;                 ///< measured by decide_timed
   std::uint64_t kernel_nanoseconds = 0;          ///< as the plug-in says; 0 if it does not
   std::array<char, 256> exception{};             ///< what() of an exception that the plug-in did not catch

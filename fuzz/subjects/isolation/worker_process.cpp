@@ -86,6 +86,8 @@ DetectorInfo info_of(const PluginDescription& about, const std::string& options)
   info.time_sort =
       static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
   info.separation_kinds = about.separation_kinds & info.kinds;
+  info.distance_kinds = about.distance_kinds & bits_of_all_kinds;
+  info.step_kinds = about.step_kinds & bits_of_all_kinds;
   info.batch = std::clamp<std::uint64_t>(about.batch, 1, largest_batch);
   info.in_arrays = about.in_arrays != 0;
   info.claims_bound = about.claims_bound != 0;

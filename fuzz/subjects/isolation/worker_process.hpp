@@ -89,6 +89,8 @@ class WorkerProcess {
   /// The plug-in's return value for a query of the batch, and the time of impact or the bound.
   [[nodiscard]] int value(std::uint32_t i) const { return batch_.values()[i]; }
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
+  /// The numbers that belong to the answer to a question about one query.
+  [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
   /// Times in ns that the worker measured in the last call: of the call, or of a query. They are limited to
   /// the time that the call took. The time of a call is also at least half of the computing time of all
   /// threads and processes of the plug-in (less what the worker itself may compute); half, because the

@@ -19,10 +19,16 @@
 //       -I$IPC_TOOLKIT/include $IPC_TOOLKIT/lib/lib{ipc_toolkit,tight_inclusion,evouga_ccd}.a
 #include <ipc/ccd/inexact_ccd.hpp>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
+#include <ipc/distance/edge_edge.hpp>
+#include <ipc/distance/point_edge.hpp>
+#include <ipc/distance/point_point.hpp>
+#include <ipc/distance/point_triangle.hpp>
 
 #include "ccd/nearmiss_functions.hpp"
 
 namespace {
+
+using nearmiss::plugin::squared;
 
 template <class Ccd>
 auto ipc_detector(const char* name, const char* about) {
@@ -30,7 +36,11 @@ auto ipc_detector(const char* name, const char* about) {
       .vertex_triangle(NEARMISS_CALL(Ccd().point_triangle_ccd))
       .edge_edge(NEARMISS_CALL(Ccd().edge_edge_ccd))
       .vertex_vertex(NEARMISS_CALL(Ccd().point_point_ccd))
-      .vertex_edge(NEARMISS_CALL(Ccd().point_edge_ccd));
+      .vertex_edge(NEARMISS_CALL(Ccd().point_edge_ccd))
+      .vertex_triangle_distance(squared(NEARMISS_CALL(ipc::point_triangle_distance)))
+      .edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance)))
+      .vertex_vertex_distance(squared(NEARMISS_CALL(ipc::point_point_distance)))
+      .vertex_edge_distance(squared(NEARMISS_CALL(ipc::point_edge_distance)));
 }
 
 auto tight_inclusion() {

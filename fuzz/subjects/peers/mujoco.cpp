@@ -48,6 +48,30 @@ Answer decide(const Settings& set, const Question& q) {
   return Answer::of(!(alpha >= 1), alpha);
 }
 
+/// The gap of the pair, of which the advancement is as wide as it is right. Without radii, it is the distance.
+double gap(mjcFlexPairType type, const double* a, const double* b, const double* c, const double* d) {
+  const mjcFlexPair pair{type, {0, 1, 2, 3}, -1};
+  std::array<mjtNum, 12> x;
+  for (int k = 0; k < 3; ++k) x[k] = a[k], x[3 + k] = b[k], x[6 + k] = c[k], x[9 + k] = d[k];
+  const std::array<mjtNum, 4> radii{};
+  std::array<mjtNum, 3> normal;
+  std::array<mjtNum, 4> weights;
+  std::array<int, 4> vertices;
+  int count = 0;
+  return mjc_pairGap(&pair, nullptr, nullptr, x.data(), nullptr, nullptr, radii.data(), normal.data(),
+                     vertices.data(), weights.data(), &count, 1e30);
+}
+
+double vertex_triangle_gap(const Settings& /*set*/, const double* a, const double* b, const double* c,
+                           const double* d) {
+  return gap(mjcFLEX_VERT_TRI, a, b, c, d);
+}
+
+double edge_edge_gap(const Settings& /*set*/, const double* a, const double* b, const double* c,
+                     const double* d) {
+  return gap(mjcFLEX_EDGE_EDGE, a, b, c, d);
+}
+
 }  // namespace
 
 NEARMISS_SUBJECT(
@@ -57,5 +81,7 @@ NEARMISS_SUBJECT(
         .options<settings>()
         .vertex_triangle(decide)
         .edge_edge(decide)
+        .vertex_triangle_distance(vertex_triangle_gap)
+        .edge_edge_distance(edge_edge_gap)
         .set(&nearmiss_subject::time_sort, NEARMISS_TIME_LOWER_BOUND)
         .set(&nearmiss_contract::apart_at_start, 1))

@@ -1,6 +1,7 @@
 // Tests the ladder of precisions and the audit.
 import assert from "node:assert/strict";
-import { count, jsonOf, open, pageOf, run } from "./session.mjs";
+import { dirname, join } from "node:path";
+import { count, jsonOf, nearmiss, open, pageOf, run } from "./session.mjs";
 
 /** Algorithms have colours. Labels name scalars, and do not overlap. */
 async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
@@ -35,7 +36,8 @@ export async function showsTheLadderAndTheAudit(browser) {
   run("ladder", "--scalar", "float,p40,p64", "--cases", "320", "--db", "ladder.db");
   run("audit", "--json", "audit.json");
   run("paper", "constants", "planes", "gpu", "--json", "paper.json");
-  run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json", "--paper", "paper.json");
+  run("distance", "--subject", join(dirname(nearmiss), "plugins", "distances.so:defect=5"), "--cases", "20000", "--json", "distances.json");
+  run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json", "--paper", "paper.json", "--distances", "distances.json");
   const page = await open(browser, pageOf("ladder"));
   assert.equal(await count(page, "#ladder tbody tr"), 6);
   assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
@@ -47,6 +49,11 @@ export async function showsTheLadderAndTheAudit(browser) {
   assert.deepEqual(new Set(await page.locator("#ladder-origins tbody td:first-child").allTextContents()), origins);
   assert.equal(await count(page, "#paper tbody tr"), 3);
   assert.match(await page.locator("#paper").textContent(), /nearly one third pass plane culling/);
+  const { counts, findings } = jsonOf("ladder").distances;
+  assert.equal(await count(page, "#feature-distances tbody tr"), counts.length);
+  assert.equal(await count(page, "#feature-findings tbody tr"), findings.length);
+  assert.match(await page.locator("#feature-ranges").textContent(), /edge/);
+  assert.match(await page.locator("#feature-findings").textContent(), /over-reported: .*; the distance is/);
   assert.ok((await count(page, "#audit tbody tr")) > 50);
   assert.ok((await count(page, "#audit td.bad")) >= 2);
   assert.match(await page.locator("#audit").textContent(), /not proven by Theorem 4\.1: relative positions/);

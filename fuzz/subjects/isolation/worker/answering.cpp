@@ -149,6 +149,22 @@ class Asking {
     }
   }
 
+  /// Asks about the first query, and notes the answer with its further numbers.
+  void give_distance() {
+    begin(0);
+    const DistanceAnswer given = plugin_.distance(call_.kind, coordinates(plugin_, call_.kind, 0, 1));
+    std::copy(given.weights.begin(), given.weights.end(), answers->more.begin());
+    shared.numbers()[0] = given.distance;
+    note(shared.calls(), 1, call_.number);
+  }
+  void give_step() {
+    begin(0);
+    const StepAnswer given = plugin_.step(call_.kind, coordinates(plugin_, call_.kind, 0, 1));
+    answers->more = given.y;
+    shared.numbers()[0] = given.clearance;
+    note(shared.calls(), 1, call_.number);
+  }
+
  private:
   void ask(const Detector& detector, const Answers& to, std::uint32_t first, std::uint32_t last,
            std::uint32_t step) {
@@ -191,6 +207,12 @@ void answer(const Detector& detector, const Call& call) {
       break;
     case Request::bounds:
       asking.give_bounds();
+      break;
+    case Request::distances:
+      asking.give_distance();
+      break;
+    case Request::steps:
+      asking.give_step();
       break;
   }
 }
@@ -256,6 +278,8 @@ void describe(const DetectorInfo& info, const std::string& names) {
   about.is_narrow = info.is_narrow ? 1 : 0;
   about.time_sort = static_cast<std::int32_t>(info.time_sort);
   about.separation_kinds = info.separation_kinds;
+  about.distance_kinds = info.distance_kinds;
+  about.step_kinds = info.step_kinds;
   about.in_arrays = info.in_arrays ? 1 : 0;
   about.claims_bound = info.claims_bound ? 1 : 0;
   about.apart_at_start = info.contract.apart_at_start ? 1 : 0;

@@ -76,6 +76,8 @@ Program::Program(const std::string& command) : command_(command) {
     subject.distance_bound = bound_of_contact;
   else if (description_.claims_bound)
     subject.distance_bound_within = bound_of_the_program;
+  if (subject.distance_kinds != 0) subject.distance = distance_of_the_program;
+  if (subject.step_kinds != 0) subject.step = step_of_the_program;
   if (const std::string fault = fault_of(subject); !fault.empty())
     throw Error("pipe:" + command_ + ": found " + fault + ", expected what fuzz/subjects/PROGRAMS.md says");
 }
@@ -101,6 +103,28 @@ double Program::seconds_it_says(void* /*state*/) { return the_program->seconds_;
 
 double Program::bound_of_contact(void* state, int kind, const double* x) {
   return bound_of_the_program(state, kind, x, 0);
+}
+
+double Program::distance_of_the_program(void* /*state*/, int kind, const double* x, double* /*weights*/) {
+  const auto size = static_cast<std::ptrdiff_t>(coordinate_count(kind_of_bit(kind).value()) / 2);
+  std::array<double, 24> at_rest{};
+  std::copy_n(x, size, at_rest.begin());
+  std::copy_n(x, size, at_rest.begin() + size);
+  const double h = 0;
+  double distance = 0;
+  the_program->ask(Question::distance, kind, 1, at_rest.data(), &h);
+  the_program->read_answers(1, [&](std::size_t /*i*/, double given, double /*time*/) { distance = given; });
+  return distance;
+}
+
+double Program::step_of_the_program(void* /*state*/, int kind, const double* x, double* y) {
+  const double h = 0;
+  double clearance = 0;
+  the_program->ask(Question::step, kind, 1, x, &h);
+  the_program->read_all(&clearance, sizeof clearance);
+  the_program->read_all(y, coordinate_count(kind_of_bit(kind).value()) / 2 * sizeof(double));
+  the_program->expect_silence();
+  return clearance;
 }
 
 Program::~Program() {

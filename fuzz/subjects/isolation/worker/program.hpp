@@ -31,13 +31,15 @@ class Program {
   [[nodiscard]] const nearmiss_subject& subject() const { return description_.subject; }
 
  private:
-  enum class Question : std::uint8_t { decide, bound };
+  enum class Question : std::uint8_t { decide, bound, distance, step };
 
   // These are the functions of a nearmiss_subject.
   static void decide_with_the_program(void* state, int kind, std::size_t n, const double* x, const double* h,
                                       int* answer, double* toi);
   static double bound_of_the_program(void* state, int kind, const double* x, double h);
   static double bound_of_contact(void* state, int kind, const double* x);
+  static double distance_of_the_program(void* state, int kind, const double* x, double* weights);
+  static double step_of_the_program(void* state, int kind, const double* x, double* y);
   static double seconds_it_says(void* state);
 
   void start(const std::string& command);

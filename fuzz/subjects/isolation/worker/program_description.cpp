@@ -102,6 +102,10 @@ void read_line(std::string_view key, const std::string& value, ProgramDescriptio
       subject.takes_separation = yes_or_no(value);
     else
       subject.separation_kinds = sum_of_kinds(value);
+  } else if (key == "distance") {
+    subject.distance_kinds = sum_of_kinds(value);
+  } else if (key == "step") {
+    subject.step_kinds = sum_of_kinds(value);
   } else if (key == "batch") {
     subject.batch = whole_number(value);
   } else if (key == "layout") {

@@ -1,0 +1,102 @@
+// The question how far apart two primitives at rest are, and the judgement of an answer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/stop.hpp"
+#include "oracle/arithmetic/enclosure.hpp"
+#include "reports/statistics/counts.hpp"
+#include "reports/statistics/histogram.hpp"
+
+namespace nearmiss {
+
+/// The query's primitives at rest, where they are at t = 0, without a separation.
+Query at_rest(const Query& query);
+
+/// How a subject's answer compares with the exact distance d of a query at rest.
+struct DistanceError {
+  /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A correct
+  /// function in double or float is not, and conservative advancement, which keeps a part of the distance as
+  /// its margin, is still safe.
+  static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
+
+  Enclosure exact;   ///< contains d; its relative width is below 2^-44, or as small as doubles allow
+  double size = 0;   ///< the largest side of the box around both primitives
+  double over = 0;   ///< how much larger than d the answer is, rounded up; 0 if it is not
+  double under = 0;  ///< how much smaller it is, likewise
+  bool over_reported = false;   ///< wrong, and larger than d: unsafe
+  bool under_reported = false;  ///< wrong, and smaller than d
+  /// The weights do not add up to 1, are negative, or give points whose distance is wrong, as above.
+  bool wrong_weights = false;
+
+  /// The errors divided by d: infinite for primitives that touch, unless the error is 0.
+  [[nodiscard]] double over_by_distance() const;
+  [[nodiscard]] double under_by_distance() const;
+  /// The errors divided by the size, at most 1; 0 for an error of 0.
+  [[nodiscard]] double over_by_size() const;
+  [[nodiscard]] double under_by_size() const;
+};
+
+/// Judges an answer without a fault. The query is at rest, and as the subject rounds it.
+DistanceError error_of(const Query& query, const DistanceAnswer& answer);
+
+/// For a distance that is over-reported: one that is smaller by what the judge tolerates, and above d.
+double over_limit(const Query& query, double distance);
+
+/// Whether an answer, of a query at rest as the subject rounds it, is over-reported: DistanceError's, in less
+/// time.
+bool is_over_reported(const Query& query, double distance);
+
+/// A question of QuestionTrial.
+struct DistanceQuestion {
+  struct Judged {
+    Query query;  ///< at rest, as the subject rounds it
+    DistanceAnswer answer;
+    DistanceError error = {};  ///< if there is no fault
+
+    /// "over-reported", "wrong-weights" or "fault"
+    [[nodiscard]] std::optional<std::string_view> failure() const;
+    [[nodiscard]] bool is_unsafe() const { return error.over_reported; }
+    [[nodiscard]] bool is_counted_by_class() const {
+      return error.over_reported || error.under_reported || error.wrong_weights;
+    }
+    [[nodiscard]] std::string answer_text() const;
+    [[nodiscard]] std::string text() const;
+    /// For an over-reported distance: proof that the primitives come within a smaller one.
+    [[nodiscard]] std::string certificate() const;
+  };
+
+  struct Counts {
+    std::uint64_t queries = 0;            ///< queries that it was asked, within its contract
+    std::uint64_t faults = 0;             ///< of them, those without an answer
+    QueryClassCounts over_by_class{};     ///< over-reported distances by the class of the query
+    QueryClassCounts under_by_class{};    ///< under-reported ones
+    QueryClassCounts weights_by_class{};  ///< wrong weights
+    Histogram over_by_size, over_by_distance, under_by_size, under_by_distance;  ///< of all errors but 0
+    std::vector<FarCase> largest_over, largest_under;                            ///< by size
+
+    void add(const Judged& judged, QueryClass of, const std::string& provenance);
+    void merge(const Counts& other);
+    [[nodiscard]] std::uint64_t failures() const;
+  };
+
+  static bool is_answered(const Subject& subject, Kind kind) { return subject.gives_distance(kind); }
+  /// Asks about the start of a query; nothing if it breaks the subject's contract.
+  static std::optional<Judged> ask(const Subject& subject, const Query& query);
+  /// The closest features, such as "ee edge-edge" or "ee touching"; or the fault.
+  static std::string signature(const Subject& subject, const Judged& judged);
+  /// The families "search-over-NAME" and "v-search-over-NAME": each query is the one with the largest
+  /// over_by_size() that a search found. A fault ends a search. Making a query throws Stopped when `stop` is
+  /// due. The subject and `stop` must outlive them.
+  static std::vector<Family> searches(const Subject& subject, const Stop& stop);
+};
+
+}  // namespace nearmiss

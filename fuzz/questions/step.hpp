@@ -1,0 +1,68 @@
+// The question which part of a step is safe, as filters of steps answer it, and the judgement of an answer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/stop.hpp"
+#include "reports/statistics/counts.hpp"
+#include "reports/statistics/histogram.hpp"
+
+namespace nearmiss {
+
+/// A question of QuestionTrial. Only primitives that are apart at t = 0 are asked about.
+struct StepQuestion {
+  struct Judged {
+    Query query;  ///< without a separation, as the subject rounds it
+    StepAnswer answer;
+    // Without a fault:
+    Query step = {};  ///< the filtered step; the clearance is its separation
+    /// In the filtered step, the primitives come nearer than the clearance, or touch if it is 0.
+    bool touches = false;
+    /// The part of the safe motion that is kept: how far the filtered step goes along the original one, divided
+    /// by the earliest time of contact, or by 1 if there is none; from 0 to 1, rounded.
+    double kept = 0;
+    bool cuts_free = false;  ///< the original step has no contact, but is not kept whole
+    bool objects = false;    ///< asked about the filtered step, the subject changes it again
+
+    /// "unsafe" or "fault"
+    [[nodiscard]] std::optional<std::string_view> failure() const;
+    [[nodiscard]] bool is_unsafe() const { return touches; }
+    [[nodiscard]] bool is_counted_by_class() const { return touches; }
+    [[nodiscard]] std::string answer_text() const;
+    [[nodiscard]] std::string text() const;
+    /// Proof that the filtered step comes nearer than the clearance.
+    [[nodiscard]] std::string certificate() const;
+  };
+
+  struct Counts {
+    std::uint64_t queries = 0;           ///< steps that it was asked to filter, within its contract
+    std::uint64_t faults = 0;            ///< of them, those without an answer
+    QueryClassCounts unsafe_by_class{};  ///< filtered steps that are not safe
+    std::uint64_t cut_free = 0;          ///< Judged::cuts_free
+    std::uint64_t objects = 0;           ///< Judged::objects
+    Histogram kept;                      ///< Judged::kept
+    std::vector<FarCase> least_kept;     ///< by 1 - kept
+
+    void add(const Judged& judged, QueryClass of, const std::string& provenance);
+    void merge(const Counts& other);
+    [[nodiscard]] std::uint64_t failures() const;
+  };
+
+  static bool is_answered(const Subject& subject, Kind kind) { return subject.filters_step(kind); }
+  /// Nothing if the primitives touch at t = 0, or the query breaks the subject's contract.
+  static std::optional<Judged> ask(const Subject& subject, const Query& query);
+  /// The features of the first contact in the filtered step, or of the approach to the clearance; or the fault.
+  static std::string signature(const Subject& subject, const Judged& judged);
+  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the one whose filtered step comes
+  /// nearest to contact, or to the clearance, relative to its size. An unsafe step or a fault ends a search.
+  static std::vector<Family> searches(const Subject& subject, const Stop& stop);
+};
+
+}  // namespace nearmiss

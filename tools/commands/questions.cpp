@@ -1,0 +1,181 @@
+// nearmiss distance and nearmiss step: further questions than whether primitives collide.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "ccd/query/error.hpp"
+#include "corpus/query_text.hpp"
+#include "reports/statistics/family_class.hpp"
+#include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/json_output.hpp"
+#include "tools/question_results.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+#include "tools/values.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> subjects, families{"all"}, kinds;
+  std::string time, file;
+  std::uint64_t cases = 0, seed = 1;
+  int jobs = 1;
+  bool quiet = false, no_search = false;
+  PluginLimitOptions limits;
+  JsonOutput json;
+};
+
+constexpr const char* usual_time = "20s";
+
+/// A command, which asks a Question.
+struct Command {
+  const char *name, *help;
+  const char* function;   ///< of the plug-in interface
+  const char* of_file;    ///< what is printed for each query of a file
+  const char* exit_code;  ///< when it is 1
+  bool asks_families_at_rest;
+};
+
+constexpr Command distance{
+    "distance",
+    "Hunt for wrong distances of primitives at rest, above all for those that are too large",
+    "distance",
+    "right, over-reported, wrong-weights or fault; the distance that is given; and the subject",
+    "a distance is over-reported, if weights are wrong",
+    true};
+constexpr Command step{
+    "step",
+    "Hunt for filtered steps that are not safe, and measure how much of a safe step is kept",
+    "step",
+    "right, unsafe or fault; the clearance and the places that are given; and the subject",
+    "a filtered step is not safe",
+    false};
+
+std::set<Kind> kinds_of(const Options& options) {
+  std::set<Kind> found;
+  for (const std::string& each : options.kinds) found.insert(parse_kind(each, "--kind"));
+  if (found.empty()) found.insert(kinds.begin(), kinds.end());
+  return found;
+}
+
+/// Asks about the queries of a file: a line for each query and subject.
+template <class Question>
+int ask_file(const Options& options, const Subjects& subjects) {
+  if (options.kinds.size() != 1) throw Error("--kind: expected the one kind of the queries in the file");
+  bool has_failed = false;
+  const QueryInput input{.kind = options.kinds.front(), .file = options.file, .separation = {}};
+  input.read([&](const Query& query) {
+    for (const auto& subject : subjects) {
+      const auto judged = Question::ask(*subject, query);
+      const auto failure = judged ? judged->failure() : std::nullopt;
+      fmt::print("{} {} {}\n", judged ? failure.value_or("right") : "not-asked",
+                 judged ? judged->answer_text() : "-", subject->name());
+      has_failed = has_failed || failure;
+    }
+  });
+  return has_failed ? exit_found : exit_fine;
+}
+
+/// The families of which a user can choose.
+std::vector<Family> known_families(const Command& of) {
+  std::vector<Family> known;
+  if (of.asks_families_at_rest) known.assign(families_at_rest().begin(), families_at_rest().end());
+  for (const auto& all : {families(), vertex_families()}) known.insert(known.end(), all.begin(), all.end());
+  return known;
+}
+
+template <class Question>
+int run(const Options& options, const Command& of) {
+  const Subjects subjects = make_subjects(options.subjects, options.limits.limits());
+  QuestionPlan plan{.kinds = kinds_of(options),
+                    .search = !options.no_search,
+                    .cases = options.cases,
+                    .seed = options.seed,
+                    .jobs = options.jobs};
+  for (const auto& subject : subjects)
+    if (std::ranges::none_of(plan.kinds, [&](Kind kind) { return Question::is_answered(*subject, kind); }))
+      throw Error(
+          fmt::format("{}: found no function {}, expected a plug-in that has it for one of these kinds "
+                      "(ccd/nearmiss_subject.h)",
+                      subject->name(), of.function));
+  if (!options.file.empty()) return ask_file<Question>(options, subjects);
+  Stop stop(interrupted());
+  const std::vector<Family> known = known_families(of);
+  // A plain function overflows and underflows in extreme queries, which says nothing about others.
+  std::vector<Family> all = known;
+  std::erase_if(all, [](const Family& each) { return class_of(each.name) == QueryClass::extreme; });
+  plan.families = find_families(options.families, known, all, stop);
+  options.json.expect_writable();
+  std::string time = options.time;
+  if (time.empty() && options.cases == 0) time = usual_time;
+  if (!time.empty()) stop.limit(parse_duration(time, "--time"));
+  stop_on_signals();
+  QuestionResults<Question> results;
+  {
+    Progress progress(options.quiet);
+    results = QuestionTrial<Question>(subjects, plan, stop).run([&](std::uint64_t asked) {
+      if (progress.due()) progress.show(fmt::format("{} queries", with_separators(asked)));
+    });
+  }
+  end_on_signals();
+  fmt::print(options.json.text(), "{}", text_of(results));
+  if (options.json.is_wanted()) {
+    nlohmann::ordered_json json{{"run", run_info(of.name)}};
+    json["run"]["seed"] = fmt::format("{}", options.seed);
+    json.update(json_of(results));
+    options.json.write(json);
+  }
+  if (stop.is_requested()) return exit_interrupted;
+  return results.has_failed() ? exit_found : exit_fine;
+}
+
+template <class Question>
+void add(CLI::App& app, int& exit_code, const Command& of) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(of.name, of.help);
+  add_subject_option(*command, options->subjects);
+  command->get_option("--subject")->required()->allow_extra_args(false);  // FILE may follow
+  auto* file = command->add_option(
+      "FILE", options->file,
+      fmt::format("Ask about the queries of a file instead, and print for each: {}", of.of_file));
+  command
+      ->add_option("--family", options->families,
+                   "Families of queries, separated by commas; or all that are not extreme")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str()
+      ->excludes(file)
+      ->type_name("all|A,B@VALUE,...");
+  command->add_option("--kind", options->kinds, "Kinds of queries, separated by commas; all by default")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(short_names_of_kinds()))
+      ->type_name("vt,ee,vv,ve");
+  add_count_option(*command, "--cases", options->cases, 1, most_queries, "Number of queries, about")
+      ->default_str("")
+      ->excludes(file);
+  command->add_option("--time", options->time, "Time limit, such as 30s or 2m; none if --cases is given")
+      ->default_str(usual_time)
+      ->excludes(file)
+      ->type_name("T");
+  command->add_flag("--no-search", options->no_search, "Leave out the directed search");
+  add_seed_option(*command, options->seed);
+  add_jobs_option(*command, options->jobs);
+  options->limits.add_to(*command);
+  options->json.add_to(*command, "Write the results as JSON");
+  command->add_flag("-q,--quiet", options->quiet, "Show no progress");
+  command->footer(fmt::format("\nThe exit code is 1 if {}, or if an answer is missing.", of.exit_code));
+  command->callback([options, &exit_code, &of] { exit_code = run<Question>(*options, of); });
+}
+
+}  // namespace
+
+void add_distance(CLI::App& app, int& exit_code) { add<DistanceQuestion>(app, exit_code, distance); }
+void add_step(CLI::App& app, int& exit_code) { add<StepQuestion>(app, exit_code, step); }
+
+}  // namespace nearmiss::tools
