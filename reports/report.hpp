@@ -19,7 +19,7 @@ struct ReportContext {
   std::vector<Hunt> hunts = {};         ///< hunts for known defects
   std::string audit = {};               ///< audit of rounding constants, the JSON that nearmiss audit writes
   std::string paper = {};               ///< the paper's claims, the JSON that nearmiss paper writes
-  std::string distances = {};           ///< distances of features, from the JSON that nearmiss distance writes
+  std::string distances = {};  ///< distances of features, from the JSON that nearmiss distance writes
   std::vector<Environment> environments = {};
   Failures failing = usual_failures();  ///< the failures that count
 };

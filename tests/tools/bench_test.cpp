@@ -3,10 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "reports/text/json.hpp"
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

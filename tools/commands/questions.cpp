@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/statistics/family_class.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
