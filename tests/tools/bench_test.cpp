@@ -151,6 +151,22 @@ TEST_F(Bench, RefusesABatchThatDoesNotFitBeforeItIsMade) {
   EXPECT_EQ(output.out, "");
 }
 
+TEST_F(Bench, JudgesABatchOnRequest) {
+  const std::string bench =
+      "bench --family uniform --kind vt --queries 100000 --runs 1 --json - --subject wang," + plugin("never");
+  const auto rows = nlohmann::json::parse(expect_code(1, bench + " --judge").out)["results"];
+  ASSERT_EQ(rows.size(), 2U);
+  for (const auto& row : rows) {
+    EXPECT_GT(row["collisions"], 1000);
+    EXPECT_EQ(row["collisions"].get<int>() + row["others"].get<int>(), 100'000);
+  }
+  EXPECT_EQ(rows[0]["false_negatives"], 0);
+  EXPECT_GT(rows[0]["false_positives"], 0);
+  EXPECT_EQ(rows[1]["false_negatives"], rows[1]["collisions"]);
+  EXPECT_EQ(rows[1]["false_positives"], 0);
+  EXPECT_FALSE(nlohmann::json::parse(expect_code(0, bench).out)["results"][0].contains("false_negatives"));
+}
+
 TEST_F(Bench, RefusesAKindThatAFamilyLacks) {
   expect_refused("bench --family uniform --kind vv --queries 5", {"--kind: found vv"});
   expect_refused("bench --family unifrom --queries 5", {"unifrom"});

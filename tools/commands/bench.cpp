@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
@@ -19,6 +21,7 @@
 #include "fuzz/subjects/isolation/room.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
+#include "oracle/oracle.hpp"
 #include "reports/text/json.hpp"
 #include "tools/arguments.hpp"
 #include "tools/bench_comparison.hpp"
@@ -46,6 +49,7 @@ struct Options {
   std::vector<std::string> kinds;  ///< of the random queries; all that a family has if empty
   std::uint64_t queries = 20000;
   int runs = 31;
+  bool judge = false;
   JsonOutput json;
   FailOnOption fail_on;
   std::filesystem::path history;
@@ -60,12 +64,18 @@ struct Input {
 /// Times of one subject on one input in ns per query, one entry for each run; NaN if it answered no query.
 using RunTimes = std::vector<double>;
 
+/// What the oracle says of a subject's answers.
+struct Judged {
+  std::uint64_t collisions = 0, missed = 0, others = 0, reported = 0;  ///< of the queries that were answered
+};
+
 /// What is measured of one subject on one input, one entry for each run.
 struct Measured {
   RunTimes times;
   RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not say that
   RunTimes
       throughput;  ///< queries per second of wall-clock time, passed to a process and back; NaN without one
+  std::optional<Judged> judged = {};
 };
 
 /// The name of an input, with the separation if one is given.
@@ -168,10 +178,44 @@ void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
     if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
 }
 
-/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
-/// Adds the queries and faults of each subject to `answered`.
+/// Judges answers on all processors, those to queries as the subject rounds them.
+Judged judge(const Subject& subject, std::span<const Query> queries, std::span<const Verdict> verdicts,
+             const Stop& stop) {
+  constexpr std::size_t at_once = 1024;
+  std::mutex mutex;
+  Judged sum;
+  in_parts(queries.size(), [&](std::size_t first, std::size_t last) {
+    Judged own;
+    std::vector<Query> rounded;
+    std::vector<Decision> truths;
+    for (std::size_t start = first; start < last; start += at_once) {
+      stop.check();
+      const std::size_t end = std::min(last, start + at_once);
+      rounded.clear();
+      for (std::size_t i = start; i < end; ++i) rounded.push_back(subject.rounded(queries[i]));
+      truths.resize(rounded.size());
+      decide(rounded, truths);
+      for (std::size_t i = start; i < end; ++i) {
+        const Decision& truth = truths[i - start];
+        if (verdicts[i].fault != Fault::none || truth.is_tie) continue;  // both answers are right for a tie
+        ++(truth.collision ? own.collisions : own.others);
+        own.missed += truth.collision && !verdicts[i].hit ? 1 : 0;
+        own.reported += !truth.collision && verdicts[i].hit ? 1 : 0;
+      }
+    }
+    const std::lock_guard lock(mutex);
+    sum.collisions += own.collisions;
+    sum.missed += own.missed;
+    sum.others += own.others;
+    sum.reported += own.reported;
+  });
+  return sum;
+}
+
+/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike. Judges the
+/// answers of the last run if `judges`. Adds the queries and faults of each subject to `answered`, and its misses.
 std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
-                               const Stop& stop, Statistics& answered) {
+                               bool judges, const Stop& stop, Statistics& answered) {
   std::vector<Measured> measured(subjects.size());
   std::vector<Verdict> verdicts(queries.size());
   const Kind kind = queries.front().kind;
@@ -180,7 +224,12 @@ std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query
       stop.check();
       time_once(*subjects[s], queries, verdicts, measured[s]);
       Counts& counts = answered.counts[{subjects[s]->name(), kind, ""}];
-      if (subjects[s]->decides(kind)) count_faults(verdicts, counts);
+      if (!subjects[s]->decides(kind)) continue;
+      count_faults(verdicts, counts);
+      if (!judges || run + 1 < runs) continue;
+      const Judged& judged = measured[s].judged.emplace(judge(*subjects[s], queries, verdicts, stop));
+      counts.collisions += judged.collisions;
+      counts.false_negatives += judged.missed;
     }
   return measured;
 }
@@ -261,6 +310,9 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
     const double throughput = median(own.throughput);
     if (!std::isnan(throughput)) fmt::print(out, " {:>12.0f}", throughput);
     if (!std::isnan(median(own.kernels))) fmt::print(out, " {:>9.1f}", median(own.kernels));
+    if (own.judged)
+      fmt::print(out, "  misses {} of {}, reports {} of {} others", own.judged->missed,
+                 own.judged->collisions, own.judged->reported, own.judged->others);
     fmt::print(out, "\n");
   }
 }
@@ -269,7 +321,7 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};
-  Statistics answered;  ///< only queries and faults
+  Statistics answered;  ///< only queries and faults, and misses if answers are judged
 };
 
 void add_rows(Results& results, const Subjects& subjects, const Input& input, Kind kind,
@@ -292,17 +344,22 @@ void add_rows(Results& results, const Subjects& subjects, const Input& input, Ki
     };
     add("queries_per_second", measured[s].throughput);
     add("ns_per_query_of_kernels", measured[s].kernels);
+    if (const auto& judged = measured[s].judged)
+      results.json.back().update({{"collisions", judged->collisions},
+                                  {"false_negatives", judged->missed},
+                                  {"others", judged->others},
+                                  {"false_positives", judged->reported}});
   }
 }
 
 /// Times, prints to `out` and records one input: each of its kinds, then both together.
-void time_input(const Subjects& subjects, const Input& input, int runs, const Stop& stop, std::FILE* out,
-                Results& results) {
+void time_input(const Subjects& subjects, const Input& input, const Options& options, const Stop& stop,
+                std::FILE* out, Results& results) {
   std::vector<std::vector<Measured>> by_kind;
   std::vector<double> weights;
   std::size_t count = 0;
   for (const auto& [kind, queries] : input.queries) {
-    by_kind.push_back(time_all(subjects, queries, runs, stop, results.answered));
+    by_kind.push_back(time_all(subjects, queries, options.runs, options.judge, stop, results.answered));
     print_rows(out, subjects, input, short_name(kind), queries.size(), by_kind.back());
     add_rows(results, subjects, input, kind, by_kind.back());
     weights.push_back(static_cast<double>(queries.size()));
@@ -340,9 +397,7 @@ int run(const Options& options) {
   Results results;
   stop_on_signals();
   try {
-    const auto time = [&](const Input& input) {
-      time_input(subjects, input, options.runs, stop, out, results);
-    };
+    const auto time = [&](const Input& input) { time_input(subjects, input, options, stop, out, results); };
     std::ranges::for_each(files, time);
     for (const Family& family : families)  // one after the other, because they may need much memory
       time(family_input(family, options.queries, options.separation, stop));
@@ -390,6 +445,8 @@ void add_bench(CLI::App& app, int& exit_code) {
       "Number of random queries of each kind, which are asked together: a plug-in gets as many at "
       "once as it wants");
   add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
+  command->add_flag("--judge", options->judge,
+                    "Also judge the answers of the last run, on all cores; a miss gives exit code 1");
   options->json.add_to(*command, "Write the results as JSON");
   options->fail_on.add_to(*command);
   auto* history =
