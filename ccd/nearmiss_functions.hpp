@@ -447,9 +447,10 @@ double distance_of(void* state, int kind, const double* x, double* /*weights*/) 
   const auto& detector = described<Described, i>();
   double distance = std::numeric_limits<double>::quiet_NaN();
   detector.for_each_part([&](const auto& part) {
-    if constexpr (measures<std::decay_t<decltype(part)>>)
-      if (part.kind == kind)
-        distance = part(detector.front(state), x, std::make_index_sequence<vertices_of(part.kind)>());
+    using Its = std::decay_t<decltype(part)>;
+    if constexpr (measures<Its>)
+      if (Its::kind == kind)
+        distance = part(detector.front(state), x, std::make_index_sequence<vertices_of(Its::kind)>());
   });
   return distance;
 }
@@ -460,8 +461,8 @@ double step_of(void* state, int kind, const double* x, double* y) {
   const auto& detector = described<Described, i>();
   double clearance = std::numeric_limits<double>::quiet_NaN();
   detector.for_each_part([&](const auto& part) {
-    using Kind = std::decay_t<decltype(part)>;
-    if constexpr (!decides<Kind> && !measures<Kind>)
+    using Its = std::decay_t<decltype(part)>;
+    if constexpr (!decides<Its> && !measures<Its>)
       if (part.kind == kind)
         clearance =
             std::apply(part.f, std::tuple_cat(detector.front(state), std::tuple(Question{kind, x, 0}, y)));

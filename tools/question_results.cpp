@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 #include <vector>
 
 #include "corpus/query_text.hpp"
@@ -102,7 +102,7 @@ std::string simplest(const Findings& findings) {
   if (findings.empty()) return "";
   constexpr std::size_t most = 8;
   std::string text = "\nthe simplest failures, and the places of their vertices:\n";
-  for (const QuestionFinding& each : findings | std::views::take(most))
+  for (const QuestionFinding& each : std::span(findings).first(std::min(most, findings.size())))
     text += fmt::format("{} {}, {}: {} ({})\n    {}\n", each.subject, each.signature, name(each.query_class),
                         each.text, each.provenance, places(each.query));
   if (findings.size() > most)
