@@ -82,14 +82,14 @@ std::string ranges(const FactorTable& factors, const char* unsafe) {
   return lines;
 }
 
-/// The vertices of a query, in decimals if these are exact: "0 0 1  1 0 0", and "to" their places at t = 1 if
+/// The vertices of a query, in decimals if these are exact: "0 0 1, 1 0 0", and "to" their places at t = 1 if
 /// they move.
 std::string places(const Query& query) {
   const auto at = [&](std::size_t time) {
     std::string text;
     for (int i = 0; i < vertices(query.kind); ++i) {
       const std::size_t first = 12 * time + 3 * static_cast<std::size_t>(i);
-      text += fmt::format("{}{} {} {}", i == 0 ? "" : "  ", to_exact(query.x[first]),
+      text += fmt::format("{}{} {} {}", i == 0 ? "" : ", ", to_exact(query.x[first]),
                           to_exact(query.x[first + 1]), to_exact(query.x[first + 2]));
     }
     return text;
