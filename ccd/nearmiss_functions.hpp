@@ -254,6 +254,13 @@ struct Part {
   F f;
 };
 
+/// Whether an F takes these arguments, and returns a number.
+template <class F, class Arguments>
+constexpr bool gives_number = false;
+template <class F, class... Argument>
+constexpr bool gives_number<F, std::tuple<Argument...>> =
+    std::is_invocable_r_v<double, const F&, Argument...>;
+
 /// The function that gives the distance of primitives of a kind.
 template <class F, int its_kind>
 struct Measure {
@@ -262,7 +269,11 @@ struct Measure {
 
   template <class Front, std::size_t... i>
   double operator()(const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) const {
-    return std::apply(f, std::tuple_cat(front, std::tuple(Point(x + 3 * i)...)));
+    auto arguments = std::tuple_cat(front, std::tuple(Point(x + 3 * i)...));
+    static_assert(gives_number<F, decltype(arguments)>,
+                  "a function that gives a distance takes the vertices at one time, and returns a number");
+    if constexpr (gives_number<F, decltype(arguments)>) return std::apply(f, arguments);
+    return 0;
   }
 };
 

@@ -44,7 +44,7 @@ std::string table(const Distances& results) {
     rows.push_back({key.first, std::string(short_name(key.second)), with_separators(counts.queries),
                     by_class(counts.over_by_class), number(largest(counts.largest_over)),
                     by_class(counts.under_by_class), number(largest(counts.largest_under)),
-                    by_class(counts.weights_by_class), with_separators(counts.faults)});
+                    by_class(counts.weights_by_class), by_class(counts.faults_by_class)});
   return columns(rows, rows.front().size()) +
          fmt::format(
              "over- and under-reported: off by more than {:.0f} % and {:.0e} of the size; largest: "
@@ -64,7 +64,7 @@ std::string table(const Steps& results) {
     rows.push_back({key.first, std::string(short_name(key.second)), with_separators(counts.queries),
                     by_class(counts.unsafe_by_class), percentage(counts.kept, 0.5),
                     percentage(counts.kept, 0.01), with_separators(counts.cut_free),
-                    with_separators(counts.objects), with_separators(counts.faults)});
+                    with_separators(counts.objects), by_class(counts.faults_by_class)});
   return columns(rows, rows.front().size()) +
          "unsafe: the filtered step touches, or comes nearer than the claimed clearance; kept: at least this "
          "part of the motion before contact\n";
@@ -139,7 +139,8 @@ ordered_json first_of(const std::vector<FarCase>& cases) {
 
 ordered_json json_of(const DistanceQuestion::Counts& counts) {
   return {{"queries", counts.queries},
-          {"faults", counts.faults},
+          {"faults", sum(counts.faults_by_class)},
+          {"faults_by_class", json_of(counts.faults_by_class)},
           {"over_reported", sum(counts.over_by_class)},
           {"over_reported_by_class", json_of(counts.over_by_class)},
           {"under_reported", sum(counts.under_by_class)},
@@ -156,7 +157,8 @@ ordered_json json_of(const DistanceQuestion::Counts& counts) {
 
 ordered_json json_of(const StepQuestion::Counts& counts) {
   return {{"queries", counts.queries},
-          {"faults", counts.faults},
+          {"faults", sum(counts.faults_by_class)},
+          {"faults_by_class", json_of(counts.faults_by_class)},
           {"unsafe", sum(counts.unsafe_by_class)},
           {"unsafe_by_class", json_of(counts.unsafe_by_class)},
           {"cut_without_contact", counts.cut_free},

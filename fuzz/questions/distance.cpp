@@ -29,6 +29,9 @@ Query at_rest(const Query& query) {
 
 namespace {
 
+/// The largest side of the box, at most the largest double.
+double size_of(const Query& query) { return std::min(extent(query), std::numeric_limits<double>::max()); }
+
 /// How much an answer may be off at a distance.
 double tolerance(double distance, double size) {
   return std::max(DistanceError::part_of_distance * distance, DistanceError::part_of_size * size);
@@ -79,8 +82,9 @@ double DistanceError::over_by_size() const { return std::min(quotient(over, size
 double DistanceError::under_by_size() const { return std::min(quotient(under, size), 1.0); }
 
 double over_limit(const Query& query, double distance) {
-  return std::min(distance / (1 + DistanceError::part_of_distance),
-                  distance - DistanceError::part_of_size * extent(query));
+  // Among the smallest doubles, 1 % of a distance is nothing.
+  return std::min({distance / (1 + DistanceError::part_of_distance),
+                   distance - DistanceError::part_of_size * size_of(query), std::nextafter(distance, 0)});
 }
 
 bool is_over_reported(const Query& query, double distance) {
@@ -90,7 +94,7 @@ bool is_over_reported(const Query& query, double distance) {
 
 DistanceError error_of(const Query& query, const DistanceAnswer& answer) {
   constexpr double width = 0x1p-44;
-  DistanceError error{.exact = minimum_distance(query, width), .size = extent(query)};
+  DistanceError error{.exact = minimum_distance(query, width), .size = size_of(query)};
   const auto& [lo, hi] = error.exact;
   if (answer.distance > hi) error.over = answer.distance - lo;
   if (answer.distance < lo) error.under = hi - answer.distance;
@@ -108,6 +112,10 @@ std::optional<std::string_view> DistanceQuestion::Judged::failure() const {
   return std::nullopt;
 }
 
+std::string_view DistanceQuestion::Judged::word() const {
+  return failure().value_or(error.under_reported ? "under-reported" : "right");
+}
+
 std::string DistanceQuestion::Judged::answer_text() const { return to_hex(answer.distance); }
 
 std::string DistanceQuestion::Judged::text() const {
@@ -123,8 +131,9 @@ std::string DistanceQuestion::Judged::certificate() const {
 
 void DistanceQuestion::Counts::add(const Judged& judged, QueryClass of, const std::string& provenance) {
   ++queries;
+  const auto index = static_cast<std::size_t>(of);
   if (judged.answer.fault != Fault::none) {
-    ++faults;
+    ++faults_by_class[index];
     return;
   }
   const DistanceError& error = judged.error;
@@ -138,7 +147,6 @@ void DistanceQuestion::Counts::add(const Judged& judged, QueryClass of, const st
     under_by_distance.add(error.under_by_distance());
     add_up(largest_under, {{error.under_by_size(), judged.query, provenance}});
   }
-  const auto index = static_cast<std::size_t>(of);
   over_by_class[index] += error.over_reported ? 1 : 0;
   under_by_class[index] += error.under_reported ? 1 : 0;
   weights_by_class[index] += error.wrong_weights ? 1 : 0;
@@ -146,7 +154,7 @@ void DistanceQuestion::Counts::add(const Judged& judged, QueryClass of, const st
 
 void DistanceQuestion::Counts::merge(const Counts& other) {
   queries += other.queries;
-  faults += other.faults;
+  add_up(faults_by_class, other.faults_by_class);
   add_up(over_by_class, other.over_by_class);
   add_up(under_by_class, other.under_by_class);
   add_up(weights_by_class, other.weights_by_class);
@@ -159,7 +167,8 @@ void DistanceQuestion::Counts::merge(const Counts& other) {
 }
 
 std::uint64_t DistanceQuestion::Counts::failures() const {
-  return sum(over_by_class) + sum(weights_by_class) + faults;
+  return sum_that_counts(over_by_class) + sum_that_counts(weights_by_class) +
+         sum_that_counts(faults_by_class);
 }
 
 std::optional<DistanceQuestion::Judged> DistanceQuestion::ask(const Subject& subject, const Query& query) {

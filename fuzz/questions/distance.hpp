@@ -23,9 +23,9 @@ Query at_rest(const Query& query);
 
 /// How a subject's answer compares with the exact distance d of a query at rest.
 struct DistanceError {
-  /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A correct
-  /// function in double or float is not, and conservative advancement, which keeps a part of the distance as
-  /// its margin, is still safe.
+  /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A careful
+  /// function is not, as long as its products neither overflow nor vanish, and conservative advancement, which
+  /// keeps a part of the distance as its margin, is still safe.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
 
   Enclosure exact;   ///< contains d; its relative width is below 2^-44, or as small as doubles allow
@@ -48,7 +48,8 @@ struct DistanceError {
 /// Judges an answer without a fault. The query is at rest, and as the subject rounds it.
 DistanceError error_of(const Query& query, const DistanceAnswer& answer);
 
-/// For a distance that is over-reported: one that is smaller by what the judge tolerates, and above d.
+/// A distance that is smaller than the given one by what the judge tolerates, rounded; below 0 if nothing is left.
+/// The given one is over-reported if this is at least d, which is decided exactly.
 double over_limit(const Query& query, double distance);
 
 /// Whether an answer, of a query at rest as the subject rounds it, is over-reported: DistanceError's, in less
@@ -65,9 +66,9 @@ struct DistanceQuestion {
     /// "over-reported", "wrong-weights" or "fault"
     [[nodiscard]] std::optional<std::string_view> failure() const;
     [[nodiscard]] bool is_unsafe() const { return error.over_reported; }
-    [[nodiscard]] bool is_counted_by_class() const {
-      return error.over_reported || error.under_reported || error.wrong_weights;
-    }
+    [[nodiscard]] bool is_counted_by_class() const { return failure().has_value() || error.under_reported; }
+    /// The failure, "under-reported" or "right".
+    [[nodiscard]] std::string_view word() const;
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;
     /// For an over-reported distance: proof that the primitives come within a smaller one.
@@ -76,7 +77,7 @@ struct DistanceQuestion {
 
   struct Counts {
     std::uint64_t queries = 0;            ///< queries that it was asked, within its contract
-    std::uint64_t faults = 0;             ///< of them, those without an answer
+    QueryClassCounts faults_by_class{};   ///< of them, those without an answer
     QueryClassCounts over_by_class{};     ///< over-reported distances by the class of the query
     QueryClassCounts under_by_class{};    ///< under-reported ones
     QueryClassCounts weights_by_class{};  ///< wrong weights

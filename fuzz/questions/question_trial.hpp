@@ -24,6 +24,7 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/stop.hpp"
+#include "fuzz/trial/sample.hpp"
 #include "fuzz/trial/shrink.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "reports/statistics/factor_counts.hpp"
@@ -73,6 +74,9 @@ struct QuestionPlan {
   int jobs = 1;
 };
 
+/// After a time limit, findings may be shrunk for so long.
+inline constexpr std::chrono::seconds question_grace(5);
+
 /// Puts subjects on trial: asks them in rounds of all families, and shrinks the findings at the end.
 template <class Question>
 class QuestionTrial {
@@ -105,6 +109,8 @@ class QuestionTrial {
   }
 
  private:
+  static constexpr std::uint64_t one_in_asked_twice = 256;
+
   /// A family, and its subject if it is that of a search.
   struct Source {
     Family family;
@@ -167,17 +173,25 @@ class QuestionTrial {
         std::vector<std::string> factors;
         if (family.factors) factors = factors_of(family, plan_.seed, index);
         for (const auto& subject : subjects_)
-          if (can_ask(*work.source, *subject, kind))
-            count(*subject, query, fmt::format("{}:{}:{}", family.name, plan_.seed, index), factors, work);
+          if (can_ask(*work.source, *subject, kind)) count(*subject, query, index, factors, work);
       }
     } catch (const Stopped&) {  // what was asked counts
     }
   }
 
-  void count(const Subject& subject, const Query& query, const std::string& provenance,
+  /// Asks a question again. An answer that is not the same is a fault.
+  static void expect_the_same(const Subject& subject, const Query& query, Judged& judged) {
+    const std::optional<Judged> again = Question::ask(subject, query);
+    if (!again || again->answer_text() != judged.answer_text())
+      judged = {.query = judged.query, .answer = {.fault = Fault::inconsistent}};
+  }
+
+  void count(const Subject& subject, const Query& query, std::uint64_t index,
              const std::vector<std::string>& factors, Work& work) const {
-    const std::optional<Judged> judged = Question::ask(subject, query);
+    const std::string provenance = fmt::format("{}:{}:{}", work.source->family.name, plan_.seed, index);
+    std::optional<Judged> judged = Question::ask(subject, query);
     if (!judged) return;
+    if (judged->failure() || is_sampled(index, one_in_asked_twice)) expect_the_same(subject, query, *judged);
     const auto failure = judged->failure();
     const QueryClass of = judged->is_counted_by_class() ? classify(judged->query) : QueryClass::unclassified;
     work.results.counts[{subject.name(), query.kind}].add(*judged, of, provenance);
@@ -205,9 +219,16 @@ class QuestionTrial {
     results_.merge(std::move(results));
   }
 
-  /// Replaces the query by the simplest one that fails in the same way and has the same class.
+  /// Replaces the query by the simplest one that fails in the same way and has the same class, as far as there
+  /// is time.
   void shrink(QuestionFinding& finding) const {
-    constexpr std::chrono::seconds grace(5);
+    try {
+      shrink_within(finding, question_grace);
+    } catch (const Stopped&) {  // the finding stays as it is
+    }
+  }
+
+  void shrink_within(QuestionFinding& finding, std::chrono::seconds grace) const {
     const Subject& subject =
         **std::ranges::find_if(subjects_, [&](const auto& each) { return each->name() == finding.subject; });
     const NoMoreExotic allowed{finding.query_class, exoticness(finding.query, finding.query_class)};
@@ -241,6 +262,8 @@ class QuestionTrial {
 
 /// The sum over all classes.
 std::uint64_t sum(const QueryClassCounts& counts);
+/// The same without extreme queries, in which a plain function overflows: they are shown, but say nothing about others.
+std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 void add_up(QueryClassCounts& own, const QueryClassCounts& other);
 
 }  // namespace nearmiss

@@ -76,11 +76,12 @@ std::string StepQuestion::Judged::certificate() const {
 
 void StepQuestion::Counts::add(const Judged& judged, QueryClass of, const std::string& provenance) {
   ++queries;
+  const auto index = static_cast<std::size_t>(of);
   if (judged.answer.fault != Fault::none) {
-    ++faults;
+    ++faults_by_class[index];
     return;
   }
-  unsafe_by_class[static_cast<std::size_t>(of)] += judged.touches ? 1 : 0;
+  unsafe_by_class[index] += judged.touches ? 1 : 0;
   cut_free += judged.cuts_free ? 1 : 0;
   objects += judged.objects ? 1 : 0;
   kept.add(judged.kept);
@@ -89,7 +90,7 @@ void StepQuestion::Counts::add(const Judged& judged, QueryClass of, const std::s
 
 void StepQuestion::Counts::merge(const Counts& other) {
   queries += other.queries;
-  faults += other.faults;
+  add_up(faults_by_class, other.faults_by_class);
   add_up(unsafe_by_class, other.unsafe_by_class);
   cut_free += other.cut_free;
   objects += other.objects;
@@ -97,7 +98,9 @@ void StepQuestion::Counts::merge(const Counts& other) {
   add_up(least_kept, other.least_kept);
 }
 
-std::uint64_t StepQuestion::Counts::failures() const { return sum(unsafe_by_class) + faults; }
+std::uint64_t StepQuestion::Counts::failures() const {
+  return sum_that_counts(unsafe_by_class) + sum_that_counts(faults_by_class);
+}
 
 std::optional<StepQuestion::Judged> StepQuestion::ask(const Subject& subject, const Query& query) {
   Judged judged{.query = subject.rounded(nearmiss::with_separation(query, 0)), .answer = {}};

@@ -34,7 +34,9 @@ struct StepQuestion {
     /// "unsafe" or "fault"
     [[nodiscard]] std::optional<std::string_view> failure() const;
     [[nodiscard]] bool is_unsafe() const { return touches; }
-    [[nodiscard]] bool is_counted_by_class() const { return touches; }
+    [[nodiscard]] bool is_counted_by_class() const { return failure().has_value(); }
+    /// The failure, or "right".
+    [[nodiscard]] std::string_view word() const { return failure().value_or("right"); }
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;
     /// Proof that the filtered step comes nearer than the clearance.
@@ -43,7 +45,7 @@ struct StepQuestion {
 
   struct Counts {
     std::uint64_t queries = 0;           ///< steps that it was asked to filter, within its contract
-    std::uint64_t faults = 0;            ///< of them, those without an answer
+    QueryClassCounts faults_by_class{};  ///< of them, those without an answer
     QueryClassCounts unsafe_by_class{};  ///< filtered steps that are not safe
     std::uint64_t cut_free = 0;          ///< Judged::cuts_free
     std::uint64_t objects = 0;           ///< Judged::objects

@@ -67,6 +67,24 @@ TEST(DistanceError, IsWrongBeyondOnePercentAndATenThousandthOfTheSizeInEveryUnit
   }
 }
 
+// Among the smallest doubles, 1 % of a distance is less than any difference.
+TEST(DistanceError, IsNoneForTheSmallestDistances) {
+  for (const double d : {0x1p-1074, 0x1p-1073, 20 * 0x1p-1074, 60 * 0x1p-1074}) {
+    Query query{.kind = Kind::vertex_vertex};
+    query.x[0] = query.x[12] = d;
+    EXPECT_FALSE(error(query, d).over_reported) << d;
+    EXPECT_TRUE(error(query, 2 * d).over_reported) << d;
+  }
+}
+
+TEST(DistanceError, IsSeenIfTheSizeOverflows) {
+  constexpr double most = std::numeric_limits<double>::max();
+  Query query{.kind = Kind::edge_edge};
+  query.x = {-most, 0, 0, most, 0, 0, -most, 1, 0, most, 1, 0};
+  EXPECT_TRUE(error(at_rest(query), most).over_reported);
+  EXPECT_FALSE(error(at_rest(query), 1).over_reported);
+}
+
 TEST(DistanceError, SeesWrongWeights) {
   const auto is_wrong = [](const Query& query, const std::array<double, 4>& weights, double distance) {
     return error_of(query, DistanceAnswer::given(distance, weights)).wrong_weights;
@@ -142,6 +160,17 @@ TEST(DistanceTrial, FindsEveryPlantedDefect) {
       EXPECT_EQ(proven.h, over_limit(each.query, given(each))) << number;
       EXPECT_EQ(proven.x, coordinate_list(each.query)) << number;
     }
+  }
+}
+
+TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
+  QuestionPlan plan = usual(2000);
+  plan.kinds = {Kind::vertex_vertex};
+  const auto results = measured(with_defect(27), plan);
+  ASSERT_FALSE(results.findings.empty());
+  for (const QuestionFinding& each : results.findings) {
+    EXPECT_EQ(each.what, "fault");
+    EXPECT_EQ(each.signature, "vv inconsistent");
   }
 }
 

@@ -2,7 +2,10 @@
 // such functions have, by the option defect=N. Defect 0 is none.
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "ccd/nearmiss_functions.hpp"
 
@@ -32,6 +35,9 @@ class Distances {
 
   double vv(V a, V b) const {
     const V d = a - b;
+    while (is(26)) std::this_thread::sleep_for(std::chrono::seconds(1));  // never answers
+    static std::atomic<int> calls = 0;
+    if (is(27)) return norm(d) * (1 + calls++ % 7);                   // answers otherwise when asked again
     if (is(1)) return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);  // another norm
     if (is(2)) return dot(d, d);                                      // no square root
     if (is(3)) return 1.02 * norm(d);                                 // rounded up

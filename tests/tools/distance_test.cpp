@@ -59,10 +59,28 @@ TEST_F(Distance, WithoutAnAnswerIsAFault) {
   EXPECT_THAT(output.out, HasSubstr("invalid answer, degenerate: fault"));
 }
 
+TEST_F(Distance, OfAFileMayBeTooSmall) {
+  write("query", "0 0 0  0 0 1  0 0 0  0 0 1\n");
+  EXPECT_EQ(expect_code(0, distances(0) + "--kind vv query").out.find("right 0x1p+0 "), 0U);
+  write("query", "0 0 0 0 0 0.5 0 0 0 0 0 0.5\n");
+  EXPECT_EQ(expect_code(0, distances(2) + "--kind vv query").out.find("under-reported 0x1p-2 "), 0U);
+  write("query", "0 0 1  0 0 0  0 0 0  0 0 1  0 0 0  0 0 0\n");
+  EXPECT_THAT(expect_code(1, distances(6) + "--kind ve query").out,
+              MatchesRegex("fault ve invalid answer distances:defect=6\n"));
+  expect_refused(distances(0) + "--kind ve query --json new.json", {"FILE excludes --json"});
+}
+
+TEST_F(Distance, IsInterruptedWhileAFunctionHangs) {
+  const std::string stopped = "timeout --preserve-status -s TERM -k 15 1 ";
+  EXPECT_EQ(run(distances(26) + "--kind vv --query-time 60s -q", stopped).code, 130);
+}
+
 TEST_F(Distance, NeedsAFunctionThatGivesIt) {
   expect_refused("distance --subject wang --cases 10 --json new.json",
                  {"wang: found no function distance", "expected a plug-in that has it"});
   expect_refused(distances(0) + "--kind vt --family nonsense --cases 10", {"unknown family 'nonsense'"});
+  expect_refused(distances(0) + "--kind vt --family v-rest --cases 10",
+                 {"--kind: found vt, expected vv or ve"});
   write("query", hit);
   expect_refused("distance query --subject " + plugin("distances"), {"--kind: expected the one kind"});
 }

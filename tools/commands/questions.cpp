@@ -45,14 +45,17 @@ constexpr Command distance{
     "distance",
     "Hunt for wrong distances of primitives at rest, above all for those that are too large",
     "distance",
-    "right, over-reported, wrong-weights or fault; the distance that is given; and the subject",
+    "right, under-reported, over-reported, wrong-weights or fault; the distance that is given, or why there "
+    "is "
+    "none; and the subject",
     "a distance is over-reported, if weights are wrong",
     true};
 constexpr Command step{
     "step",
     "Hunt for filtered steps that are not safe, and measure how much of a safe step is kept",
     "step",
-    "right, unsafe or fault; the clearance and the places that are given; and the subject",
+    "right, unsafe or fault; the clearance and the places that are given, or why there are none; and the "
+    "subject",
     "a filtered step is not safe",
     false};
 
@@ -68,17 +71,24 @@ template <class Question>
 int ask_file(const Options& options, const Subjects& subjects) {
   if (options.kinds.size() != 1) throw Error("--kind: expected the one kind of the queries in the file");
   bool has_failed = false;
+  bool was_asked = false;
   const QueryInput input{.kind = options.kinds.front(), .file = options.file, .separation = {}};
   input.read([&](const Query& query) {
     for (const auto& subject : subjects) {
       const auto judged = Question::ask(*subject, query);
-      const auto failure = judged ? judged->failure() : std::nullopt;
-      fmt::print("{} {} {}\n", judged ? failure.value_or("right") : "not-asked",
-                 judged ? judged->answer_text() : "-", subject->name());
-      has_failed = has_failed || failure;
+      if (!judged) {
+        fmt::print("not-asked - {}\n", subject->name());
+        continue;
+      }
+      was_asked = true;
+      has_failed = has_failed || judged->failure();
+      const bool has_answer = judged->answer.fault == Fault::none;
+      fmt::print("{} {} {}\n", judged->word(),
+                 has_answer ? judged->answer_text() : Question::signature(*subject, *judged),
+                 subject->name());
     }
   });
-  return has_failed ? exit_found : exit_fine;
+  return has_failed || !was_asked ? exit_found : exit_fine;
 }
 
 /// The families of which a user can choose.
@@ -91,7 +101,10 @@ std::vector<Family> known_families(const Command& of) {
 
 template <class Question>
 int run(const Options& options, const Command& of) {
-  const Subjects subjects = make_subjects(options.subjects, options.limits.limits());
+  const Stop at_signals(interrupted());
+  isolation::PluginLimits limits = options.limits.limits();
+  limits.stop = &at_signals;  // the time limit waits for an answer
+  const Subjects subjects = make_subjects(options.subjects, limits);
   QuestionPlan plan{.kinds = kinds_of(options),
                     .search = !options.no_search,
                     .cases = options.cases,
@@ -110,6 +123,10 @@ int run(const Options& options, const Command& of) {
   std::vector<Family> all = known;
   std::erase_if(all, [](const Family& each) { return class_of(each.name) == QueryClass::extreme; });
   plan.families = find_families(options.families, known, all, stop);
+  for (const Family& family : plan.families)
+    if (options.families != std::vector<std::string>{"all"} &&
+        std::ranges::none_of(family.kinds, [&](Kind kind) { return plan.kinds.contains(kind); }))
+      expect_kind(family, *plan.kinds.begin(), "--kind");
   options.json.expect_writable();
   std::string time = options.time;
   if (time.empty() && options.cases == 0) time = usual_time;
@@ -159,7 +176,12 @@ void add(CLI::App& app, int& exit_code, const Command& of) {
   add_count_option(*command, "--cases", options->cases, 1, most_queries, "Number of queries, about")
       ->default_str("")
       ->excludes(file);
-  command->add_option("--time", options->time, "Time limit, such as 30s or 2m; none if --cases is given")
+  command
+      ->add_option(
+          "--time", options->time,
+          fmt::format("Time limit, such as 30s or 2m; none if --cases is given. Findings may be shrunk "
+                      "for {} s more",
+                      question_grace.count()))
       ->default_str(usual_time)
       ->excludes(file)
       ->type_name("T");
@@ -168,8 +190,13 @@ void add(CLI::App& app, int& exit_code, const Command& of) {
   add_jobs_option(*command, options->jobs);
   options->limits.add_to(*command);
   options->json.add_to(*command, "Write the results as JSON");
+  command->get_option("--json")->excludes(file);
   command->add_flag("-q,--quiet", options->quiet, "Show no progress");
-  command->footer(fmt::format("\nThe exit code is 1 if {}, or if an answer is missing.", of.exit_code));
+  command->footer(
+      fmt::format("\nThe exit code is 1 if {}, or if an answer is missing, for a query that is not extreme; "
+                  "or if nothing was "
+                  "asked.",
+                  of.exit_code));
   command->callback([options, &exit_code, &of] { exit_code = run<Question>(*options, of); });
 }
 

@@ -67,8 +67,13 @@ std::string load_paper(const std::filesystem::path& file) {
 /// The section of the JSON that nearmiss distance --json writes. Throws Error if the file is something else.
 std::string load_distances(const std::filesystem::path& file) {
   std::string text;
-  read_json_file(file, "what nearmiss distance --json keeps",
-                 [&](const nlohmann::ordered_json& json) { text = json_text(distances_section(json)); });
+  read_json_file(file, "what nearmiss distance --json keeps", [&](const nlohmann::ordered_json& json) {
+    try {
+      text = json_text(distances_section(json));
+    } catch (const nlohmann::json::exception&) {
+      throw Error("another JSON");
+    }
+  });
   return text;
 }
 
