@@ -71,7 +71,7 @@ bool are_wrong(const Query& query, const std::array<double, 4>& all, double most
     for (const double w : of_primitive) sum += w;
     if (std::abs(sum - 1) > tiny) return true;
   }
-  return are_farther(query, weights, most);
+  return std::isfinite(most) && are_farther(query, weights, most);
 }
 
 }  // namespace

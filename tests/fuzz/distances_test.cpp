@@ -96,6 +96,7 @@ TEST(DistanceError, SeesWrongWeights) {
   EXPECT_TRUE(is_wrong(above, {1, 0.5, 0.25, std::numeric_limits<double>::quiet_NaN()}, 1));
   EXPECT_FALSE(is_wrong(crossing, {0.5, 0.5, 0.5, 0.5}, 0.5));
   EXPECT_TRUE(is_wrong(crossing, {0.5, 0.5, 1, 0}, 0.5));
+  EXPECT_FALSE(is_wrong(testing::scaled(above, 0x1p+1023), {1, 0.5, 0.25, 0.25}, 0x1p+1023));
   // Far from the origin, where weights that add up to 1 - 2^-53 must not count as a motion.
   const Query far = testing::moved(above, 0x1p+40);
   EXPECT_FALSE(is_wrong(far, {1, 0.5, 0.25, 0.25 - 0x1p-53}, 1));
