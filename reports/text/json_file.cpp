@@ -16,9 +16,9 @@ Json parse_json(std::string_view text) {
   try {
     return Json::parse(text, [](int level, typename Json::parse_event_t, const Json& each) {
       if (level > most_levels) throw Error(fmt::format("JSON with more than {} levels", most_levels));
-      if (each.is_string() && printable(each.template get_ref<const std::string&>()) != each)
-        throw Error(
-            fmt::format("the text '{}' that is not printable", excerpt(each.template get<std::string>())));
+      if (!each.is_string()) return true;
+      if (const auto& own = each.template get_ref<const std::string&>(); printable(own) != own)
+        throw Error(fmt::format("the text '{}' that is not printable", excerpt(own)));
       return true;
     });
   } catch (const typename Json::exception& error) {
