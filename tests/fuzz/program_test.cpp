@@ -115,14 +115,18 @@ TEST_F(ProgramTest, GivesDistances) {
 }
 
 TEST_F(ProgramTest, FiltersSteps) {
-  const auto subject =
-      make_any_subject(program("if question == 3: answers = [0.125] + list(rows[0][6:12])", "step vv\\n"));
-  EXPECT_TRUE(subject->filters_step(Kind::vertex_vertex));
-  Query query{.kind = Kind::vertex_vertex};
-  query.x[12] = 7;  // x0 at t = 1
-  const StepAnswer answer = subject->ask_step(query);
-  EXPECT_EQ(answer.y[0], 7);
-  EXPECT_EQ(answer.clearance, 0.125);
+  for (const bool says_seconds : {false, true}) {
+    const std::string then = "if question == 3: answers = [0.125] + list(rows[0][6:12])";
+    const auto subject = make_any_subject(
+        says_seconds ? program(then + " + [1e-6]", "step vv\\nseconds yes\\n") : program(then, "step vv\\n"));
+    EXPECT_TRUE(subject->filters_step(Kind::vertex_vertex));
+    Query query{.kind = Kind::vertex_vertex};
+    query.x[12] = 7;  // x0 at t = 1
+    const StepAnswer answer = subject->ask_step(query);
+    EXPECT_EQ(answer.fault, Fault::none);
+    EXPECT_EQ(answer.y[0], 7);
+    EXPECT_EQ(answer.clearance, 0.125);
+  }
 }
 
 // Row by row, the answer is whether the separation is the row's last number.

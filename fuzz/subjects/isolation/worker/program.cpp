@@ -93,10 +93,7 @@ void Program::decide_with_the_program(void* /*state*/, int kind, std::size_t n, 
 }
 
 double Program::bound_of_the_program(void* /*state*/, int kind, const double* x, double h) {
-  double bound = 0;
-  the_program->ask(Question::bound, kind, 1, x, &h);
-  the_program->read_answers(1, [&](std::size_t /*i*/, double given, double /*time*/) { bound = given; });
-  return bound;
+  return the_program->number(Question::bound, kind, x, h);
 }
 
 double Program::seconds_it_says(void* /*state*/) { return the_program->seconds_; }
@@ -110,11 +107,7 @@ double Program::distance_of_the_program(void* /*state*/, int kind, const double*
   std::array<double, 24> at_rest{};
   std::copy_n(x, size, at_rest.begin());
   std::copy_n(x, size, at_rest.begin() + size);
-  const double h = 0;
-  double distance = 0;
-  the_program->ask(Question::distance, kind, 1, at_rest.data(), &h);
-  the_program->read_answers(1, [&](std::size_t /*i*/, double given, double /*time*/) { distance = given; });
-  return distance;
+  return the_program->number(Question::distance, kind, at_rest.data(), 0);
 }
 
 double Program::step_of_the_program(void* /*state*/, int kind, const double* x, double* y) {
@@ -123,7 +116,7 @@ double Program::step_of_the_program(void* /*state*/, int kind, const double* x, 
   the_program->ask(Question::step, kind, 1, x, &h);
   the_program->read_all(&clearance, sizeof clearance);
   the_program->read_all(y, coordinate_count(kind_of_bit(kind).value()) / 2 * sizeof(double));
-  the_program->expect_silence();
+  the_program->read_end();
   return clearance;
 }
 
@@ -189,6 +182,17 @@ void Program::read_answers(std::size_t n, const Take& take) {
     read_all(rows.data(), 2 * count * sizeof(double));
     for (std::size_t i = 0; i < count; ++i) take(first + i, rows[2 * i], rows[2 * i + 1]);
   }
+  read_end();
+}
+
+double Program::number(Question question, int kind, const double* x, double h) {
+  double number = 0;
+  ask(question, kind, 1, x, &h);
+  read_answers(1, [&](std::size_t /*i*/, double given, double /*time*/) { number = given; });
+  return number;
+}
+
+void Program::read_end() {
   if (description_.says_seconds) read_all(&seconds_, sizeof seconds_);
   expect_silence();
 }

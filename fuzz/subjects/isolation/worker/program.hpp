@@ -50,6 +50,10 @@ class Program {
   /// Reads the answer, and calls take(i, number, time) for each query. Throws UnaskedBytes.
   template <class Take>
   void read_answers(std::size_t n, const Take& take);
+  /// Asks one query, and returns the number that the program gives. Throws UnaskedBytes.
+  double number(Question question, int kind, const double* x, double h);
+  /// Reads the seconds, if the program says them. Throws UnaskedBytes if anything else follows.
+  void read_end();
   void expect_silence() const;
   void write_all(const void* data, std::size_t size);
   void read_all(void* data, std::size_t size);
