@@ -89,28 +89,14 @@ void find_nothing(void* /*state*/, int /*kind*/, std::size_t n, const double* /*
 }
 
 const nearmiss_subject& empty_subject() {
-  static const nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
-                                        .name = "empty",
-                                        .version = "",
-                                        .about = "",
-                                        .kinds = bits_of_all_kinds,
-                                        .bits = 53,
-                                        .time_sort = NEARMISS_NO_TIME,
-                                        .takes_separation = 0,
-                                        .batch = 1,
-                                        .contract = {},
-                                        .open = nullptr,
-                                        .close = nullptr,
-                                        .decide = find_nothing,
-                                        .distance_bound = nullptr,
-                                        .separation_kinds = 0,
-                                        .distance_bound_within = nullptr,
-                                        .distance_kinds = 0,
-                                        .distance = nullptr,
-                                        .step_kinds = 0,
-                                        .step = nullptr,
-                                        .layout = NEARMISS_ROWS,
-                                        .seconds_of_kernels = nullptr};
+  static const nearmiss_subject subject = [] {
+    nearmiss_subject empty{};
+    empty.interface_version = NEARMISS_INTERFACE;
+    empty.name = "empty";
+    empty.kinds = bits_of_all_kinds;
+    empty.decide = find_nothing;
+    return empty;
+  }();
   return subject;
 }
 

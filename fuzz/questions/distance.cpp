@@ -119,9 +119,8 @@ std::string_view DistanceQuestion::Judged::word() const {
 std::string DistanceQuestion::Judged::answer_text() const { return to_hex(answer.distance); }
 
 std::string DistanceQuestion::Judged::text() const {
-  const auto what = failure().value_or("right");
-  if (answer.fault != Fault::none) return std::string(what);
-  return fmt::format("{}: {:.6g}; the distance is {:.6g}", what, answer.distance, error.exact.hi);
+  if (answer.fault != Fault::none) return std::string(word());
+  return fmt::format("{}: {:.6g}; the distance is {:.6g}", word(), answer.distance, error.exact.hi);
 }
 
 std::string DistanceQuestion::Judged::certificate() const {
@@ -129,7 +128,8 @@ std::string DistanceQuestion::Judged::certificate() const {
   return certify_meets(nearmiss::with_separation(query, over_limit(query, answer.distance)), {}).value_or("");
 }
 
-void DistanceQuestion::Counts::add(const Judged& judged, QueryClass of, const std::string& provenance) {
+void DistanceQuestion::Counts::add(const Judged& judged, QueryClass of,
+                                   const std::function<std::string()>& provenance) {
   ++queries;
   const auto index = static_cast<std::size_t>(of);
   if (judged.answer.fault != Fault::none) {
@@ -140,30 +140,16 @@ void DistanceQuestion::Counts::add(const Judged& judged, QueryClass of, const st
   if (error.over > 0) {
     over_by_size.add(error.over_by_size());
     over_by_distance.add(error.over_by_distance());
-    add_up(largest_over, {{error.over_by_size(), judged.query, provenance}});
+    keep_farthest(largest_over, error.over_by_size(), judged.query, provenance);
   }
   if (error.under > 0) {
     under_by_size.add(error.under_by_size());
     under_by_distance.add(error.under_by_distance());
-    add_up(largest_under, {{error.under_by_size(), judged.query, provenance}});
+    keep_farthest(largest_under, error.under_by_size(), judged.query, provenance);
   }
   over_by_class[index] += error.over_reported ? 1 : 0;
   under_by_class[index] += error.under_reported ? 1 : 0;
   weights_by_class[index] += error.wrong_weights ? 1 : 0;
-}
-
-void DistanceQuestion::Counts::merge(const Counts& other) {
-  queries += other.queries;
-  add_up(faults_by_class, other.faults_by_class);
-  add_up(over_by_class, other.over_by_class);
-  add_up(under_by_class, other.under_by_class);
-  add_up(weights_by_class, other.weights_by_class);
-  over_by_size.merge(other.over_by_size);
-  over_by_distance.merge(other.over_by_distance);
-  under_by_size.merge(other.under_by_size);
-  under_by_distance.merge(other.under_by_distance);
-  add_up(largest_over, other.largest_over);
-  add_up(largest_under, other.largest_under);
 }
 
 std::uint64_t DistanceQuestion::Counts::failures() const {
@@ -182,10 +168,8 @@ std::optional<DistanceQuestion::Judged> DistanceQuestion::ask(const Subject& sub
 
 std::string DistanceQuestion::signature(const Subject& subject, const Judged& judged) {
   const Kind kind = judged.query.kind;
-  if (judged.answer.fault != Fault::none) {
-    const Verdict verdict{.fault = judged.answer.fault, .fault_code = judged.answer.fault_code};
-    return fault_signature(kind, verdict, subject.fault_text(verdict));
-  }
+  if (judged.answer.fault != Fault::none)
+    return fault_signature(subject, kind, judged.answer.fault, judged.answer.fault_code);
   const double d = judged.error.exact.hi;
   std::string closest = "touching";
   if (const auto features =

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "ccd/query/query.hpp"
@@ -13,6 +15,7 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
+#include "reports/statistics/counter.hpp"
 #include "reports/statistics/counts.hpp"
 #include "reports/statistics/histogram.hpp"
 
@@ -84,8 +87,22 @@ struct DistanceQuestion {
     Histogram over_by_size, over_by_distance, under_by_size, under_by_distance;  ///< of all errors but 0
     std::vector<FarCase> largest_over, largest_under;                            ///< by size
 
-    void add(const Judged& judged, QueryClass of, const std::string& provenance);
-    void merge(const Counts& other);
+    static constexpr auto counters() {
+      return std::tuple{Counter{"queries", &Counts::queries},
+                        Counter{"faults_by_class", &Counts::faults_by_class},
+                        Counter{"over_by_class", &Counts::over_by_class},
+                        Counter{"under_by_class", &Counts::under_by_class},
+                        Counter{"weights_by_class", &Counts::weights_by_class},
+                        Counter{"over_by_size", &Counts::over_by_size},
+                        Counter{"over_by_distance", &Counts::over_by_distance},
+                        Counter{"under_by_size", &Counts::under_by_size},
+                        Counter{"under_by_distance", &Counts::under_by_distance},
+                        Counter{"largest_over", &Counts::largest_over},
+                        Counter{"largest_under", &Counts::largest_under}};
+    }
+
+    void add(const Judged& judged, QueryClass of, const std::function<std::string()>& provenance);
+    void merge(const Counts& other) { merge_counters(*this, other); }
     [[nodiscard]] std::uint64_t failures() const;
   };
 

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "reports/statistics/family_class.hpp"
+
 namespace nearmiss {
 
 std::uint64_t sum(const QueryClassCounts& counts) {
@@ -12,8 +14,17 @@ std::uint64_t sum_that_counts(const QueryClassCounts& counts) {
   return sum(counts) - counts[static_cast<std::size_t>(QueryClass::extreme)];
 }
 
-void add_up(QueryClassCounts& own, const QueryClassCounts& other) {
-  std::ranges::transform(own, other, own.begin(), std::plus<>());
+std::vector<Family> families_of_questions(bool at_rest) {
+  std::vector<Family> known;
+  if (at_rest) known.assign(families_at_rest().begin(), families_at_rest().end());
+  for (const auto& all : {families(), vertex_families()}) known.insert(known.end(), all.begin(), all.end());
+  return known;
+}
+
+std::vector<Family> usual_families_of_questions(bool at_rest) {
+  std::vector<Family> usual = families_of_questions(at_rest);
+  std::erase_if(usual, [](const Family& each) { return class_of(each.name) == QueryClass::extreme; });
+  return usual;
 }
 
 }  // namespace nearmiss

@@ -188,7 +188,9 @@ class QuestionTrial {
 
   void count(const Subject& subject, const Query& query, std::uint64_t index,
              const std::vector<std::string>& factors, Work& work) const {
-    const std::string provenance = fmt::format("{}:{}:{}", work.source->family.name, plan_.seed, index);
+    const auto provenance = [&] {
+      return fmt::format("{}:{}:{}", work.source->family.name, plan_.seed, index);
+    };
     std::optional<Judged> judged = Question::ask(subject, query);
     if (!judged) return;
     if (judged->failure() || is_sampled(index, one_in_asked_twice)) expect_the_same(subject, query, *judged);
@@ -202,8 +204,8 @@ class QuestionTrial {
     QuestionFinding finding{.what = *failure,
                             .subject = subject.name(),
                             .signature = Question::signature(subject, *judged),
-                            .query_class = classify(judged->query),
-                            .provenance = provenance,
+                            .query_class = of,
+                            .provenance = provenance(),
                             .query = judged->query,
                             .answer = judged->answer_text(),
                             .text = judged->text()};
@@ -262,8 +264,12 @@ class QuestionTrial {
 
 /// The sum over all classes.
 std::uint64_t sum(const QueryClassCounts& counts);
-/// The same without extreme queries, in which a plain function overflows: they are shown, but say nothing about others.
+/// The same without extreme queries, which are shown, but say nothing about others.
 std::uint64_t sum_that_counts(const QueryClassCounts& counts);
-void add_up(QueryClassCounts& own, const QueryClassCounts& other);
+
+/// The families of which a user can choose: those that campaigns have, and before them those at rest on request.
+std::vector<Family> families_of_questions(bool at_rest);
+/// Those that are asked if nobody chooses: without the extreme ones, in which a plain function overflows.
+std::vector<Family> usual_families_of_questions(bool at_rest);
 
 }  // namespace nearmiss

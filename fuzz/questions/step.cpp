@@ -61,7 +61,7 @@ std::string StepQuestion::Judged::answer_text() const {
 }
 
 std::string StepQuestion::Judged::text() const {
-  if (!touches) return std::string(failure().value_or("safe"));
+  if (!touches) return std::string(word());
   auto earliest = earliest_time(step);
   const double time = earliest ? earliest->enclosure(rough_time).lo : 0;
   if (step.separation == 0) return fmt::format("unsafe: contact at t = {:.4g} of the filtered step", time);
@@ -74,7 +74,8 @@ std::string StepQuestion::Judged::certificate() const {
   return certify_meets(step, {}, step.separation > 0).value_or("");
 }
 
-void StepQuestion::Counts::add(const Judged& judged, QueryClass of, const std::string& provenance) {
+void StepQuestion::Counts::add(const Judged& judged, QueryClass of,
+                               const std::function<std::string()>& provenance) {
   ++queries;
   const auto index = static_cast<std::size_t>(of);
   if (judged.answer.fault != Fault::none) {
@@ -85,17 +86,7 @@ void StepQuestion::Counts::add(const Judged& judged, QueryClass of, const std::s
   cut_free += judged.cuts_free ? 1 : 0;
   objects += judged.objects ? 1 : 0;
   kept.add(judged.kept);
-  if (judged.kept < 1) add_up(least_kept, {{1 - judged.kept, judged.query, provenance}});
-}
-
-void StepQuestion::Counts::merge(const Counts& other) {
-  queries += other.queries;
-  add_up(faults_by_class, other.faults_by_class);
-  add_up(unsafe_by_class, other.unsafe_by_class);
-  cut_free += other.cut_free;
-  objects += other.objects;
-  kept.merge(other.kept);
-  add_up(least_kept, other.least_kept);
+  if (judged.kept < 1) keep_farthest(least_kept, 1 - judged.kept, judged.query, provenance);
 }
 
 std::uint64_t StepQuestion::Counts::failures() const {
@@ -124,8 +115,7 @@ std::optional<StepQuestion::Judged> StepQuestion::ask(const Subject& subject, co
 
 std::string StepQuestion::signature(const Subject& subject, const Judged& judged) {
   if (judged.answer.fault == Fault::none) return contact_signature(judged.step);
-  const Verdict verdict{.fault = judged.answer.fault, .fault_code = judged.answer.fault_code};
-  return fault_signature(judged.query.kind, verdict, subject.fault_text(verdict));
+  return fault_signature(subject, judged.query.kind, judged.answer.fault, judged.answer.fault_code);
 }
 
 namespace {

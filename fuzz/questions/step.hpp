@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "ccd/query/query.hpp"
 #include "ccd/subjects/subject.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
+#include "reports/statistics/counter.hpp"
 #include "reports/statistics/counts.hpp"
 #include "reports/statistics/histogram.hpp"
 
@@ -52,8 +55,18 @@ struct StepQuestion {
     Histogram kept;                      ///< Judged::kept
     std::vector<FarCase> least_kept;     ///< by 1 - kept
 
-    void add(const Judged& judged, QueryClass of, const std::string& provenance);
-    void merge(const Counts& other);
+    static constexpr auto counters() {
+      return std::tuple{Counter{"queries", &Counts::queries},
+                        Counter{"faults_by_class", &Counts::faults_by_class},
+                        Counter{"unsafe_by_class", &Counts::unsafe_by_class},
+                        Counter{"cut_free", &Counts::cut_free},
+                        Counter{"objects", &Counts::objects},
+                        Counter{"kept", &Counts::kept},
+                        Counter{"least_kept", &Counts::least_kept}};
+    }
+
+    void add(const Judged& judged, QueryClass of, const std::function<std::string()>& provenance);
+    void merge(const Counts& other) { merge_counters(*this, other); }
     [[nodiscard]] std::uint64_t failures() const;
   };
 

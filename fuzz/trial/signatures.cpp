@@ -75,6 +75,11 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
   }
 }
 
+std::string fault_signature(const Subject& subject, Kind kind, Fault fault, std::int32_t code) {
+  const Verdict none{.fault = fault, .fault_code = code};
+  return fault_signature(kind, none, subject.fault_text(none));
+}
+
 bool is_of_invalid_time(std::string_view text) {
   return std::any_of(kinds.begin(), kinds.end(),
                      [&](Kind kind) { return text.starts_with(signature(kind, invalid_time)); });

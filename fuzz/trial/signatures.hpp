@@ -1,6 +1,7 @@
 // Signatures: a line of text that failures of the same kind share.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ std::string report_signature(Kind kind, Stage stage);
 /// time", "vt invalid time NaN" or "vt exception no root in [#, #]". `text` is what an exception said; its
 /// numbers become #, so that exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
+/// That of a fault in any answer of a subject.
+std::string fault_signature(const Subject& subject, Kind kind, Fault fault, std::int32_t code);
 
 /// Whether a signature is that of a collision with a time that is not in [0, 1], or is NaN.
 bool is_of_invalid_time(std::string_view text);

@@ -25,6 +25,11 @@ void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other) {
   if (own.size() > Counts::far_cases) own.resize(Counts::far_cases);
 }
 
+void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
+                   const std::function<std::string()>& provenance) {
+  if (ratio >= Counts::least_kept(kept)) add_up(kept, {{ratio, query, provenance()}});
+}
+
 void Counts::add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance) {
   const bool hit = outcome.verdict.hit;
   const auto stage = static_cast<std::size_t>(outcome.verdict.stage);
@@ -57,7 +62,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
     refuted_bounds += outcome.bound_refuted ? 1 : 0;
     refuted_by_class[of] += outcome.bound_refuted ? 1 : 0;
     measured_by_wang += outcome.measured_by_wang ? 1 : 0;
-    if (outcome.ratio >= least_kept(farthest)) add_up(farthest, {{outcome.ratio, query, provenance()}});
+    keep_farthest(farthest, outcome.ratio, query, provenance);
   }
 }
 
@@ -69,16 +74,13 @@ void Counts::add_time(const TimeError& time, const Query& query,
   stuck += time.stuck ? 1 : 0;
   committed += time.committed ? 1 : 0;
   touch_at_end += time.touches_at_end ? 1 : 0;
-  const auto keep = [&](std::vector<FarCase>& kept, double error) {
-    if (error > 0 && error >= least_kept(kept)) add_up(kept, {{error, query, provenance()}});
-  };
   if (time.after > 0) {
     after.add(time.after);
-    keep(latest, time.after);
+    keep_farthest(latest, time.after, query, provenance);
   } else {
     early.add(time.early);
     travelled.add(time.travelled);
-    keep(earliest, time.early);
+    if (time.early > 0) keep_farthest(earliest, time.early, query, provenance);
   }
 }
 

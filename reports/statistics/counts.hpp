@@ -34,6 +34,10 @@ struct FarCase {
 /// Adds cases and keeps the farthest, at most Counts::far_cases.
 void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 
+/// Adds a case if it is among the farthest.
+void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
+                   const std::function<std::string()>& provenance);
+
 /// How the time that a subject gave for a true collision compares with t*, the earliest time.
 struct TimeError {
   double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio

@@ -97,27 +97,15 @@ void decide_all(void* /*state*/, int kind, std::size_t n, const double* x, const
 }  // namespace
 
 extern "C" const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
-                                        .name = "planted-in-" NEARMISS_TEXT(PLANTED_IN),
-                                        .version = "1",
-                                        .about = "a CCD with a planted defect",
-                                        .kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE,
-                                        .bits = 53,
-                                        .time_sort = NEARMISS_NO_TIME,
-                                        .takes_separation = 0,
-                                        .batch = 1,
-                                        .contract = {},
-                                        .open = nullptr,
-                                        .close = nullptr,
-                                        .decide = decide_all,
-                                        .distance_bound = nullptr,
-                                        .separation_kinds = 0,
-                                        .distance_bound_within = nullptr,
-                                        .distance_kinds = 0,
-                                        .distance = nullptr,
-                                        .step_kinds = 0,
-                                        .step = nullptr,
-                                        .layout = NEARMISS_ROWS,
-                                        .seconds_of_kernels = nullptr};
+  static const nearmiss_subject subject = [] {
+    nearmiss_subject own{};
+    own.interface_version = NEARMISS_INTERFACE;
+    own.name = "planted-in-" NEARMISS_TEXT(PLANTED_IN);
+    own.version = "1";
+    own.about = "a CCD with a planted defect";
+    own.kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
+    own.decide = decide_all;
+    return own;
+  }();
   return index == 0 ? &subject : nullptr;
 }

@@ -14,7 +14,6 @@
 #include "corpus/query_text.hpp"
 #include "fuzz/questions/question_trial.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "reports/statistics/family_class.hpp"
 #include "tests/plugins.hpp"
 #include "tests/queries.hpp"
 #include "tools/certificates/check.hpp"
@@ -112,9 +111,7 @@ TEST(DistanceAnswer, IsAFaultIfItIsNoDistance) {
 QuestionPlan usual(std::uint64_t cases) {
   QuestionPlan plan{.cases = cases, .jobs = 2};
   plan.kinds.insert(kinds.begin(), kinds.end());
-  for (const auto& all : {families_at_rest(), families(), vertex_families()})
-    for (const Family& each : all)
-      if (class_of(each.name) != QueryClass::extreme) plan.families.push_back(each);
+  plan.families = usual_families_of_questions(true);
   return plan;
 }
 

@@ -10,7 +10,6 @@
 
 #include "fuzz/questions/question_trial.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "reports/statistics/family_class.hpp"
 #include "tests/plugins.hpp"
 #include "tests/queries.hpp"
 #include "tools/certificates/check.hpp"
@@ -103,9 +102,7 @@ TEST(StepAnswer, IsAFaultIfItIsNotFiniteOrNegative) {
 QuestionResults<StepQuestion> measured(int defect, std::uint64_t cases) {
   QuestionPlan plan{.cases = cases, .jobs = 2};
   plan.kinds.insert(kinds.begin(), kinds.end());
-  for (const auto& all : {families(), vertex_families()})
-    for (const Family& each : all)
-      if (class_of(each.name) != QueryClass::extreme) plan.families.push_back(each);
+  plan.families = usual_families_of_questions(false);
   Subjects subjects;
   subjects.push_back(make_subject(plugin("steps") + ":defect=" + std::to_string(defect)));
   return QuestionTrial<StepQuestion>(subjects, plan, Stop::never()).run([](std::uint64_t) {});

@@ -5,7 +5,6 @@
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
-#include "reports/statistics/family_class.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
@@ -91,14 +90,6 @@ int ask_file(const Options& options, const Subjects& subjects) {
   return has_failed || !was_asked ? exit_found : exit_fine;
 }
 
-/// The families of which a user can choose.
-std::vector<Family> known_families(const Command& of) {
-  std::vector<Family> known;
-  if (of.asks_families_at_rest) known.assign(families_at_rest().begin(), families_at_rest().end());
-  for (const auto& all : {families(), vertex_families()}) known.insert(known.end(), all.begin(), all.end());
-  return known;
-}
-
 template <class Question>
 int run(const Options& options, const Command& of) {
   const Stop at_signals(interrupted());
@@ -118,11 +109,8 @@ int run(const Options& options, const Command& of) {
                       subject->name(), of.function));
   if (!options.file.empty()) return ask_file<Question>(options, subjects);
   Stop stop(interrupted());
-  const std::vector<Family> known = known_families(of);
-  // A plain function overflows and underflows in extreme queries, which says nothing about others.
-  std::vector<Family> all = known;
-  std::erase_if(all, [](const Family& each) { return class_of(each.name) == QueryClass::extreme; });
-  plan.families = find_families(options.families, known, all, stop);
+  plan.families = find_families(options.families, families_of_questions(of.asks_families_at_rest),
+                                usual_families_of_questions(of.asks_families_at_rest), stop);
   for (const Family& family : plan.families)
     if (options.families != std::vector<std::string>{"all"} &&
         std::ranges::none_of(family.kinds, [&](Kind kind) { return plan.kinds.contains(kind); }))

@@ -31,11 +31,9 @@ std::string show_distance_bound(const Subject& subject, const Judge& judge, cons
   if (answer.fault == Fault::error)
     throw Error(fmt::format("{}: found the distance bound {}, expected 0 or more", subject.name(),
                             std::isnan(answer.bound) ? "NaN" : fmt::format("{}", answer.bound)));
-  if (answer.fault != Fault::none) {
-    const Verdict none{.fault = answer.fault, .fault_code = answer.fault_code};
+  if (answer.fault != Fault::none)
     throw Error(fmt::format("{}: no distance bound: {}", subject.name(),
-                            fault_signature(query.kind, none, subject.fault_text(none))));
-  }
+                            fault_signature(subject, query.kind, answer.fault, answer.fault_code)));
   return fmt::format(" {} {}", to_hex(answer.bound), subject.claims_bound() ? "claimed" : "wang");
 }
 

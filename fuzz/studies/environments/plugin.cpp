@@ -59,28 +59,17 @@ double distance_bound(void* /*state*/, int kind, const double* x) {
   return environments::distance_bound(query_of(*kind_of_bit(kind), x));
 }
 
-constexpr nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
-                                   .name = NAME,
-                                   .version = "1",
-                                   .about = "one of nearmiss's own CCDs, in a mode of the processor",
-                                   .kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE,
-                                   .bits = 53,
-                                   .time_sort = NEARMISS_NO_TIME,
-                                   .takes_separation = 0,
-                                   .batch = 1,
-                                   .contract = {},
-                                   .open = nullptr,
-                                   .close = nullptr,
-                                   .decide = decide,
-                                   .distance_bound = distance_bound,
-                                   .separation_kinds = 0,
-                                   .distance_bound_within = nullptr,
-                                   .distance_kinds = 0,
-                                   .distance = nullptr,
-                                   .step_kinds = 0,
-                                   .step = nullptr,
-                                   .layout = NEARMISS_ROWS,
-                                   .seconds_of_kernels = nullptr};
+constexpr nearmiss_subject subject = [] {
+  nearmiss_subject own{};
+  own.interface_version = NEARMISS_INTERFACE;
+  own.name = NAME;
+  own.version = "1";
+  own.about = "one of nearmiss's own CCDs, in a mode of the processor";
+  own.kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
+  own.decide = decide;
+  own.distance_bound = distance_bound;
+  return own;
+}();
 
 }  // namespace
 

@@ -90,15 +90,8 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
-    BoundAnswer answer;
-    perform(Request::bounds, std::span(&query, 1), [&](const Done& done) {
-      if (done.failure) {
-        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
-      } else {
-        answer = BoundAnswer::given(done.worker->number(0));
-      }
-    });
-    return answer;
+    return ask<BoundAnswer>(Request::bounds, query,
+                            [](const WorkerProcess& worker) { return BoundAnswer::given(worker.number(0)); });
   }
 
   [[nodiscard]] bool gives_distance(Kind kind) const override {
@@ -106,31 +99,19 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {
-    DistanceAnswer answer;
-    perform(Request::distances, std::span(&query, 1), [&](const Done& done) {
-      if (done.failure) {
-        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
-      } else {
-        std::array<double, 4> weights{};
-        std::copy_n(done.worker->more().begin(), weights.size(), weights.begin());
-        answer = DistanceAnswer::given(done.worker->number(0), weights);
-      }
+    return ask<DistanceAnswer>(Request::distances, query, [](const WorkerProcess& worker) {
+      std::array<double, 4> weights{};
+      std::copy_n(worker.more().begin(), weights.size(), weights.begin());
+      return DistanceAnswer::given(worker.number(0), weights);
     });
-    return answer;
   }
 
   [[nodiscard]] bool filters_step(Kind kind) const override { return nearmiss::filters_step(info_, kind); }
 
   [[nodiscard]] StepAnswer ask_step(const Query& query) const override {
-    StepAnswer answer;
-    perform(Request::steps, std::span(&query, 1), [&](const Done& done) {
-      if (done.failure) {
-        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
-      } else {
-        answer = StepAnswer::given(done.worker->more(), done.worker->number(0), vertices(query.kind));
-      }
+    return ask<StepAnswer>(Request::steps, query, [&](const WorkerProcess& worker) {
+      return StepAnswer::given(worker.more(), worker.number(0), vertices(query.kind));
     });
-    return answer;
   }
 
   [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
@@ -150,6 +131,17 @@ class IsolatedPlugin final : public BatchSubject {
     std::uint32_t count;          ///< number of queries that were answered
     const std::optional<WorkerFailure>& failure;
   };
+
+  /// Asks a question about one query. `given` makes the answer of what the worker gave.
+  template <class Answer, class Given>
+  Answer ask(Request request, const Query& query, const Given& given) const {
+    Answer answer;
+    perform(request, std::span(&query, 1), [&](const Done& done) {
+      answer = done.failure ? Answer{.fault = done.failure->fault, .fault_code = code_of(*done.failure)}
+                            : given(*done.worker);
+    });
+    return answer;
+  }
 
   void answer(const Done& done, std::span<Verdict> verdicts) const {
     in_parts(done.count, [&](std::size_t first, std::size_t last) {

@@ -139,30 +139,29 @@ class Asking {
   /// The part of the last time without copies.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const { return kernel_nanoseconds_; }
 
-  void give_bounds() {
-    for (std::uint32_t i = 0; i < call_.queries; ++i) {
-      begin(i);
-      const BoundAnswer given =
-          plugin_.bound(call_.kind, coordinates(plugin_, call_.kind, i, 1), shared.separations()[i]);
-      shared.numbers()[i] = given.bound;
-      note(shared.calls() + i, 1, call_.number);
-    }
-  }
-
-  /// Asks about the first query, and notes the answer with its further numbers.
-  void give_distance() {
+  /// Notes the number that ask(x, h) returns for the first query.
+  template <class Ask>
+  void give(const Ask& ask) {
     begin(0);
-    const DistanceAnswer given = plugin_.distance(call_.kind, coordinates(plugin_, call_.kind, 0, 1));
-    std::copy(given.weights.begin(), given.weights.end(), answers->more.begin());
-    shared.numbers()[0] = given.distance;
+    shared.numbers()[0] = ask(coordinates(plugin_, call_.kind, 0, 1), shared.separations()[0]);
     note(shared.calls(), 1, call_.number);
+  }
+  void give_bound() {
+    give([&](const double* x, double h) { return plugin_.bound(call_.kind, x, h).bound; });
+  }
+  void give_distance() {
+    give([&](const double* x, double /*h*/) {
+      const DistanceAnswer given = plugin_.distance(call_.kind, x);
+      std::copy(given.weights.begin(), given.weights.end(), answers->more.begin());
+      return given.distance;
+    });
   }
   void give_step() {
-    begin(0);
-    const StepAnswer given = plugin_.step(call_.kind, coordinates(plugin_, call_.kind, 0, 1));
-    answers->more = given.y;
-    shared.numbers()[0] = given.clearance;
-    note(shared.calls(), 1, call_.number);
+    give([&](const double* x, double /*h*/) {
+      const StepAnswer given = plugin_.step(call_.kind, x);
+      answers->more = given.y;
+      return given.clearance;
+    });
   }
 
  private:
@@ -206,7 +205,7 @@ void answer(const Detector& detector, const Call& call) {
             [&] { asking.ask_empty(i, i + 1, 1); });
       break;
     case Request::bounds:
-      asking.give_bounds();
+      asking.give_bound();
       break;
     case Request::distances:
       asking.give_distance();
