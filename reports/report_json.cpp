@@ -70,7 +70,7 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
   if (!finding.broken_since.empty()) json["broken_since"] = finding.broken_since;
   if (finding.what == Finding::What::late) json["late_by"] = finding.ratio;
   if (has_time(finding.what)) json["toi"] = finding.time;
-  if (finding.what == Finding::What::committed) json["step"] = numbers_json(finding.step);
+  if (has_step(finding.what)) json["step"] = numbers_json(finding.step);
   return json;
 }
 

@@ -81,6 +81,7 @@ std::string what_was_answered(const Finding& finding) {
     case Finding::What::late:
       return "gave a later time as one before which nothing happens";
     case Finding::What::committed:
+    case Finding::What::unsafe_step:
       throw Error("--as: found a step that is committed, expected another failure: no single time is right");
     default:
       throw Error(fmt::format("--as: found a finding of the kind {}, expected a failure of a subject",

@@ -152,7 +152,7 @@ std::string fault_of(const nearmiss_subject& subject) {
   }
   if (subject.bits != 0 && subject.bits != 24 && subject.bits != 53)
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
-  if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
+  if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_FREE_STEP)
     return "'" + name + "' with an unknown sort of time";
   if (const int layout = NewFields(subject).layout; layout != NEARMISS_ROWS && layout != NEARMISS_ARRAYS)
     return "'" + name + "' with an unknown layout";

@@ -22,12 +22,17 @@ enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< a time near t*
   lower_bound,  ///< a time that is not after t*: nothing happens before it
+  free_step,    ///< likewise, and nothing happens on the way to x0 + time (x1 - x0), rounded to its scalar
 };
 
 /// Names of the sorts of time in reports, in order.
-inline constexpr std::array<std::string_view, 3> time_sort_names{"none", "estimate", "lower-bound"};
+inline constexpr std::array<std::string_view, 4> time_sort_names{"none", "estimate", "lower-bound",
+                                                                 "free-step"};
 
 constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_cast<std::size_t>(sort)]; }
+
+/// Whether times of this sort promise that nothing happens before them.
+constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
 /// A subject's assumptions. It is not judged on queries that violate them. 0 or false: no such assumption.
 struct Contract {

@@ -111,7 +111,7 @@ Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, 
 /// Throws Error if there is no such subject, or if the target cannot test it.
 void expect_subject() {
   const Subject& on_trial = subject();
-  if (target.needs_lower_bounds && on_trial.time_sort() != TimeSort::lower_bound)
+  if (target.needs_lower_bounds && !is_lower_bound(on_trial.time_sort()))
     throw Error(fmt::format("{}: promises no lower bound of the time, expected a subject that does",
                             on_trial.name()));
 }

@@ -18,7 +18,7 @@ struct PromiseTarget {
 /// One target for each promise of the subject: no misses, times that are lower bounds, a distance bound.
 inline std::vector<PromiseTarget> targets_for(const Subject& subject) {
   std::vector<PromiseTarget> targets{{"false_negative", Finding::What::false_negative}};
-  if (subject.time_sort() == TimeSort::lower_bound) targets.push_back({"late", Finding::What::late});
+  if (is_lower_bound(subject.time_sort())) targets.push_back({"late", Finding::What::late});
   if (subject.claims_bound()) targets.push_back({"refuted_bound", Finding::What::refuted_bound});
   return targets;
 }

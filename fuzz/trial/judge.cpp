@@ -46,7 +46,7 @@ TimeDifference difference(double time, EarliestTime& earliest) {
 std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth) const {
   const TimeSort sort = subject_.time_sort();
   if (sort == TimeSort::none || std::isnan(verdict.time)) return std::nullopt;
-  const bool promised = sort == TimeSort::lower_bound;
+  const bool promised = is_lower_bound(sort);
   const auto [magnitude, sign] = difference(verdict.time, truth.time());
   TimeError error{.promised = promised,
                   .late = promised && truth.time().makes_late(verdict.time),
@@ -57,6 +57,7 @@ std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth)
   if (const auto step = committed_step(truth.query(), verdict.time, subject_.rounds())) {
     const StepEnd end = end_of(*step);
     error.committed = end == StepEnd::touches;
+    error.unsafe_step = error.committed && sort == TimeSort::free_step;
     error.touches_at_end = end == StepEnd::touches_at_end;
   }
   return error;
@@ -99,7 +100,7 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 std::optional<Failure> Judge::failure(const Query& query, const Verdict& verdict) const {
   // If the subject reports a collision, only a claimed bound or a promised time can be wrong.
   if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound() &&
-      subject_.time_sort() != TimeSort::lower_bound)
+      !is_lower_bound(subject_.time_sort()))
     return std::nullopt;
   const Query rounded = subject_.rounded(query);
   Truth truth(rounded);

@@ -106,6 +106,7 @@ bool can_be(Finding::What what, const Verdict& verdict) {
     case Finding::What::refuted_bound:
     case Finding::What::late:
     case Finding::What::committed:
+    case Finding::What::unsafe_step:
       return !is_fault && verdict.hit;
     default:
       return is_fault || verdict.hit;
@@ -182,7 +183,7 @@ class FindingShrinker::OfSubject {
     finding.simplest_class = is_simpler ? finding.query_class : classify(simplest);
     if (finding.shrunk == finding.query) return;
     if (has_time(finding.what)) set(finding.time, subject_.decide(finding.shrunk).time);
-    if (finding.what == Finding::What::committed)
+    if (has_step(finding.what))
       finding.step = committed_step(finding.shrunk, finding.time, subject_.rounds()).value_or(Query());
     else if (finding.what == Finding::What::refuted_bound)
       set(finding.bound, subject_.ask_bound(finding.shrunk).bound);

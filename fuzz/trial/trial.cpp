@@ -246,9 +246,9 @@ class Judging {
     const bool counts = failure && !is_only_shown(failure->what);
     versions_.note(s, outcome, counts ? std::optional(result_.findings.size()) : std::nullopt);
     if (!failure) return;
-    const bool is_committed = failure->what == Finding::What::committed;
+    const bool is_of_step = has_step(failure->what);
     keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);
-    if (is_committed)
+    if (is_of_step)
       result_.findings.back().step =
           committed_step(truth.query(), outcome.verdict.time, subjects_[s]->rounds()).value_or(Query());
   }

@@ -2,7 +2,7 @@
 "use strict";
 
 const failureTitles = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer",
-  committed: "step with contact" };
+  committed: "step with contact", "unsafe-step": "unsafe step" };
 
 /** "missed collision of basic" and so on. */
 function failureTitle(finding) {

@@ -61,7 +61,7 @@ function drawEarliness() {
 /** The column of late times, for subjects that promise lower bounds. */
 const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
 /** The column of sound times to which no rounded step leads without contact. */
-const committedSteps = { title: "committed", number: (r) => r.committed, text: (r) => (r.times_promised > 0 ? integer(r.committed) : "–") };
+const committedSteps = { title: "committed", number: (r) => r.committed, text: (r) => (r.times_promised > 0 ? integer(r.committed) : "–"), bad: (r) => r.unsafe_steps > 0 };
 
 function drawTimes() {
   const subjects = new Set(timedRows().map((row) => row.subject));

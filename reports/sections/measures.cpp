@@ -91,6 +91,7 @@ constexpr std::array measures_of_every_sum{
     Measure{"late", of<&Counts::late>, "late", "", late_text},
     Measure{"stuck", of<&Counts::stuck>, "stuck"},
     Measure{"committed", of<&Counts::committed>, "committed", "", committed_text},
+    Measure{"unsafe_steps", of<&Counts::unsafe_steps>},
     Measure{"touch_at_end", of<&Counts::touch_at_end>, "at end"},
     Measure{"median_fp_distance_over_bound", quantile_of<&Counts::ratio_quantile, 50>, "", "refuted_bounds"},
     Measure{"q99_fp_distance_over_bound", quantile_of<&Counts::ratio_quantile, 99>, "", "refuted_bounds"},

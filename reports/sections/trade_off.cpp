@@ -92,8 +92,7 @@ bool has_ladder(const std::vector<TradeOff>& all) {
 
 /// The Pareto front by earliness, among the subjects whose times are lower bounds.
 std::vector<std::string> front_by_earliness(std::vector<TradeOff> all) {
-  std::erase_if(all,
-                [](const TradeOff& each) { return each.timed.counts.time_sort() != TimeSort::lower_bound; });
+  std::erase_if(all, [](const TradeOff& each) { return !is_lower_bound(each.timed.counts.time_sort()); });
   return pareto_front(all, [](const TradeOff& each) { return each.timed.counts.early_quantile(0.99).to; });
 }
 

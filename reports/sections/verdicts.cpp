@@ -232,6 +232,7 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
     parts.push_back(fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions")));
   add_by_class(FailureKind::miss, "MISSED", "missed");
   add_by_class(FailureKind::late, "LATE", "late");
+  add_by_class(FailureKind::unsafe_step, "UNSAFE STEPS", "unsafe");
   add_by_class(FailureKind::beyond_bound, "BEYOND ITS BOUND", "refuting");
   add_by_class(FailureKind::fault, no_answer(counts), "unanswered");
   if (failures.contains(FailureKind::committed))
@@ -249,8 +250,8 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
 /// The text of a verdict on a subject that answered. Its parts are separated by commas, or by semicolons if
 /// one of them is a list of classes, which has semicolons itself.
 std::string answered_text(const Failures& failures, const OfSubject& subject) {
-  const bool has_list = !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::beyond_bound,
-                                              FailureKind::fault})
+  const bool has_list = !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::unsafe_step,
+                                              FailureKind::beyond_bound, FailureKind::fault})
                              .empty();
   std::string text = fmt::format("{}", fmt::join(verdict_parts(failures, subject), has_list ? "; " : ", "));
   if (failures.contains(FailureKind::contract))

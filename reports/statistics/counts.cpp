@@ -73,6 +73,7 @@ void Counts::add_time(const TimeError& time, const Query& query,
   late += time.late ? 1 : 0;
   stuck += time.stuck ? 1 : 0;
   committed += time.committed ? 1 : 0;
+  unsafe_steps += time.unsafe_step ? 1 : 0;
   touch_at_end += time.touches_at_end ? 1 : 0;
   if (time.after > 0) {
     after.add(time.after);
@@ -100,7 +101,7 @@ bool Counts::is_possible() const {
          false_negatives <= collisions && false_positives <= positives && refuted_bounds <= false_positives &&
          measured_by_wang <= false_positives && times_given <= collisions && times_promised <= times_given &&
          late <= times_promised && stuck <= times_given && committed <= times_promised - late &&
-         touch_at_end <= times_promised - late - committed;
+         unsafe_steps <= committed && touch_at_end <= times_promised - late - committed;
 }
 
 }  // namespace nearmiss

@@ -51,6 +51,7 @@ struct TimeError {
   /// The time is promised and sound, but the step to it, rounded (fuzz/trial/committed.hpp), has contact, or a
   /// distance below h, before its end.
   bool committed = false;
+  bool unsafe_step = false;     ///< `committed`, although the subject promises that this step is free
   bool touches_at_end = false;  ///< as `committed`, but there is contact only at the end of that step
 
   bool operator==(const TimeError&) const = default;
@@ -94,6 +95,7 @@ struct Counts {
   std::uint64_t stuck = 0;                          ///< given times that are 0 although t* is not
   std::uint64_t committed = 0;                      ///< TimeError::committed
   QueryClassCounts committed_by_class{};            ///< `committed` by the class of the query
+  std::uint64_t unsafe_steps = 0;                   ///< TimeError::unsafe_step
   std::uint64_t touch_at_end = 0;                   ///< TimeError::touches_at_end
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
   QueryClassCounts faults_by_class{};  ///< faults that are a FailureKind::fault, by the class of the query
@@ -127,6 +129,7 @@ struct Counts {
         Counter{"late", &Counts::late},
         Counter{"stuck", &Counts::stuck},
         Counter{"committed", &Counts::committed},
+        Counter{"unsafe_steps", &Counts::unsafe_steps},
         Counter{"touch_at_end", &Counts::touch_at_end},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
         Counter{"times", &Counts::times},

@@ -28,7 +28,7 @@ std::uint64_t none(const Counts& /*counts*/) { return 0; }
 std::uint64_t queries(const Counts& counts) { return counts.queries; }
 
 // In the order of FailureKind.
-constexpr std::array<FailureInfo, 11> infos{{
+constexpr std::array<FailureInfo, 12> infos{{
     {FailureKind::oracle_disagreement, "oracle-disagreement", false, "", "", "", none, none},
     {FailureKind::wrong_truth, "wrong-truth", false, "", "", "", none, none},
     {FailureKind::miss, "miss", false, "missed", "collision", "collisions",
@@ -37,6 +37,9 @@ constexpr std::array<FailureInfo, 11> infos{{
     {FailureKind::late, "late", false, "was late in", "time", "times",
      [](const Counts& counts) { return counts.late; },
      [](const Counts& counts) { return counts.times_promised; }, &Counts::late_by_class},
+    {FailureKind::unsafe_step, "unsafe-step", false, "promised a free step that has contact in", "time",
+     "times", [](const Counts& counts) { return counts.unsafe_steps; },
+     [](const Counts& counts) { return counts.times_promised; }, &Counts::committed_by_class},
     {FailureKind::beyond_bound, "beyond-bound", false, "exceeded its bound in", "false positive",
      "false positives", [](const Counts& counts) { return counts.refuted_bounds; },
      [](const Counts& counts) { return counts.false_positives; }, &Counts::refuted_by_class},
@@ -44,7 +47,7 @@ constexpr std::array<FailureInfo, 11> infos{{
      &Counts::faults_by_class},
     {FailureKind::unjudged, "unjudged", false, "was asked nothing", "", "", unjudged, queries},
     {FailureKind::committed, "committed", true, "committed a step with contact in", "time", "times",
-     [](const Counts& counts) { return counts.committed; },
+     [](const Counts& counts) { return counts.committed - counts.unsafe_steps; },
      [](const Counts& counts) { return counts.times_promised; }, &Counts::committed_by_class},
     {FailureKind::unknown, "unknown", true, "could not tell in", "query", "queries",
      [](const Counts& counts) { return counts.unknown(); }, queries},
@@ -97,6 +100,7 @@ std::optional<FailureKind> failure_of(const Outcome& outcome) {
   }
   if (outcome.collision && !outcome.verdict.hit) return FailureKind::miss;
   if (outcome.time && outcome.time->late) return FailureKind::late;
+  if (outcome.time && outcome.time->unsafe_step) return FailureKind::unsafe_step;
   if (outcome.bound_refuted) return FailureKind::beyond_bound;
   if (outcome.time && outcome.time->committed) return FailureKind::committed;
   if (outcome.verdict.hit && outcome.verdict.stage == Stage::unknown) return FailureKind::unknown;
@@ -129,6 +133,8 @@ FailureKind failure_of(const Signature& signature) {
       return FailureKind::late;
     case Finding::What::committed:
       return FailureKind::committed;
+    case Finding::What::unsafe_step:
+      return FailureKind::unsafe_step;
     case Finding::What::fault:
       break;
   }
@@ -147,6 +153,8 @@ std::optional<Finding::What> finding_of(FailureKind kind) {
       return Finding::What::late;
     case FailureKind::committed:
       return Finding::What::committed;
+    case FailureKind::unsafe_step:
+      return Finding::What::unsafe_step;
     case FailureKind::beyond_bound:
       return Finding::What::refuted_bound;
     case FailureKind::fault:

@@ -20,13 +20,14 @@ enum class FailureKind : std::uint8_t {
   wrong_truth,          ///< the oracle disagrees with a recorded truth
   miss,                 ///< a collision was not reported
   late,                 ///< contact, or a distance below h, before a promised lower bound
-  beyond_bound,         ///< a false positive is farther away than claimed
-  fault,                ///< there is no answer, for a reason other than time or a contract
-  unjudged,             ///< the subject was not asked any query, or did not answer any in time
-  committed,            ///< the step to a promised lower bound, rounded, has contact before its end
-  unknown,              ///< the subject could not tell
-  contract,             ///< a query was not asked, because it breaks the subject's contract
-  slow,                 ///< a query took longer than the time limit, or was not asked after several that did
+  unsafe_step,   ///< likewise in the step to a sound one, rounded, although that is promised to be free
+  beyond_bound,  ///< a false positive is farther away than claimed
+  fault,         ///< there is no answer, for a reason other than time or a contract
+  unjudged,      ///< the subject was not asked any query, or did not answer any in time
+  committed,     ///< contact in the step to a sound lower bound, rounded, of which nothing is promised
+  unknown,       ///< the subject could not tell
+  contract,      ///< a query was not asked, because it breaks the subject's contract
+  slow,          ///< a query took longer than the time limit, or was not asked after several that did
 };
 
 /// A row of the table of failures.

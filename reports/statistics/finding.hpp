@@ -23,8 +23,9 @@ struct Finding {
     oracle_disagreement,
     truth_mismatch,
     fault,
-    late,      ///< a time that is promised to be a lower bound is too late
-    committed  ///< such a time is sound, but the step to it, rounded, has contact before its end
+    late,        ///< a time that is promised to be a lower bound is too late
+    committed,   ///< such a time is sound, but the step to it, rounded, has contact before its end
+    unsafe_step  ///< likewise, although the subject promises that this step is free
   };
 
   What what{};
@@ -38,7 +39,7 @@ struct Finding {
   /// itself.
   Query shrunk = {};
   std::uint64_t place = 0;  ///< position of its case in the order of the whole campaign
-  double time = 0;          ///< the subject's time for the shrunk query, if it is late or committed
+  double time = 0;          ///< the subject's time for the shrunk query, if it has_time()
   bool is_shrunk = false;   ///< whether shrinking is finished
   QueryClass query_class = QueryClass::unclassified;
   Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
@@ -46,7 +47,7 @@ struct Finding {
   /// The earlier version of the subject's CCD, if that version does not fail on `query`; "" otherwise.
   std::string broken_since = {};
   double bound = 0;  ///< the bound that the subject claims for the shrunk query, if it is refuted
-  Query step = {};   ///< the step that is committed for the shrunk query, if it is
+  Query step = {};   ///< the step to that time, if it has_step()
   /// The proof of what the oracle says against the subject about the shrunk query, as a line of JSON
   /// (tools/certificates/README.md); "" if there is none.
   std::string certificate = {};
@@ -55,15 +56,19 @@ struct Finding {
 };
 
 /// Names of the sorts of failure in files and reports, in order.
-inline constexpr std::array<std::string_view, 7> what_names{
-    "false-negative", "refuted-bound", "oracle-disagreement", "truth-mismatch", "fault", "late", "committed"};
+inline constexpr std::array<std::string_view, 8> what_names{
+    "false-negative", "refuted-bound", "oracle-disagreement", "truth-mismatch",
+    "fault",          "late",          "committed",           "unsafe-step"};
 
 constexpr std::string_view name(Finding::What what) { return what_names[static_cast<std::size_t>(what)]; }
 
-/// Whether a finding of this sort has the subject's time.
-constexpr bool has_time(Finding::What what) {
-  return what == Finding::What::late || what == Finding::What::committed;
+/// Whether a finding of this sort is about the step to the subject's time.
+constexpr bool has_step(Finding::What what) {
+  return what == Finding::What::committed || what == Finding::What::unsafe_step;
 }
+
+/// Whether a finding of this sort has the subject's time.
+constexpr bool has_time(Finding::What what) { return what == Finding::What::late || has_step(what); }
 
 /// Whether a finding of this sort is only shown: it breaks no promise, so it is no failure of a version, no new way
 /// to fail since a baseline, and nothing that a test of a user should fail for.

@@ -19,7 +19,7 @@ namespace nearmiss {
 
 /// The version of the tables and of their contents; every change raises it. Only stores of this version are
 /// read.
-inline constexpr int store_version = 24;
+inline constexpr int store_version = 25;
 
 /// Thrown if a store is not as it was written. The message says which part is damaged.
 class Damage : public Error {

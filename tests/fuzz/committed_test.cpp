@@ -63,7 +63,7 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
 }
 
 /// A subject that reports every collision, at the largest double or float that is not after t*, less `early`.
-std::unique_ptr<Subject> sharp(bool in_float, double early) {
+std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;
     if (in_float)
@@ -77,20 +77,22 @@ std::unique_ptr<Subject> sharp(bool in_float, double early) {
       time = static_cast<float>(time);
     return Verdict{.hit = true, .stage = Stage::exact, .time = time};
   };
-  return std::make_unique<testing::MadeUpSubject>(
-      "sharp", decide, testing::Claims{.time_sort = TimeSort::lower_bound, .rounds = in_float});
+  return std::make_unique<testing::MadeUpSubject>("sharp", decide,
+                                                  testing::Claims{.time_sort = sort, .rounds = in_float});
 }
 
 /// The counters of a campaign with such a subject over a family.
-Counts counts_of(bool in_float, double early, const std::string& family) {
-  const Subjects subjects = testing::one(sharp(in_float, early));
+Counts counts_of(bool in_float, double early, const std::string& family,
+                 TimeSort sort = TimeSort::lower_bound) {
+  const bool promises = sort == TimeSort::free_step;
+  const Subjects subjects = testing::one(sharp(in_float, early, sort));
   std::vector<Query> queries;
   for (std::uint64_t i = 0; i < 2000; i += 2) queries.push_back(make_query(find_family(family), 1, i));
   const Batch batch = testing::batch_of(family, std::move(queries));
   const TrialResult result = hold_trial(subjects, batch, {}, {});
   std::uint64_t kept = 0;
   for (const Finding& each : result.findings) {
-    EXPECT_EQ(each.what, Finding::What::committed);
+    EXPECT_EQ(each.what, promises ? Finding::What::unsafe_step : Finding::What::committed);
     EXPECT_EQ(end_of(each.step), StepEnd::touches);
     ++kept;
     if (kept > 20) continue;
@@ -101,14 +103,20 @@ Counts counts_of(bool in_float, double early, const std::string& family) {
   const Counts counts = result.statistics.counts.begin()->second;
   EXPECT_EQ(kept, counts.committed);
   EXPECT_EQ(counts.late, 0);
-  EXPECT_EQ(has_failed(result.statistics), false);
-  EXPECT_EQ(has_failed(result.statistics, {FailureKind::committed}), counts.committed > 0);
+  EXPECT_EQ(counts.unsafe_steps, promises ? counts.committed : 0);
+  EXPECT_EQ(has_failed(result.statistics), counts.unsafe_steps > 0);
+  EXPECT_EQ(has_failed(result.statistics, {FailureKind::committed}), counts.committed > counts.unsafe_steps);
   return counts;
 }
 
 TEST(Committed, SoundTimesThatLeaveNoRoomForRounding) {
   EXPECT_GT(counts_of(false, 0, "uniform").committed, 5);
   EXPECT_GT(counts_of(true, 0, "distant@10").committed, 50);
+}
+
+TEST(Committed, AFailureOfASubjectThatPromisesFreeSteps) {
+  EXPECT_GT(counts_of(true, 0, "distant@10", TimeSort::free_step).unsafe_steps, 50);
+  EXPECT_EQ(counts_of(false, 0.01, "uniform", TimeSort::free_step).unsafe_steps, 0);
 }
 
 TEST(Committed, NoneIfTheStepEndsWellBeforeContact) {

@@ -330,7 +330,7 @@ import nearmiss
         ):
             with self.assertRaisesRegex(ValueError, message):
                 nearmiss.trial(*arguments[:4], **dict(zip(['shrunk'], arguments[4:])))
-        with self.assertRaisesRegex(ValueError, 'expected one of none, estimate, lower-bound'):
+        with self.assertRaisesRegex(ValueError, 'one of none, estimate, lower-bound, free-step'):
             nearmiss.Subject(never, time='exact')
         with self.assertRaisesRegex(
             ValueError, r"kinds is \(\), expected some of 'vt', 'ee', 'vv' and 've'"

@@ -41,7 +41,7 @@ def _expected(found, proven):
     if found['what'] == 'late':
         to = proven.to if proven.to < found['toi'] else None
         return Statement(found['kind'], x, h, 'meets', 0, to, False, h > 0)
-    if found['what'] == 'committed':
+    if found['what'] in ('committed', 'unsafe-step'):
         step, to = tuple(found['step'][:count]), proven.to if proven.to < 1 else None
         return Statement(found['kind'], step, h, 'meets', 0, to, False, h > 0)
     if found['what'] == 'false-negative':

@@ -99,6 +99,7 @@ def measures(found, tally):
         'late': times.late,
         'stuck': times.stuck,
         'committed': times.committed,
+        'unsafe_steps': times.unsafe_steps,
         'touch_at_end': times.touch_at_end,
         'time_sort': times.sort,
         'max_early': Within(*times.early.most()),
@@ -146,7 +147,8 @@ def _check_signatures(comparison, where, found, answers):
         for failure, ends in (
             ('false-negative', [tally.false_negatives] * 2),
             ('late', [tally.times.late] * 2),
-            ('committed', [tally.times.committed] * 2),
+            ('committed', [tally.times.committed - tally.times.unsafe_steps] * 2),
+            ('unsafe-step', [tally.times.unsafe_steps] * 2),
             ('refuted-bound', tally.refuted()),
         ):
             own = sums.pop((failure, subject), 0)

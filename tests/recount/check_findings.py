@@ -38,6 +38,7 @@ def _check_failure(comparison, where, found, asked, place):
         'refuted-bound': asked.claims and asked.ratios.hi[place] > 1,
         'late': asked.impact.late[place],
         'committed': asked.impact.committed[place],
+        'unsafe-step': asked.impact.unsafe_step[place],
     }
     comparison.same('provenances', f'{where} {what}', bool(is_so.get(what)), True)
     family = found['provenance'].rsplit(':', 2)[0]

@@ -17,7 +17,12 @@ SORTS = {  # the sort of time that each built-in subject gives, with any scalar
     'exact': 'lower-bound',
     'exact-scalar': 'lower-bound',
 }
-WORDS = {'an estimate of the time': 'estimate', 'a lower bound of the time': 'lower-bound'}
+WORDS = {
+    'an estimate of the time': 'estimate',
+    'a lower bound of the time': 'lower-bound',
+    'a time to which the step is free': 'free-step',
+}
+PROMISED = ('lower-bound', 'free-step')  # nothing happens before such a time
 ROUNDING = 1e-15  # more than the relative rounding error of one operation
 SPLIT = {'vt': 1, 'ee': 2, 'vv': 1, 've': 1}  # the first vertex of the second primitive
 
@@ -50,7 +55,12 @@ class Impact:
     @property
     def late(self):
         """Whether the time is after t*, although it was promised as a lower bound of t*."""
-        return ~np.isnan(self.after.lo) & (self.sort == 'lower-bound')
+        return ~np.isnan(self.after.lo) & (self.sort in PROMISED)
+
+    @property
+    def unsafe_step(self):
+        """Whether the step is committed, although it was promised to be free."""
+        return self.committed & (self.sort == 'free-step')
 
 
 def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
@@ -73,7 +83,7 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
     )
     most[early.hi[moving] == 0] = 0
     travelled.lo[moving], travelled.hi[moving] = early.lo[moving] * speed.lo, most * speed.hi
-    sound = given & ~is_after & (time != 0) & (sort == 'lower-bound')
+    sound = given & ~is_after & (time != 0) & (sort in PROMISED)
     committed, at_end = _committed(times, judged, time, np.flatnonzero(sound), rounds)
     return Impact(sort, time, early, after, travelled, stuck, committed, at_end)
 
@@ -159,6 +169,7 @@ class Times:
     late: int
     stuck: int
     committed: int
+    unsafe_steps: int
     touch_at_end: int
     early: Enclosed
     after: Enclosed
@@ -168,17 +179,18 @@ class Times:
     def of(cls, impacts, own):
         """Adds up the times of some queries of each kind; `own` selects them."""
         of_kinds = list(zip(impacts, own))
-        given, late, stuck, committed, at_end = (
+        given, late, stuck, *of_steps = (
             sum(int(getattr(each, name)[some].sum()) for each, some in of_kinds)
-            for name in ('given', 'late', 'stuck', 'committed', 'touches_at_end')
+            for name in ('given', 'late', 'stuck', 'committed', 'unsafe_step', 'touches_at_end')
         )
         sort = impacts[0].sort if given else 'none'
         early, after, travelled = (
             _without_gaps(Enclosed.joined([getattr(each, name)[some] for each, some in of_kinds]))
             for name in ('early', 'after', 'travelled')
         )
-        promised = given if sort == 'lower-bound' else 0
-        return cls(sort, given, promised, late, stuck, committed, at_end, early, after, travelled)
+        promised = given if sort in PROMISED else 0
+        sort = 'lower-bound' if promised else sort
+        return cls(sort, given, promised, late, stuck, *of_steps, early, after, travelled)
 
     @property
     def errors(self):

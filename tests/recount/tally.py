@@ -144,10 +144,11 @@ def failures_of(counts, faults):
     found = {
         'miss': counts['false_negatives'],
         'late': counts['late'],
+        'unsafe-step': counts['unsafe_steps'],
         'beyond-bound': counts['refuted_bounds'],
         'fault': sum(faults.values()) - slow - beyond,
         'unjudged': counts['queries'] == slow + beyond,
-        'committed': counts['committed'],
+        'committed': counts['committed'] - counts['unsafe_steps'],
         'unknown': counts['unknown'],
         'contract': beyond,
         'slow': slow,

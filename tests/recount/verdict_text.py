@@ -7,6 +7,13 @@ from tally import CLASSES
 # the query, the verb, and the noun.
 MISS = 'false_negatives', 'collisions', 'false_negatives_by_class', 'missed', 'collision'
 LATE = 'late', 'times_promised', 'late_by_class', 'was late in', 'time'
+UNSAFE = (
+    'unsafe_steps',
+    'times_promised',
+    'committed_by_class',
+    'promised a free step that has contact in',
+    'time',
+)
 BEYOND = (
     'refuted_bounds',
     'false_positives',
@@ -14,6 +21,7 @@ BEYOND = (
     'exceeded its bound in',
     'false positive',
 )
+FAILURES = MISS, LATE, UNSAFE, BEYOND
 
 
 def counted(count, one, many=None):
@@ -59,12 +67,13 @@ def verdict(row, kinds):
     for failure, title, name in (
         (MISS, 'MISSED', 'missed'),
         (LATE, 'LATE', 'late'),
+        (UNSAFE, 'UNSAFE STEPS', 'unsafe'),
         (BEYOND, 'BEYOND ITS BOUND', 'refuting'),
     ):
         if counts[failure[0]]:
             parts.append(f'{title} {_class_by_class(kinds, failure)}')
             parts += _other_class(kinds, failure, name)
-    if counts['committed']:
+    if counts['committed'] > counts['unsafe_steps']:
         sound = counts['times_promised'] - counts['late']
         parts.append(
             f'{counts["committed"]:,} of {sound:,} sound times lead to a step that touches, once rounded'
@@ -74,7 +83,7 @@ def verdict(row, kinds):
         parts.append(f'UNKNOWN in {counts["unknown"]:,} of {of}')
     unknown = sum(of['false_positives_by_stage'].get('unknown', 0) for of in kinds.values())
     parts.append(_false_positives(counts, unknown))
-    has_list = any(counts[failure[0]] for failure in (MISS, LATE, BEYOND))
+    has_list = any(counts[failure[0]] for failure in FAILURES)
     return ('; ' if has_list else ', ').join(parts)
 
 
@@ -195,8 +204,9 @@ def _said(kinds, failure, name):
 def _failures_said(kinds):
     """For each failure of a subject, the gravest first: the least exotic class in which it was
     seen, and the words for it."""
-    for failure in (MISS, LATE, BEYOND):
-        if name := _class_of_queries(kinds, failure):
+    for failure in FAILURES:
+        if any(of[failure[0]] for of in kinds.values()):
+            name = _class_of_queries(kinds, failure)
             yield name, _said(kinds, failure, name)
 
 

@@ -43,8 +43,8 @@ std::string further_questions(const DetectorInfo& info) {
 /// Prints some lines about a plug-in.
 void print(const Subject& subject) {
   const DetectorInfo& info = *plugin_info(subject);
-  constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
-                                             "a lower bound of the time"};
+  constexpr std::array<const char*, 4> times{"no time", "an estimate of the time",
+                                             "a lower bound of the time", "a time to which the step is free"};
   fmt::print("{:<23} {}\n", subject.name(), info.about);
   const std::string kinds = info.kinds == 0 ? "decides nothing" : names_of_kinds(info.kinds, " and ");
   fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}{}batches of {}\n", "",

@@ -84,7 +84,7 @@ DetectorInfo info_of(const PluginDescription& about, const std::string& options)
   info.kinds = about.kinds & bits_of_all_kinds;
   info.is_narrow = about.is_narrow != 0;
   info.time_sort =
-      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
+      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::free_step)));
   info.separation_kinds = about.separation_kinds & info.kinds;
   info.distance_kinds = about.distance_kinds & bits_of_all_kinds;
   info.step_kinds = about.step_kinds & bits_of_all_kinds;

@@ -96,7 +96,7 @@ void read_line(std::string_view key, const std::string& value, ProgramDescriptio
   } else if (key == "bits") {
     subject.bits = static_cast<int>(whole_number(value));
   } else if (key == "time") {
-    subject.time_sort = place(value, {"none", "estimate", "lower-bound"}, NEARMISS_NO_TIME);
+    subject.time_sort = place(value, {"none", "estimate", "lower-bound", "free-step"}, NEARMISS_NO_TIME);
   } else if (key == "separation") {
     if (value == "yes" || value == "no")
       subject.takes_separation = yes_or_no(value);

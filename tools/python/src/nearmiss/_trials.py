@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nearmiss._queries import KindLike, _expect_no_mask, kind_of
 
-_TIME_SORTS = ('none', 'estimate', 'lower-bound')
+_TIME_SORTS = ('none', 'estimate', 'lower-bound', 'free-step')
 
 CCD = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
 
@@ -28,14 +28,15 @@ class Subject:
     name:     its name in results; by default that of the function
     time:     if it is not 'none', the function returns (bools, times) instead, with the time of each
               collision in [0, 1]: 'estimate' for a time near the earliest one, 'lower-bound' for a time that
-              is never after the earliest one
+              is never after the earliest one, 'free-step' if also nothing happens on the way to x0 + time
+              (x1 - x0), rounded
     kinds:    the kinds of queries that it is asked
     takes_separation: whether it is asked queries with a separation h > 0
     """
 
     function: CCD
     name: str = ''
-    time: Literal['none', 'estimate', 'lower-bound'] = 'none'
+    time: Literal['none', 'estimate', 'lower-bound', 'free-step'] = 'none'
     kinds: Union[KindLike, Sequence[KindLike]] = ('vt', 'ee')
     takes_separation: bool = False
 
