@@ -130,6 +130,9 @@ struct Answer {
   /// The answer of a function that returns whether there is a collision.
   static Answer of(bool collides) { return {collides ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION}; }
   static Answer of(bool collides, double time) { return {of(collides).value, time}; }
+
+  /// Whether a simulation must treat it as a collision.
+  explicit operator bool() const { return value != NEARMISS_NO_COLLISION; }
 };
 
 /// The vertices of a query as a tuple: at t = 0, then at t = 1.
@@ -434,11 +437,10 @@ const auto& described() {
   return std::get<i>(all);
 }
 
-/// The function decide() of the interface.
-template <class Described, std::size_t i>
-void decide_each(void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
-                 double* toi) {
-  const auto& detector = described<Described, i>();
+/// Answers n queries of a kind with the function of a detector that decides it.
+template <class Detector>
+void decide_each(const Detector& detector, void* state, int kind, std::size_t n, const double* x,
+                 const double* h, int* answer, double* toi) {
   detector.for_each_part([&](const auto& part) {
     if constexpr (decides<std::decay_t<decltype(part)>>) {
       if (part.kind != kind) return;
@@ -481,9 +483,9 @@ double step_of(void* state, int kind, const double* x, double* y) {
   return clearance;
 }
 
-template <class Described, std::size_t i>
-nearmiss_subject subject_of() {
-  const auto& detector = described<Described, i>();
+/// The description of a detector, without its functions.
+template <class Detector>
+nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
   int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that a function gives
   detector.for_each_part([&](const auto& part) {
@@ -503,7 +505,29 @@ nearmiss_subject subject_of() {
     subject.takes_separation = with_separation == subject.kinds ? 1 : 0;
     if (subject.takes_separation == 0) subject.separation_kinds = with_separation;
   }
-  subject.decide = decide_each<Described, i>;
+  return subject;
+}
+
+/// The description of a detector without options, whose function decide() gets a pointer to it.
+template <class... Parts>
+nearmiss_subject described_by_itself(const Detector<NoOptions, Parts...>& detector) {
+  using Its = Detector<NoOptions, Parts...>;
+  nearmiss_subject subject = described_by(detector);
+  subject.distance_kinds = subject.step_kinds = 0;
+  subject.decide = [](void* itself, int kind, std::size_t n, const double* x, const double* h, int* answer,
+                      double* toi) {
+    decide_each(*static_cast<const Its*>(itself), nullptr, kind, n, x, h, answer, toi);
+  };
+  return subject;
+}
+
+template <class Described, std::size_t i>
+nearmiss_subject subject_of() {
+  nearmiss_subject subject = described_by(described<Described, i>());
+  subject.decide = [](void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
+                      double* toi) {
+    decide_each(described<Described, i>(), state, kind, n, x, h, answer, toi);
+  };
   if (subject.distance_kinds != 0) subject.distance = distance_of<Described, i>;
   if (subject.step_kinds != 0) subject.step = step_of<Described, i>;
   return subject;

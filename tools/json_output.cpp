@@ -19,18 +19,18 @@ void JsonOutput::add_to(CLI::App& command, const std::string& description) {
       ->type_name("FILE|-");
 }
 
-void JsonOutput::expect_writable() const {
-  if (!is_wanted() || is_stdout()) return;
-  const auto folder = file_.parent_path();
+void expect_writable(const std::filesystem::path& file, std::string_view option,
+                     const std::filesystem::path& db) {
+  const auto folder = file.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw Error(fmt::format("{}: no folder {} to write it in", file_.string(), folder.string()));
-  expect_replaceable(file_);
+    throw Error(fmt::format("{}: no folder {} to write it in", file.string(), folder.string()));
+  expect_replaceable(file);
+  if (!db.empty() && true_path(file) == true_path(db))
+    throw Error(fmt::format("{}: found the same file for {} and --db, expected two", db.string(), option));
 }
 
-void JsonOutput::expect_other_file(const std::filesystem::path& file) const {
-  if (file_.empty() || file.empty() || is_stdout()) return;
-  if (true_path(file_) == true_path(file))
-    throw Error(fmt::format("{}: found the same file for --json and --db, expected two", file.string()));
+void JsonOutput::expect_writable(const std::filesystem::path& db) const {
+  if (is_wanted() && !is_stdout()) tools::expect_writable(file_, "--json", db);
 }
 
 void JsonOutput::write(const nlohmann::ordered_json& json, int indent) const {

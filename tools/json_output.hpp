@@ -6,8 +6,14 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 namespace nearmiss::tools {
+
+/// Throws Error if it is already clear that a file, which is an option's value, cannot be written, or if it would
+/// replace the file `db`.
+void expect_writable(const std::filesystem::path& file, std::string_view option,
+                     const std::filesystem::path& db = {});
 
 /// Where a command writes its results as JSON: to a file, to standard output (-), or nowhere. With --json -,
 /// standard output gets the JSON and nothing else; the text goes to standard error.
@@ -22,11 +28,8 @@ class JsonOutput {
   /// Where the command prints its text.
   [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
 
-  /// Throws Error if it is already clear that the file cannot be written.
-  void expect_writable() const;
-
-  /// Throws Error if the JSON would replace this file.
-  void expect_other_file(const std::filesystem::path& file) const;
+  /// Throws Error if it is already clear that the file cannot be written, or if it would replace the file `db`.
+  void expect_writable(const std::filesystem::path& db = {}) const;
 
   /// Writes the JSON if it is wanted, indented by `indent` blanks. A file is written whole or not at all.
   /// Throws Error if it cannot be written.

@@ -11,11 +11,14 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <istream>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "ccd/query/arithmetic.hpp"
@@ -137,6 +140,29 @@ void print_continuation(const CLI::App& command, int argc, char** argv) {
   std::fputs(("nearmiss: interrupted; to continue:" + again + "\n").c_str(), stderr);
 }
 
+/// A TOML file of options: those outside of tables belong to the subcommand that runs.
+class ConfigurationFile final : public CLI::ConfigTOML {
+ public:
+  explicit ConfigurationFile(std::string command) : command_(std::move(command)) {}
+
+  [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    std::vector<CLI::ConfigItem> read = CLI::ConfigTOML::from_config(input);
+    for (CLI::ConfigItem& item : read)
+      if (item.parents.empty()) item.parents = {command_};
+    return read;
+  }
+
+ private:
+  std::string command_;
+};
+
+/// Lets `nearmiss fuzz --config FILE` read its options from a file.
+void add_configuration(CLI::App& app) {
+  app.set_config("--config", "", "Read options of fuzz from a TOML file")->group("");
+  app.config_formatter(std::make_shared<ConfigurationFile>("fuzz"));
+  app.get_subcommand("fuzz")->fallthrough();
+}
+
 int run(int argc, char** argv) {
   using namespace nearmiss::tools;
   CLI::App app(about, "nearmiss");
@@ -151,6 +177,7 @@ int run(int argc, char** argv) {
                          add_audit,   add_power,    add_tightness, add_bench,     add_family, add_oracle,
                          add_certify, add_verdict,  add_subjects,  add_completion})
     add(app, exit_code);
+  add_configuration(app);
 
   expect_values(argc, argv);
   choose_lanes(std::getenv("NEARMISS_LANES"));

@@ -83,6 +83,7 @@ void RecordOptions::add_to(CLI::App& command) {
       .add_option("--db", db, "Save statistics and findings in this new store, for nearmiss report and merge")
       ->type_name("FILE");
   fail_on.add_to(command);
+  ci.add_to(command);
   command.add_flag("-q,--quiet", quiet, "Show no progress");
 }
 
@@ -97,8 +98,8 @@ RunInfo run_info(const std::string& command) {
 Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
   stop_on_signals();
-  options_.json.expect_writable();
-  options_.json.expect_other_file(options_.db);
+  options_.json.expect_writable(options_.db);
+  options_.ci.expect_writable(options_.db);
   shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   shard_.environment.merge(environment());
   if (options_.resume && Store::exists(options_.db))
@@ -226,6 +227,7 @@ int Record::finish(bool interrupted, bool complete) {
   }
   std::fflush(text);  // so that the text is shown even if the file cannot be written
   options_.json.write(summary_json(campaign));
+  options_.ci.write(campaign, options_.fail_on.failures(), text);
   if (interrupted) return exit_interrupted;
   return options_.fail_on.exit_code(statistics_);
 }

@@ -12,16 +12,18 @@
 #include "fuzz/trial/trial.hpp"
 #include "reports/campaign/campaign.hpp"
 #include "reports/store/store.hpp"
+#include "tools/ci_output.hpp"
 #include "tools/fail_on.hpp"
 #include "tools/json_output.hpp"
 
 namespace nearmiss::tools {
 
-/// --json FILE|-, --db FILE, --fail-on A,B and --quiet
+/// --json FILE|-, --db FILE, --fail-on A,B, --junit FILE, --github and --quiet
 struct RecordOptions {
   JsonOutput json = {};
   std::filesystem::path db = {};
   FailOnOption fail_on = {};
+  CiOutput ci = {};
   bool quiet = false;       ///< shows no progress
   bool summary = true;      ///< prints the table of subjects
   bool resume = false;      ///< continues the run in `db`, if the file exists

@@ -209,22 +209,17 @@ Verdict verdict_of(const DetectorInfo& info, int answer, double time) {
   }
 }
 
-namespace {
-
-/// Throws Error unless a detector follows nearmiss_subject.h and its name differs from the others.
-void expect_usable(const std::string& path, const nearmiss_subject& subject,
+void expect_usable(const std::string& where, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names) {
   if (subject.interface_version < oldest_interface || subject.interface_version > NEARMISS_INTERFACE)
-    throw Error(path + ": found version " + std::to_string(subject.interface_version) +
+    throw Error(where + ": found version " + std::to_string(subject.interface_version) +
                 " of the plug-in interface, expected " + std::to_string(oldest_interface) + " to " +
                 std::to_string(NEARMISS_INTERFACE));
   std::string fault = fault_of(subject);
   if (fault.empty() && std::find(other_names.begin(), other_names.end(), subject.name) != other_names.end())
     fault = "two detectors with the name '" + std::string(subject.name) + "'";
-  if (!fault.empty()) throw Error(path + ": found " + fault + ", expected what ccd/nearmiss_subject.h says");
+  if (!fault.empty()) throw Error(where + ": found " + fault + ", expected what ccd/nearmiss_subject.h says");
 }
-
-}  // namespace
 
 void PluginLibrary::Unload::operator()(void* handle) const { dlclose(handle); }
 
@@ -276,8 +271,11 @@ Detector::Detector(const nearmiss_subject& subject, const std::string& options)
     throw Error(std::string(subject.name) + ": refuses the options '" + options + "': " + message.data());
 }
 
+Detector::Detector(const nearmiss_subject& subject, void* state)
+    : subject_(subject), info_(info_of(subject, "")), state_(state), closes_(false) {}
+
 Detector::~Detector() {
-  if (state_ != nullptr && subject_.close != nullptr) subject_.close(state_);
+  if (closes_ && state_ != nullptr && subject_.close != nullptr) subject_.close(state_);
   make_arithmetic_plain();
 }
 

@@ -40,6 +40,10 @@ inline constexpr std::size_t largest_batch = 10'000'000;
 
 /// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
+/// Throws an Error that begins with `where` if a detector does not follow nearmiss_subject.h, of a version that is
+/// known, or has one of the other names.
+void expect_usable(const std::string& where, const nearmiss_subject& subject,
+                   const std::vector<std::string>& other_names = {});
 std::string fault_of_name(std::string_view name);
 std::string fault_of(const Contract& contract);
 
@@ -86,6 +90,8 @@ class Detector {
  public:
   /// Opens the detector. The subject must outlive it. Throws Error if the subject refuses the options.
   Detector(const nearmiss_subject& subject, const std::string& options);
+  /// A detector that is open, and that somebody else closes: `state` is what its functions get.
+  Detector(const nearmiss_subject& subject, void* state);
   Detector(const Detector&) = delete;
   Detector& operator=(const Detector&) = delete;
   ~Detector();
@@ -113,6 +119,7 @@ class Detector {
   const nearmiss_subject& subject_;
   DetectorInfo info_;
   void* state_ = nullptr;
+  bool closes_ = true;
 };
 
 }  // namespace nearmiss

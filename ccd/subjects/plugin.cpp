@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include "ccd/query/error.hpp"
 
@@ -54,25 +55,44 @@ PluginName PluginName::parse(std::string_view name) {
   return parsed;
 }
 
-Plugin::Plugin(std::string_view name) {
-  const PluginName parsed = PluginName::parse(name);
-  library_ = std::make_unique<PluginLibrary>(parsed.path);
-  subject_ = &library_->subject(parsed.subject);
-  options_ = parsed.options;
-  idle_.push_back(std::make_unique<Detector>(*subject_, options_));
-  info_ = idle_.back()->info();
+namespace {
+
+/// A loaded shared object, and one of its detectors.
+struct Opened {
+  std::shared_ptr<PluginLibrary> library = {};  ///< null for the empty detector
+  std::unique_ptr<Detector> detector = {};
+  std::string options = {};
+};
+
+Opened open(std::string_view name) {
+  PluginName parsed = PluginName::parse(name);
+  Opened opened{.library = std::make_shared<PluginLibrary>(parsed.path)};
+  opened.detector = std::make_unique<Detector>(opened.library->subject(parsed.subject), parsed.options);
+  opened.options = std::move(parsed.options);
+  return opened;
 }
 
-Plugin::Plugin() : subject_(&Detector::empty().subject()), info_(Detector::empty().info()) {}
+}  // namespace
+
+Plugin::Plugin(std::string_view name) : Plugin(open(name)) {}
+
+template <class Opened>
+Plugin::Plugin(Opened opened)
+    : DescribedSubject(opened.detector->info()),
+      library_(std::move(opened.library)),
+      subject_(opened.detector->subject()),
+      options_(std::move(opened.options)) {
+  idle_.push_back(std::move(opened.detector));
+}
 
 const Subject& Plugin::empty() const {
-  static const Plugin plugin;
+  static const Plugin plugin(Opened{.detector = std::make_unique<Detector>(Detector::empty().subject(), "")});
   return plugin;
 }
 
 template <class Act>
-auto Plugin::with_detector(const Act& act) const {
-  std::unique_ptr<Detector> detector;
+auto Plugin::ask(const Query& query, const Act& act) const {
+  std::unique_ptr<Detector> detector = {};
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
@@ -80,48 +100,45 @@ auto Plugin::with_detector(const Act& act) const {
       idle_.pop_back();
     }
   }
-  if (!detector) detector = std::make_unique<Detector>(*subject_, options_);
-  auto answer = act(*detector);
+  if (!detector) detector = std::make_unique<Detector>(subject_, options_);
+  const Query seen = rounded(query);
+  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
+  lay_out(info(), seen, 0, 1, x.data());
+  auto answer = act(*detector, seen, x.data());
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(detector));
   return answer;
 }
 
-Verdict Plugin::decide(const Query& query) const {
-  if (!is_asked(query.kind, query.separation > 0)) return {.fault = Fault::not_asked};
-  return with_detector([&](const Detector& detector) {
-    const Query seen = rounded(query);
-    int answer = 0;
-    double time = std::numeric_limits<double>::quiet_NaN();
-    std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
-    lay_out(info_, seen, 0, 1, x.data());
-    detector.decide(query.kind, x.data(), &seen.separation, std::span(&answer, 1), std::span(&time, 1));
-    return verdict_of(info_, answer, time);
-  });
+void Plugin::decide(std::span<const Query> queries, std::span<Verdict> verdicts) const {
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    verdicts[i] =
+        !is_asked(queries[i].kind, queries[i].separation > 0)
+            ? Verdict{.fault = Fault::not_asked}
+            : ask(queries[i], [&](const Detector& detector, const Query& seen, const double* x) {
+                int answer = 0;
+                double time = std::numeric_limits<double>::quiet_NaN();
+                detector.decide(seen.kind, x, &seen.separation, std::span(&answer, 1), std::span(&time, 1));
+                return verdict_of(info(), answer, time);
+              });
 }
 
 BoundAnswer Plugin::ask_bound(const Query& query) const {
-  const Query seen = rounded(query);
-  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
-  lay_out(info_, seen, 0, 1, x.data());
-  return with_detector(
-      [&](const Detector& detector) { return detector.bound(query.kind, x.data(), seen.separation); });
+  return ask(query, [](const Detector& detector, const Query& seen, const double* x) {
+    return detector.bound(seen.kind, x, seen.separation);
+  });
 }
 
 DistanceAnswer Plugin::ask_distance(const Query& query) const {
-  const Query seen = rounded(query);
-  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
-  lay_out(info_, seen, 0, 1, x.data());
-  return with_detector([&](const Detector& detector) { return detector.distance(query.kind, x.data()); });
+  return ask(query, [](const Detector& detector, const Query& seen, const double* x) {
+    return detector.distance(seen.kind, x);
+  });
 }
 
 StepAnswer Plugin::ask_step(const Query& query) const {
-  const Query seen = rounded(query);
-  std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
-  lay_out(info_, seen, 0, 1, x.data());
-  return with_detector([&](const Detector& detector) { return detector.step(query.kind, x.data()); });
+  return ask(query, [](const Detector& detector, const Query& seen, const double* x) {
+    return detector.step(seen.kind, x);
+  });
 }
-
-double Plugin::distance_bound(const Query& query) const { return ask_bound(query).bound_or_nan(); }
 
 }  // namespace nearmiss

@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/described_subject.hpp"
 #include "ccd/subjects/detector.hpp"
-#include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
 
@@ -35,49 +37,33 @@ struct PluginName {
 };
 
 /// A subject that runs a detector of a shared object in this process.
-class Plugin final : public Subject {
+class Plugin final : public DescribedSubject {
  public:
   /// Throws Error.
   explicit Plugin(std::string_view name);
 
-  [[nodiscard]] const std::string& name() const override { return info_.name; }
-  [[nodiscard]] const DetectorInfo& info() const { return info_; }
-
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& query) const override;
-  [[nodiscard]] double distance_bound(const Query& query) const override;
+  using DescribedSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override;
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override;
-  [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
-  [[nodiscard]] bool gives_distance(Kind kind) const override {
-    return nearmiss::gives_distance(info_, kind);
-  }
   [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override;
-  [[nodiscard]] bool filters_step(Kind kind) const override { return nearmiss::filters_step(info_, kind); }
   [[nodiscard]] StepAnswer ask_step(const Query& query) const override;
-  [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation(Kind kind) const override {
-    return nearmiss::takes_separation(info_, kind);
-  }
-  [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
-  [[nodiscard]] Contract contract() const override { return info_.contract; }
-  [[nodiscard]] bool rounds() const override { return info_.is_narrow; }
-  [[nodiscard]] Query rounded(const Query& query) const override { return rounded_for(info_, query); }
 
  protected:
   [[nodiscard]] const Subject& empty() const override;
 
  private:
-  /// Makes the empty subject.
-  Plugin();
+  /// From a shared object and one of its detectors.
+  template <class Opened>
+  explicit Plugin(Opened opened);
 
-  /// Calls act(detector) with a detector that no other thread uses meanwhile.
+  /// Returns act(detector, seen, x) for a detector that no other thread uses meanwhile, the query that it sees, and
+  /// that query's coordinates.
   template <class Act>
-  auto with_detector(const Act& act) const;
+  auto ask(const Query& query, const Act& act) const;
 
-  std::unique_ptr<PluginLibrary> library_;
-  const nearmiss_subject* subject_;
+  std::shared_ptr<PluginLibrary> library_;  // null for the empty subject
+  const nearmiss_subject& subject_;
   std::string options_;
-  DetectorInfo info_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Detector>> idle_;
 };

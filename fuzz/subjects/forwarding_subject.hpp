@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "fuzz/subjects/batch_subject.hpp"
+#include "ccd/subjects/batch_subject.hpp"
 
 namespace nearmiss {
 

@@ -6,8 +6,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "ccd/subjects/described_subject.hpp"
 #include "fuzz/parallel.hpp"
-#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
 
 namespace nearmiss {
 
@@ -44,7 +45,8 @@ std::size_t largest_batch_of(const Subjects& subjects) {
   constexpr std::size_t most = 1 << 16;
   std::size_t largest = Pace::usual;
   for (const auto& subject : subjects)
-    if (const DetectorInfo* const info = plugin_info(*subject)) largest = std::max(largest, info->batch);
+    if (const auto* const own = dynamic_cast<const DescribedSubject*>(&innermost(*subject)))
+      largest = std::max(largest, own->info().batch);
   return std::min(largest, most);
 }
 

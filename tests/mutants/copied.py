@@ -78,7 +78,7 @@ def configure():
     run again when files appear or disappear."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
-        'NEARMISS_COMPONENTS': 'ccd;oracle;tools;python;tests',
+        'NEARMISS_COMPONENTS': 'ccd;oracle;trial;tools;python;tests',
         'CMAKE_CXX_COMPILER': 'g++',
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS',
         'NEARMISS_MUTANTS': HERE,

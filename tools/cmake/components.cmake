@@ -1,5 +1,5 @@
 # Checks the list of components to build.
-set(known ccd oracle tools python tests)
+set(known ccd oracle trial tools python tests)
 list(JOIN known ", " listed)
 list(REMOVE_DUPLICATES NEARMISS_COMPONENTS)
 if(NOT NEARMISS_COMPONENTS)
@@ -16,6 +16,13 @@ if("tests" IN_LIST NEARMISS_COMPONENTS)
       message(FATAL_ERROR "NEARMISS_COMPONENTS: found tests without ${component}, expected all components, which they test")
     endif()
   endforeach()
+endif()
+
+# The component tools contains what trial needs, and more.
+if("tools" IN_LIST NEARMISS_COMPONENTS OR "trial" IN_LIST NEARMISS_COMPONENTS)
+  set(NEARMISS_HOLDS_TRIALS ON)
+else()
+  set(NEARMISS_HOLDS_TRIALS OFF)
 endif()
 
 # The component ccd is made of headers, and needs only Eigen.

@@ -48,12 +48,16 @@ macro(nearmiss_package name section)
 endmacro()
 
 nearmiss_package(libnearmiss1 libs oracle)
-nearmiss_package(libnearmiss-dev libdevel oracle-dev ccd-dev)
+nearmiss_package(libnearmiss-trial1 libs trial)
+nearmiss_package(libnearmiss-dev libdevel oracle-dev ccd-dev trial-dev)
 nearmiss_package(nearmiss science tools)
 nearmiss_package(python3-nearmiss python python)
 set(control shlibs symbols triggers)
 list(TRANSFORM control PREPEND ${PROJECT_SOURCE_DIR}/tools/debian/ OUTPUT_VARIABLE CPACK_DEBIAN_LIBNEARMISS1_PACKAGE_CONTROL_EXTRA)
-set(CPACK_DEBIAN_LIBNEARMISS_DEV_PACKAGE_DEPENDS "libnearmiss1 (= ${version}), libeigen3-dev")
+set(CPACK_DEBIAN_LIBNEARMISS_TRIAL1_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/tools/debian/trial/shlibs
+  ${PROJECT_SOURCE_DIR}/tools/debian/triggers)
+set(CPACK_DEBIAN_LIBNEARMISS_DEV_PACKAGE_DEPENDS
+  "libnearmiss1 (= ${version}), libnearmiss-trial1 (= ${version}), libeigen3-dev")
 set(CPACK_DEBIAN_NEARMISS_PACKAGE_SUGGESTS "libnearmiss-dev")
 # The modules are built for one version of Python.
 math(EXPR next "${Python_VERSION_MINOR} + 1")

@@ -1,6 +1,6 @@
 # Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (the
-# library, its headers, the target nearmiss::oracle, and a file for pkg-config) and tools
-# (tools/CMakeLists.txt).
+# library, its headers, the target nearmiss::oracle, and a file for pkg-config), trial (the same without the
+# file, fuzz/CMakeLists.txt) and tools (tools/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -24,12 +24,13 @@ function(nearmiss_install_headers component)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
     file(READ ${PROJECT_SOURCE_DIR}/${header} text)
     string(REGEX REPLACE "#include \"(ccd/query|ccd/wang|oracle/interface)/([a-z_]+\\.h)\"" "#include \"nearmiss/\\2\"" text "${text}")
-    string(REGEX REPLACE "#include \"oracle/interface/" "#include \"nearmiss/" text "${text}")
+    string(REGEX REPLACE "#include \"(oracle|fuzz)/interface/" "#include \"nearmiss/" text "${text}")
+    string(REGEX REPLACE "#include \"ccd/(nearmiss_[a-z]+\\.hp*)\"" "#include \"nearmiss/ccd/\\1\"" text "${text}")
     string(REGEX REPLACE "#include \"ccd/(query|wang/bounds|wang)/" "#include \"nearmiss/ccd/" text "${text}")
     if(header MATCHES "^ccd/.+hpp$")  # a user's compiler must not warn about our templates and Eigen's
       string(REPLACE "#pragma once" "#pragma once\n#pragma GCC system_header" text "${text}")
     endif()
-    string(REGEX REPLACE "^oracle/interface/" "" place ${header})
+    string(REGEX REPLACE "^(oracle|fuzz)/interface/" "" place ${header})
     string(REGEX REPLACE "^ccd/(query|wang)/([a-z_]+\\.h)$" "\\2" place ${place})
     string(REGEX REPLACE "^ccd/(query|wang/bounds|wang)/" "ccd/" place ${place})
     set(made ${PROJECT_BINARY_DIR}/include/nearmiss/${place})
@@ -82,9 +83,10 @@ if("oracle" IN_LIST NEARMISS_COMPONENTS)
   install(FILES ${written}/nearmiss.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT oracle-dev)
 endif()
 
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in ${written}/nearmissConfig.cmake INSTALL_DESTINATION ${config})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in ${written}/nearmissConfig.cmake INSTALL_DESTINATION ${config}
+  PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${written}/nearmissConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
-foreach(component ccd-dev oracle-dev)  # users may install either without the other
+foreach(component ccd-dev oracle-dev trial-dev)  # users may install any of them alone
   install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT ${component})
 endforeach()

@@ -119,6 +119,9 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   add_common(*command, *options);
   command->footer(
       "\nFamilies, and the range of x in NAME@x:" + list_of_families() +
+      "\n\n--config FILE reads options from a TOML file, such as the lines subject = [\"wang\", "
+      "\"./mine.so\"] and "
+      "cases = 100000; those of the command line count more."
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "
       "night.db -o report");
   command->callback([options, &exit_code] { exit_code = record_campaign(*options); });

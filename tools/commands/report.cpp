@@ -13,6 +13,7 @@
 #include "reports/store/store.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
+#include "tools/ci_output.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"
 #include "tools/paper/claims.hpp"
@@ -26,6 +27,7 @@ struct Options {
   std::vector<std::filesystem::path> stores, baseline;
   std::filesystem::path folder, power, audit, paper, distances, environments;
   FailOnOption fail_on;
+  CiOutput ci;
 };
 
 /// A list in JSON. Throws Error if there is none.
@@ -98,6 +100,7 @@ void expect_to_fit(const Options& options) {
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
   expect_to_fit(options);
+  options.ci.expect_writable();
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
@@ -111,6 +114,7 @@ int run(const Options& options) {
   if (!context.baseline.empty()) fmt::print("{}", describe(changes(campaign, context.baseline)));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
+  options.ci.write(campaign, context.failing);
   return options.fail_on.exit_code(campaign.statistics);
 }
 
@@ -145,6 +149,7 @@ void add_report(CLI::App& app, int& exit_code) {
   add_file("--environments", options->environments,
            "Show which compilers, flags and modes keep the guarantee, from tools/environments");
   options->fail_on.add_to(*command);
+  options->ci.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

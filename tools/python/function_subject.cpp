@@ -38,7 +38,7 @@ void FunctionSubject::decide(std::span<const Query> queries, std::span<Verdict> 
   const auto times = answer[1].cast<py::array_t<double>>();
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto at = static_cast<py::ssize_t>(i);
-    verdicts[i] = verdict_of(info_, hits.at(at) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION, times.at(at));
+    verdicts[i] = verdict_of(info(), hits.at(at) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION, times.at(at));
   }
 }
 

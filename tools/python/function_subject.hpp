@@ -9,8 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "ccd/subjects/detector.hpp"
-#include "fuzz/subjects/batch_subject.hpp"
+#include "ccd/subjects/described_subject.hpp"
 
 namespace nearmiss::python {
 
@@ -18,24 +17,19 @@ namespace nearmiss::python {
 /// kind's number of vertices, and separation (n,). The function returns bools (n,), together with times (n,)
 /// if the subject gives times (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The
 /// caller must not hold Python's global interpreter lock.
-class FunctionSubject final : public BatchSubject {
+class FunctionSubject final : public DescribedSubject {
  public:
   FunctionSubject(DetectorInfo info, pybind11::function function)
-      : BatchSubject(info.name), info_(std::move(info)), function_(std::move(function)) {}
+      : DescribedSubject(std::move(info)), function_(std::move(function)) {}
 
-  using BatchSubject::decide;
+  using DescribedSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override;
 
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return HUGE_VAL; }
-  [[nodiscard]] bool claims_bound() const override { return false; }
-  [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation(Kind kind) const override {
-    return nearmiss::takes_separation(info_, kind);
+  [[nodiscard]] BoundAnswer ask_bound(const Query& /*query*/) const override {
+    return BoundAnswer::given(HUGE_VAL);  // it claims none
   }
-  [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
 
  private:
-  DetectorInfo info_;
   pybind11::function function_;
 };
 

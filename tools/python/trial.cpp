@@ -27,6 +27,7 @@
 #include "fuzz/subjects/exact.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/case_order.hpp"
+#include "fuzz/trial/families_asked.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/trial.hpp"
@@ -79,29 +80,10 @@ std::vector<Kind> kinds_of(const Subjects& subjects) {
   return asked;
 }
 
-/// The named families. Without names, all that ask for contact, and those of vertices and edges, as far as
-/// they have the kinds that are asked.
+/// The named families; without names, all of the kinds that are asked.
 std::vector<Family> families_of(const std::vector<std::string>& names, const Subjects& subjects) {
-  std::vector<Family> chosen;
-  for (const std::string& name : names) chosen.push_back(as_asked(find_family(name)));
-  if (!names.empty()) return chosen;
-  const std::vector<Kind> asked = kinds_of(subjects);
-  for (const auto& all : {families(), vertex_families()})
-    for (const Family& family : all)
-      if (const auto some = of_kinds(as_asked(family), asked)) chosen.push_back(*some);
-  return chosen;
-}
-
-/// Throws Error if a subject is asked none of the families' queries.
-void expect_all_asked(const Subjects& subjects, const std::vector<Family>& families) {
-  const auto is_asked = [](const Subject& subject, const Family& family) {
-    return std::ranges::any_of(kinds_asked(family),
-                               [&](Kind kind) { return subject.is_asked(kind, family.has_separation); });
-  };
-  for (const auto& subject : subjects)
-    if (std::ranges::none_of(families, [&](const Family& family) { return is_asked(*subject, family); }))
-      throw Error("found no query for '" + subject->name() +
-                  "', expected families of kinds that it decides, with separations only if it takes them");
+  if (names.empty()) return families_asked({}, kinds_of(subjects));
+  return families_asked(names, kinds);
 }
 
 /// Lets Python handle the signals that have come.

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "ccd/query/error.hpp"
+#include "ccd/subjects/described_subject.hpp"
 #include "ccd/subjects/plugin.hpp"
 #include "fuzz/parallel.hpp"
-#include "fuzz/subjects/batch_subject.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
 
@@ -35,12 +35,12 @@ std::string with_subject(const std::string& name, const std::string& subject) {
 /// Whether a verdict with this fault has a text.
 bool has_text(Fault fault) { return fault == Fault::exception || fault == Fault::load; }
 
-class IsolatedPlugin final : public BatchSubject {
+class IsolatedPlugin final : public DescribedSubject {
  public:
   /// `first` is a worker that has loaded the plug-in.
   IsolatedPlugin(std::shared_ptr<const PluginCode> code, const PluginLimits& limits,
                  std::unique_ptr<WorkerProcess> first)
-      : BatchSubject(first->info().name), code_(std::move(code)), limits_(limits), info_(first->info()) {
+      : DescribedSubject(first->info()), code_(std::move(code)), limits_(limits) {
     idle_.push_back(std::move(first));
   }
   IsolatedPlugin(const IsolatedPlugin&) = delete;
@@ -49,7 +49,7 @@ class IsolatedPlugin final : public BatchSubject {
     for (const auto& worker : idle_) worker->dismiss();  // so that all end at the same time
   }
 
-  using BatchSubject::decide;
+  using DescribedSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     perform(Request::decide, queries, [&](const Done& done) { answer(done, verdicts); });
   }
@@ -74,28 +74,9 @@ class IsolatedPlugin final : public BatchSubject {
     });
   }
 
-  [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
-  [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
-  [[nodiscard]] bool takes_separation(Kind kind) const override {
-    return nearmiss::takes_separation(info_, kind);
-  }
-  [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
-  [[nodiscard]] Contract contract() const override { return info_.contract; }
-  [[nodiscard]] bool rounds() const override { return info_.is_narrow; }
-  [[nodiscard]] Query rounded(const Query& query) const override { return rounded_for(info_, query); }
-  [[nodiscard]] const DetectorInfo& info() const { return info_; }
-
-  [[nodiscard]] double distance_bound(const Query& query) const override {
-    return ask_bound(query).bound_or_nan();
-  }
-
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
     return ask<BoundAnswer>(Request::bounds, query,
                             [](const WorkerProcess& worker) { return BoundAnswer::given(worker.number(0)); });
-  }
-
-  [[nodiscard]] bool gives_distance(Kind kind) const override {
-    return nearmiss::gives_distance(info_, kind);
   }
 
   [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {
@@ -105,8 +86,6 @@ class IsolatedPlugin final : public BatchSubject {
       return DistanceAnswer::given(worker.number(0), weights);
     });
   }
-
-  [[nodiscard]] bool filters_step(Kind kind) const override { return nearmiss::filters_step(info_, kind); }
 
   [[nodiscard]] StepAnswer ask_step(const Query& query) const override {
     return ask<StepAnswer>(Request::steps, query, [&](const WorkerProcess& worker) {
@@ -119,7 +98,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   [[nodiscard]] PluginIdentity identity() const {
-    return {code_->name(), info_.version, code_->sha256(), code_->build_id()};
+    return {code_->name(), info().version, code_->sha256(), code_->build_id()};
   }
 
  private:
@@ -146,7 +125,7 @@ class IsolatedPlugin final : public BatchSubject {
   void answer(const Done& done, std::span<Verdict> verdicts) const {
     in_parts(done.count, [&](std::size_t first, std::size_t last) {
       for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
-        verdicts[done.first + i] = verdict_of(info_, done.worker->value(i), done.worker->number(i));
+        verdicts[done.first + i] = verdict_of(info(), done.worker->value(i), done.worker->number(i));
     });
     if (done.failure)
       verdicts[done.first + done.count] = {.fault = done.failure->fault,
@@ -166,7 +145,7 @@ class IsolatedPlugin final : public BatchSubject {
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
-    while (count < std::min(queries.size(), isolation::capacity_for(info_)) &&
+    while (count < std::min(queries.size(), isolation::capacity_for(info())) &&
            queries[count].kind == first.kind && can_decide(queries[count]) == can_decide(first))
       ++count;
     return count;
@@ -266,7 +245,7 @@ class IsolatedPlugin final : public BatchSubject {
     const bool quick = !failure && fewer * worker.elapsed() < isolation::call_limit * limits_.time;
     if (quick && count == in_a_call_)
       in_a_call_ = static_cast<std::uint32_t>(
-          std::min<std::size_t>(2 * std::size_t{count}, isolation::capacity_for(info_)));
+          std::min<std::size_t>(2 * std::size_t{count}, isolation::capacity_for(info())));
   }
 
   std::unique_ptr<WorkerProcess> take() const {
@@ -288,7 +267,7 @@ class IsolatedPlugin final : public BatchSubject {
     if (failed_starts_ >= most_failed) return nullptr;
     try {
       auto worker = new_worker();
-      if (worker->info() != info_)
+      if (worker->info() != info())
         throw Error(code_->name() + ": the plug-in says something else about itself than before");
       failed_starts_ = 0;
       return worker;
@@ -330,8 +309,7 @@ class IsolatedPlugin final : public BatchSubject {
 
   std::shared_ptr<const PluginCode> code_;
   PluginLimits limits_;
-  DetectorInfo info_;
-  mutable std::atomic<std::uint32_t> in_a_call_ = static_cast<std::uint32_t>(isolation::capacity_for(info_));
+  mutable std::atomic<std::uint32_t> in_a_call_ = static_cast<std::uint32_t>(isolation::capacity_for(info()));
   mutable FaultTexts texts_;
   mutable std::atomic<int> failed_starts_ = 0;  // in a row
   mutable std::mutex mutex_;

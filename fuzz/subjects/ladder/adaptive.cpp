@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/subjects/batch_subject.hpp"
+#include "ccd/subjects/batch_subject.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"

@@ -1,0 +1,245 @@
+/// \file
+/// A trial of a CCD inside a unit test: hard queries, exact judgement, and a counterexample to paste. C++20; link
+/// with nearmiss::trial. Include the test framework first, so that counterexamples use its macro.
+///
+///     const auto r = nearmiss::trial([](const nearmiss::Question& q) { return mine(q.x); }, {.cases = 20000});
+///     EXPECT_TRUE(r.clean()) << r;
+///
+/// A CCD is a function, or an object that is called like one:
+///
+///     bool f(const Question&)                                       whether there is a collision
+///     std::optional<double> f(const Question&)                      its time, if there is one: an estimate
+///     plugin::Answer f(const Question&)                             either, or "cannot tell"
+///     void f(std::span<const Question>, std::span<plugin::Answer>)  many queries at once
+///
+/// It is asked vertex-triangle and edge-edge queries, unless the options name other kinds. A detector of
+/// nearmiss_functions.hpp is one, too, and decides each kind by a function with one of the field's usual
+/// signatures:
+///
+///     nearmiss::trial(nearmiss::plugin::detector("mine").vertex_triangle(f).edge_edge(g))
+///
+/// The CCD runs in the test's process: a crash ends the test, and an endless loop never returns (trial.h).
+#pragma once
+
+#if __cplusplus < 202002L
+#error "trial.hpp needs C++20"
+#endif
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "ccd/nearmiss_functions.hpp"
+#include "ccd/query/kind.hpp"
+#include "fuzz/interface/trial.h"
+
+namespace nearmiss {
+
+using plugin::Question;
+
+/// What is asked, how long, and what the CCD promises.
+struct TrialOptions {
+  std::string name = "my_ccd";   ///< of the CCD in the text
+  std::string families = "all";  ///< names with ',' between them (nearmiss fuzz --help)
+  std::string separation = {};   ///< of each query: a positive number, or "drawn"; "": contact
+  int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that it decides
+  std::uint64_t seed = 1;        ///< of the random queries
+  std::uint64_t cases = 20'000;  ///< number of queries; 0: as many as there is time for
+  std::chrono::duration<double> time{};    ///< after which no further query is asked; 0: no limit
+  int threads = 1;                         ///< how many call the CCD at once
+  int time_sort = NEARMISS_TIME_ESTIMATE;  ///< what the times of a function mean; a detector says it itself
+  nearmiss_contract contract{};            ///< what a function takes for granted; a detector says it itself
+};
+
+/// The result of a trial.
+class TrialReport {
+ public:
+  explicit TrialReport(nearmiss_trial_result* result) : result_(result, nearmiss_free_trial) {}
+
+  /// Whether the CCD was asked, and never failed.
+  [[nodiscard]] bool clean() const { return result_->is_clean != 0; }
+  /// Counters of all its answers.
+  [[nodiscard]] const nearmiss_trial_counts& counts() const { return result_->all; }
+  /// Counters of its answers to queries of a kind.
+  [[nodiscard]] const nearmiss_trial_counts& counts(Kind kind) const {
+    return result_->of_kind[static_cast<std::size_t>(kind)];
+  }
+  /// The first queries of each way to fail, the most ordinary ones first.
+  [[nodiscard]] std::span<const nearmiss_trial_finding> findings() const {
+    return {result_->findings, result_->finding_count};
+  }
+  /// At most 15 lines.
+  [[nodiscard]] std::string_view text() const { return result_->text; }
+
+  friend std::ostream& operator<<(std::ostream& to, const TrialReport& report) { return to << report.text(); }
+
+ private:
+  std::shared_ptr<nearmiss_trial_result> result_;
+};
+
+namespace detail {
+
+inline plugin::Answer answer_of(const plugin::Answer& answer) { return answer; }
+inline plugin::Answer answer_of(bool collides) { return plugin::Answer::of(collides); }
+inline plugin::Answer answer_of(const std::optional<double>& time) {
+  return time ? plugin::Answer::of(true, *time) : plugin::Answer::of(false);
+}
+
+template <class CCD>
+concept Batched = std::is_invocable_v<const CCD&, std::span<const Question>, std::span<plugin::Answer>>;
+template <class CCD>
+concept OneByOne = requires(const CCD& ccd, const Question& q) {
+  answer_of(ccd(q));
+};
+template <class CCD>
+constexpr bool is_detector = false;
+template <class Settings, class... Parts>
+constexpr bool is_detector<plugin::Detector<Settings, Parts...>> = true;
+
+/// Answers n queries of a kind with a function.
+template <class CCD>
+void decide(const CCD& ccd, int kind, std::size_t n, const double* x, const double* h, int* answer,
+            double* toi) {
+  const auto question = [&](std::size_t i) {
+    return Question{kind, x + 6 * plugin::vertices_of(kind) * i, h[i]};
+  };
+  const auto give = [&](std::size_t i, const plugin::Answer& said) {
+    answer[i] = said.value;
+    toi[i] = said.time;
+  };
+  if constexpr (Batched<CCD>) {
+    std::vector<Question> questions;
+    for (std::size_t i = 0; i < n; ++i) questions.push_back(question(i));
+    std::vector<plugin::Answer> answers(n);
+    ccd(std::span<const Question>(questions), std::span<plugin::Answer>(answers));
+    for (std::size_t i = 0; i < n; ++i) give(i, answers[i]);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) give(i, answer_of(ccd(question(i))));
+  }
+}
+
+/// Whether a function gives times.
+template <class CCD>
+constexpr bool gives_time() {
+  if constexpr (Batched<CCD>)
+    return false;
+  else
+    return std::is_same_v<std::invoke_result_t<const CCD&, const Question&>, std::optional<double>>;
+}
+
+/// What the functions of a CCD's description get first.
+template <class CCD>
+void* pointer_to(const CCD& ccd) {
+  return const_cast<void*>(static_cast<const void*>(&ccd));
+}
+
+/// The description of a CCD, whose functions get a pointer to it first.
+template <class CCD>
+nearmiss_subject describe(const CCD& ccd, const TrialOptions& options) {
+  if constexpr (is_detector<CCD>) {
+    return plugin::described_by_itself(ccd);
+  } else {
+    constexpr std::size_t at_once = 1024;
+    nearmiss_subject subject{};
+    subject.interface_version = NEARMISS_INTERFACE;
+    subject.name = options.name.c_str();
+    subject.kinds = options.kinds != 0 ? options.kinds : NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
+    subject.time_sort = gives_time<CCD>() ? options.time_sort : NEARMISS_NO_TIME;
+    subject.takes_separation = 1;
+    subject.batch = Batched<CCD> ? at_once : 1;
+    subject.contract = options.contract;
+    subject.decide = [](void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
+                        double* toi) { decide(*static_cast<const CCD*>(state), kind, n, x, h, answer, toi); };
+    return subject;
+  }
+}
+
+/// Answers one query.
+template <class CCD>
+plugin::Answer ask(const CCD& ccd, const Question& q) {
+  plugin::Answer answer;
+  const nearmiss_subject subject = describe(ccd, {});
+  subject.decide(pointer_to(ccd), q.kind, 1, q.x, &q.separation, &answer.value, &answer.time);
+  return answer;
+}
+
+template <class CCD>
+TrialReport hold(const CCD& ccd, const TrialOptions& options, const char* check) {
+  static_assert(is_detector<CCD> || Batched<CCD> || OneByOne<CCD>,
+                "the CCD is none of the functions that trial.hpp lists, and no detector");
+  const nearmiss_subject subject = describe(ccd, options);
+  const nearmiss_trial_options asked{.size = sizeof(nearmiss_trial_options),
+                                     .families = options.families.c_str(),
+                                     .separation = options.separation.c_str(),
+                                     .check = check,
+                                     .kinds = options.kinds,
+                                     .threads = options.threads,
+                                     .seed = options.seed,
+                                     .cases = options.cases,
+                                     .seconds = options.time.count()};
+  std::array<char, 1024> message{};
+  auto* const result = nearmiss_hold_trial(&subject, pointer_to(ccd), &asked, message.data(), message.size());
+  if (result == nullptr) throw std::invalid_argument(message.data());
+  return TrialReport(result);
+}
+
+}  // namespace detail
+
+/// The answer of a CCD to one query, as the counterexamples of reports ask for it.
+template <class CCD>
+plugin::Answer ask(const CCD& ccd, const Question& question) {
+  if constexpr (std::is_function_v<CCD>)
+    return detail::ask(&ccd, question);
+  else
+    return detail::ask(ccd, question);
+}
+
+/// Puts a CCD on trial. Throws std::invalid_argument for options that make no sense.
+template <class CCD>
+static TrialReport trial(const CCD& ccd, const TrialOptions& options = {}) {  // static: the macros may differ
+#if defined EXPECT_TRUE
+  constexpr const char* check = "EXPECT_TRUE";
+#elif defined CHECK
+  constexpr const char* check = "CHECK";
+#else
+  constexpr const char* check = "assert";
+#endif
+  if constexpr (std::is_function_v<CCD>)
+    return detail::hold(&ccd, options, check);
+  else
+    return detail::hold(ccd, options, check);
+}
+
+/// Queries of one kind for loops of one's own, row by row: x0 x1 .. at t = 0, then at t = 1.
+struct HardQueries {
+  Kind kind;
+  std::vector<double> x, separation;
+
+  [[nodiscard]] std::size_t size() const { return separation.size(); }
+  [[nodiscard]] Question operator[](std::size_t i) const {
+    return {bit_of(kind), x.data() + coordinate_count(kind) * i, separation[i]};
+  }
+};
+
+/// The first n queries of a kind of a family (nearmiss fuzz --help). Throws std::invalid_argument.
+inline HardQueries hard_queries(const std::string& family, Kind kind, std::uint64_t seed, std::size_t n) {
+  HardQueries made{kind, std::vector<double>(n * coordinate_count(kind)), std::vector<double>(n)};
+  std::array<char, 1024> message{};
+  if (nearmiss_hard_queries(family.c_str(), bit_of(kind), seed, 0, n, made.x.data(), made.separation.data(),
+                            message.data(), message.size()) == 0)
+    throw std::invalid_argument(message.data());
+  return made;
+}
+
+}  // namespace nearmiss

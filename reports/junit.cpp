@@ -1,0 +1,156 @@
+#include "reports/junit.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "ccd/query/printable.hpp"
+#include "corpus/query_text.hpp"
+#include "reports/sections/verdicts.hpp"
+#include "reports/statistics/family_class.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The text as it may stand in XML, within an attribute, too. XML has no control characters but ends of lines.
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += static_cast<unsigned char>(c) < ' ' && c != '\n' ? '?' : c;
+    }
+  }
+  return safe;
+}
+
+/// A test, which fails if it has a message.
+struct Test {
+  std::string name, message, text;
+};
+
+std::string suite_xml(const std::string& name, const std::vector<Test>& tests) {
+  std::size_t failed = 0;
+  std::string rows;
+  for (const Test& each : tests) {
+    rows +=
+        fmt::format(R"(    <testcase classname="nearmiss.{}" name="{}")", escaped(name), escaped(each.name));
+    if (each.message.empty()) {
+      rows += "/>\n";
+      continue;
+    }
+    ++failed;
+    rows += fmt::format(">\n      <failure message=\"{}\" type=\"nearmiss\">{}</failure>\n    </testcase>\n",
+                        escaped(each.message), escaped(each.text));
+  }
+  return fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\">\n{}  </testsuite>\n",
+      escaped(name), tests.size(), failed, rows);
+}
+
+/// "missed 3 of 50 collisions; exceeded its bound in 1 of 7 false positives"
+std::string message_of(const ClassKey& key, const Counts& counts, const Failures& failing) {
+  std::string message;
+  for (const FailureKind kind : in_common(failures_of(key.subject, counts), failing)) {
+    const FailureInfo& failure = failure_info(kind);
+    const std::uint64_t total = failure.total(counts);
+    message += fmt::format("{}{} {} of {}", message.empty() ? "" : "; ", failure.verb,
+                           with_separators(failure.count(counts)), counted(total, failure.one, failure.many));
+  }
+  return message;
+}
+
+/// The commands that repeat the runs.
+std::string commands(const Campaign& campaign) {
+  std::string lines;
+  for (const Run& run : campaign.runs)
+    if (const std::string again = fact(run.info, "again"); !again.empty())
+      lines += fmt::format("again: {}\n", printable(again));
+  return lines;
+}
+
+/// The simplest finding of each way to fail, among those that are `chosen`.
+template <class Chosen>
+std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
+  std::string lines;
+  std::set<Signature> shown;
+  for (const Finding& each : findings)
+    if (chosen(each) && !is_only_shown(each.what) && shown.insert(signature_of(each)).second)
+      lines += fmt::format("{}, {}; {} query:\n{}\n", name(each.what), printable(each.signature),
+                           short_name(each.shrunk.kind), to_line(each.shrunk));
+  return lines;
+}
+
+}  // namespace
+
+std::string junit_xml(const Campaign& campaign, const Failures& failing) {
+  const std::vector<Finding> findings = campaign.findings();
+  const std::string again = commands(campaign);
+  std::map<std::string, std::vector<Test>> suites;
+  for (const auto& [key, sum] : by_class(campaign.statistics)) {
+    const auto is_own = [&, &own = key](const Finding& each) {
+      return each.subject == own.subject && each.query.kind == own.kind && class_of(each.family) == own.of;
+    };
+    const std::string message = is_beyond_contract(key.subject) ? "" : message_of(key, sum.counts, failing);
+    suites[key.subject].push_back(
+        {fmt::format("{}, {} families", short_name(key.kind), name(key.of)), message,
+         message.empty() ? "" : message + "\n" + queries(findings, is_own) + again});
+  }
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"nearmiss\">\n";
+  if (const std::string complaint = oracle_complaint(campaign.statistics); !complaint.empty())
+    xml += suite_xml("oracle", {{"agrees with itself", complaint, queries(findings, [](const Finding& each) {
+                                                                    return each.subject.empty();
+                                                                  }) + again}});
+  for (const auto& [subject, tests] : suites) xml += suite_xml(subject, tests);
+  return xml + "</testsuites>\n";
+}
+
+std::string github_annotations(const Campaign& campaign, const Failures& failing) {
+  const auto line = [](std::string_view title, std::string_view message) {
+    // GitHub takes these characters for the ends of a property or of the line.
+    const auto in_property = [](std::string_view text) {
+      std::string safe;
+      for (const char c : text)
+        safe += c == '%' ? "%25" : c == ':' ? "%3A" : c == ',' ? "%2C" : std::string(1, c);
+      return safe;
+    };
+    std::string safe;
+    for (const char c : message) safe += c == '%' ? "%25" : c == '\n' ? "%0A" : std::string(1, c);
+    return fmt::format("::error title={}::{}\n", in_property(title), safe);
+  };
+  const std::vector<Finding> findings = campaign.findings();
+  std::string lines;
+  if (const std::string complaint = oracle_complaint(campaign.statistics); !complaint.empty())
+    lines += line("nearmiss: the oracle", complaint);
+  for (const SubjectVerdict& verdict : subject_verdicts(campaign.statistics, failing))
+    for (const auto& [kind, said] : verdict.said) {
+      const auto what = finding_of(kind);
+      std::string text = said;
+      for (const Finding& each : findings) {
+        if (each.subject != verdict.subject || each.what != what) continue;
+        text += fmt::format("\n{} query: {}", short_name(each.shrunk.kind), to_line(each.shrunk));
+        break;
+      }
+      lines += line("nearmiss: " + printable(verdict.subject), text);
+    }
+  return lines;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,29 @@
+// --junit FILE and --github: results for systems of continuous integration.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "reports/campaign/campaign.hpp"
+#include "reports/statistics/failure.hpp"
+
+namespace nearmiss::tools {
+
+class CiOutput {
+ public:
+  /// Adds --junit and --github.
+  void add_to(CLI::App& command);
+
+  /// Throws Error if it is already clear that the file cannot be written, or if it would replace the store.
+  void expect_writable(const std::filesystem::path& store = {}) const;
+
+  /// Writes the file, and prints the annotations to `text`, as far as they are wanted. Throws Error.
+  void write(const Campaign& campaign, const Failures& failing, std::FILE* text = stdout) const;
+
+ private:
+  std::filesystem::path junit_;
+  bool github_ = false;
+};
+
+}  // namespace nearmiss::tools

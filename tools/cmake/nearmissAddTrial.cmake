@@ -1,0 +1,29 @@
+# nearmiss_add_trial(NAME name SOURCES adapter.cpp [TARGET library...] [CASES 100000] [SEED 1] [SEPARATION h|drawn]
+#                    [FAMILIES name...] [OPTIONS option...]): builds a plug-in of the adapter, which describes a
+# detector (nearmiss/ccd/nearmiss_functions.hpp), and adds a test that puts it on trial. The test writes its results
+# to name.xml in the build folder, as JUnit's XML. OPTIONS are further options of nearmiss fuzz.
+function(nearmiss_add_trial)
+  cmake_parse_arguments(PARSE_ARGV 0 trial "" "NAME;CASES;SEED;SEPARATION" "SOURCES;TARGET;FAMILIES;OPTIONS")
+  if(NOT trial_NAME OR NOT trial_SOURCES OR trial_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "nearmiss_add_trial: found '${trial_UNPARSED_ARGUMENTS}', expected NAME and SOURCES, and none but the arguments that it lists")
+  endif()
+  if(NOT trial_CASES)
+    set(trial_CASES 100000)
+  endif()
+  foreach(option SEED SEPARATION)
+    if(NOT "${trial_${option}}" STREQUAL "")
+      string(TOLOWER ${option} name)
+      list(APPEND given --${name} ${trial_${option}})
+    endif()
+  endforeach()
+  if(trial_FAMILIES)
+    list(JOIN trial_FAMILIES "," families)
+    list(APPEND given --family ${families})
+  endif()
+  add_library(${trial_NAME}_ccd MODULE ${trial_SOURCES})
+  target_include_directories(${trial_NAME}_ccd PRIVATE ${nearmiss_PLUGIN_INCLUDE_DIR})
+  target_link_libraries(${trial_NAME}_ccd PRIVATE ${trial_TARGET})
+  target_compile_features(${trial_NAME}_ccd PRIVATE cxx_std_17)
+  add_test(NAME ${trial_NAME} COMMAND nearmiss::nearmiss fuzz --subject $<TARGET_FILE:${trial_NAME}_ccd> --cases ${trial_CASES}
+    ${given} --quiet --junit ${CMAKE_CURRENT_BINARY_DIR}/${trial_NAME}.xml ${trial_OPTIONS})
+endfunction()
