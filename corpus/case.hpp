@@ -14,9 +14,9 @@ namespace nearmiss {
 struct Case {
   std::string name;  ///< source file, with the line if the file has several cases
   Query query;
-  std::optional<bool> truth;  ///< whether the query is a collision, if that is recorded
-  std::string why;            ///< why the query is kept; may have several lines
-  std::string provenance;     ///< origin of the query, such as "planted:1:42" (family, seed, index)
+  std::optional<bool> truth = {};  ///< whether the query is a collision, if that is recorded
+  std::string why = {};            ///< why the query is kept; may have several lines
+  std::string provenance = {};     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
 /// The format of *.case files. The lines of `why` come first, as comments. Each point is one line of three

@@ -13,6 +13,7 @@
 #include "corpus/file.hpp"
 #include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"
+#include "corpus/recording.hpp"
 #include "corpus/sample_csv.hpp"
 
 namespace nearmiss {
@@ -30,7 +31,7 @@ std::optional<Kind> kind_of_extension(const fs::path& extension) {
 
 bool is_case_file(const fs::path& path) {
   const auto extension = path.extension();
-  return extension == ".case" || extension == ".csv" || kind_of_extension(extension);
+  return extension == ".case" || extension == ".csv" || extension == ".nmq" || kind_of_extension(extension);
 }
 
 /// Throws Error if reading stopped before the end of the file.
@@ -46,6 +47,12 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   if (in.peek() == std::ifstream::traits_type::eof())
     throw Error(fmt::format("{}: found an empty file, expected cases", name));
   const auto extension = path.extension();
+  if (extension == ".nmq") {
+    read_recording(path, [&](const Recorded& each) {
+      sink({.name = fmt::format("{}:{}", name, each.number), .query = each.asked()});
+    });
+    return;
+  }
   if (extension == ".case") {
     sink(parse_case(in, name));
   } else if (extension == ".csv") {
@@ -53,7 +60,7 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   } else if (const auto kind = kind_of_extension(extension)) {
     read_query_lines(in, *kind, name, sink);
   } else {
-    throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, {}", name,
+    throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, *.nmq, {}", name,
                             names_of_kinds("*.")));
   }
   expect_end(in, name);
@@ -85,7 +92,7 @@ void read_cases(const fs::path& path, const CaseSink& sink) {
     if (it->is_regular_file() && is_case_file(it->path())) files.push_back(it->path());
   if (error) throw Error(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
   if (files.empty())
-    throw Error(fmt::format("{}: found no case, expected *.case, *.csv, {} files", path.string(),
+    throw Error(fmt::format("{}: found no case, expected *.case, *.csv, *.nmq, {} files", path.string(),
                             names_of_kinds("*.")));
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) read_file(file, sink);

@@ -18,8 +18,8 @@ namespace {
 
 Kind kind_of_folder(const std::filesystem::path& path) {
   const auto folder = std::filesystem::absolute(path).parent_path().filename();
-  if (folder == "vertex-face") return Kind::vertex_triangle;
-  if (folder == "edge-edge") return Kind::edge_edge;
+  for (const Kind kind : kinds_of_meshes)
+    if (folder == *sample_folder(kind)) return kind;
   throw Error(
       fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, which determines the kind",
                   path.string(), folder.string()));
@@ -53,6 +53,29 @@ double exact_quotient(const std::string& numerator, const std::string& denominat
 }
 
 }  // namespace
+
+std::optional<std::string_view> sample_folder(Kind kind) {
+  switch (kind) {
+    case Kind::vertex_triangle:
+      return "vertex-face";
+    case Kind::edge_edge:
+      return "edge-edge";
+    default:
+      return std::nullopt;
+  }
+}
+
+std::string to_sample_csv(const Query& query, bool truth) {
+  std::string lines;
+  for (std::size_t row = 0; row < 8; ++row) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mpq_class number(query.x[3 * row + k]);
+      lines += fmt::format("{},{},", number.get_num().get_str(), number.get_den().get_str());
+    }
+    lines += truth ? "1\n" : "0\n";
+  }
+  return lines;
+}
 
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink) {
   constexpr std::size_t rows = 8;

@@ -86,16 +86,30 @@ std::string commands(const Campaign& campaign) {
   return lines;
 }
 
-/// The simplest finding of each way to fail, among those that are `chosen`.
+/// The first findings that are `chosen`, each of another way to fail, as nearmiss replay reads them.
 template <class Chosen>
 std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
+  constexpr std::size_t most = 3;
   std::string lines;
   std::set<Signature> shown;
   for (const Finding& each : findings)
-    if (chosen(each) && !is_only_shown(each.what) && shown.insert(signature_of(each)).second)
+    if (shown.size() < most && chosen(each) && !is_only_shown(each.what) &&
+        shown.insert(signature_of(each)).second)
       lines += fmt::format("{}, {}; {} query:\n{}\n", name(each.what), printable(each.signature),
-                           short_name(each.shrunk.kind), to_line(each.shrunk));
+                           short_name(each.shrunk.kind), to_readable(each.shrunk));
   return lines;
+}
+
+/// Queries of a test that failed: those of its class, or else those that its families made.
+std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings) {
+  const auto is_own = [&](const Finding& each) {
+    return each.subject == key.subject && each.query.kind == key.kind;
+  };
+  std::string own =
+      queries(findings, [&](const Finding& each) { return is_own(each) && each.query_class == key.of; });
+  if (!own.empty()) return own;
+  return queries(findings,
+                 [&](const Finding& each) { return is_own(each) && class_of(each.family) == key.of; });
 }
 
 }  // namespace
@@ -105,13 +119,10 @@ std::string junit_xml(const Campaign& campaign, const Failures& failing) {
   const std::string again = commands(campaign);
   std::map<std::string, std::vector<Test>> suites;
   for (const auto& [key, sum] : by_class(campaign.statistics)) {
-    const auto is_own = [&, &own = key](const Finding& each) {
-      return each.subject == own.subject && each.query.kind == own.kind && class_of(each.family) == own.of;
-    };
     const std::string message = is_beyond_contract(key.subject) ? "" : message_of(key, sum.counts, failing);
     suites[key.subject].push_back(
         {fmt::format("{}, {} families", short_name(key.kind), name(key.of)), message,
-         message.empty() ? "" : message + "\n" + queries(findings, is_own) + again});
+         message.empty() ? "" : message + "\n" + queries_of(key, findings) + again});
   }
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"nearmiss\">\n";
   if (const std::string complaint = oracle_complaint(campaign.statistics); !complaint.empty())

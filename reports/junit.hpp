@@ -9,8 +9,8 @@
 namespace nearmiss {
 
 /// JUnit's XML: a suite for each subject, with a test for each kind and class of families. A test fails if one of
-/// `failing` is in its counters; its text then has the failures in words, the simplest query of each way to fail as
-/// nearmiss replay reads it, and the command that repeats the run. If the oracle failed, so does a suite of
+/// `failing` is in its counters; its text then has the failures in words, at most three queries, which
+/// nearmiss replay reads, and the command that repeats the run. If the oracle failed, so does a suite of
 /// its own.
 std::string junit_xml(const Campaign& campaign, const Failures& failing = usual_failures());
 

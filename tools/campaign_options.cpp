@@ -12,13 +12,16 @@
 #include "ccd/query/excerpt.hpp"
 #include "ccd/query/printable.hpp"
 #include "corpus/query_text.hpp"
+#include "corpus/readers.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
+#include "fuzz/scenes/near_families.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/subjects/exact.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
+#include "tools/scene_subjects.hpp"
 #include "tools/terminal.hpp"
 #include "tools/values.hpp"
 
@@ -83,10 +86,17 @@ Family with_kinds(const CampaignOptions& options, const Family& family, std::spa
 
 /// The family of the pairs of a mesh.
 Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
-  return mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0), stop);
+  return mesh_family(open_scene(options.mesh), stop);
 }
 
-/// The families chosen with --family, --sweep, --mesh and --search. Throws Error, and Stopped if the stop is due
+/// The queries of files and folders.
+std::vector<Query> queries_of(const std::vector<std::filesystem::path>& paths) {
+  std::vector<Query> queries;
+  for (const auto& path : paths) read_cases(path, [&](Case&& each) { queries.push_back(each.query); });
+  return queries;
+}
+
+/// The families chosen with --family, --sweep, --mesh, --near and --search. Throws Error, and Stopped if the stop is due
 /// before the pairs of meshes and simulations are known.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
@@ -95,16 +105,22 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   const bool asks_for_contact = options.separation.is_given() && separation.empty();
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty()) with_kinds(options, known.emplace_back(family_of_mesh(options, stop)), asked);
+  std::vector<Family> near_within;
+  for (const Family& each : near_families(queries_of(options.near)))
+    if (of_kinds(each, asked))
+      (each.has_separation || !is_of_meshes(each.kinds[0]) ? near_within : known).push_back(each);
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
   const std::size_t of_meshes = known.size();
   known.insert(known.end(), vertex_families().begin(), vertex_families().end());
+  known.insert(known.end(), near_within.begin(), near_within.end());
   // Only with --separation drawn does "all" include the families of meshes that have separations of their
   // own.
   std::vector<Family> all(
       known.begin(),
       known.begin() + static_cast<std::ptrdiff_t>(separation == drawn_separation ? of_meshes : contact));
   all.insert(all.end(), vertex_families().begin(), vertex_families().end());
+  all.insert(all.end(), near_within.begin(), near_within.end());
   std::erase_if(all, [&](const Family& family) {
     return !of_kinds(family, asked) || (asks_for_contact && family.has_separation);
   });
@@ -169,10 +185,14 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
     again += " --search";
   }
   if (!options.mesh.empty()) {
-    const std::string start = options.mesh.front().string();
-    const std::string end = options.mesh.back().string();
-    info["scene"] = printable(start + " " + end);
-    again += fmt::format(" --mesh {} {}", printable_argument(start), printable_argument(end));
+    info["scene"] = printable(fmt::format("{}", fmt::join(options.mesh, " ")));
+    again += " --mesh";
+    for (const std::string& each : options.mesh) again += " " + printable_argument(each);
+  }
+  if (!options.near.empty()) {
+    for (const auto& path : options.near)
+      info["near"] += (info["near"].empty() ? "" : " ") + printable(path.string());
+    for (const auto& path : options.near) again += " --near " + printable_argument(path.string());
   }
   info["cases"] = std::string(until_the_time_is_over);
   if (plan.cases != 0) {

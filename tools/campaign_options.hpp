@@ -19,7 +19,8 @@ struct CampaignOptions {
   SeparationOption separation;
   int steps = 17;
   bool search = false;
-  std::vector<std::filesystem::path> mesh;
+  std::vector<std::string> mesh;            ///< a scene (open_scene)
+  std::vector<std::filesystem::path> near;  ///< files of queries
   std::uint64_t cases = 0, first = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;

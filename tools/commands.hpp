@@ -37,5 +37,6 @@ void add_tightness(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_subjects(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
+void add_convert(CLI::App& app, int& exit_code);
 
 }  // namespace nearmiss::tools

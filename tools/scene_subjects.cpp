@@ -2,16 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <set>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/scenes/built_in/built_in_scenes.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
 #include "fuzz/scenes/scene_bound.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss::tools {
+
+Scene open_scene(const std::vector<std::string>& arguments) {
+  if (arguments.size() == 2) return scene_of_files(arguments[0], arguments[1]);
+  if (is_built_in_scene(arguments[0])) return built_in_scene(arguments[0]);
+  if (std::error_code error; !std::filesystem::exists(arguments[0], error))
+    throw Error(fmt::format(
+        "{}: found neither a folder nor a scene with this name (see nearmiss scene --list)", arguments[0]));
+  return scene_of_folder(arguments[0]);
+}
 
 namespace {
 

@@ -12,6 +12,9 @@
 
 namespace nearmiss::tools {
 
+/// The scene of the arguments START END, FOLDER, or NAME@SIZE of a built-in scene. Throws Error.
+Scene open_scene(const std::vector<std::string>& arguments);
+
 struct SceneSubjects {
   Subjects subjects;
   std::optional<double> bound = {};  ///< the scene's bound, if a subject needs it

@@ -17,7 +17,7 @@ namespace nearmiss {
 /// What a detector says about itself (nearmiss_subject.h).
 struct DetectorInfo {
   std::string name;  ///< with its options
-  std::string version, about;
+  std::string version = {}, about = {};
   int kinds = 0;
   bool is_narrow = false;  ///< whether it takes coordinates of 24 bits
   TimeSort time_sort{};
@@ -27,7 +27,7 @@ struct DetectorInfo {
   std::size_t batch = 1;
   bool in_arrays = false;  ///< whether it reads coordinates in the layout NEARMISS_ARRAYS
   bool claims_bound = false;
-  Contract contract;
+  Contract contract = {};
 
   bool operator==(const DetectorInfo&) const = default;
 };

@@ -7,60 +7,14 @@
 
 #include "ccd/query/error.hpp"
 #include "fuzz/families/contacts.hpp"
+#include "fuzz/scenes/near_families.hpp"
 #include "fuzz/scenes/pair_sample.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Vector = Vector3<double>;
-
-Query perturbed(Random& random, Query query, double size) {
-  for (double& c : query.x) c += random.uniform(-size, size);
-  return query;
-}
-
-/// Translates the first primitive, by the same vector at both ends of the step, so that it touches the second
-/// one at the time and place of the aim.
-Query touching(Query query, const Aim& aim) {
-  const double alpha = aim.alpha;
-  const double beta = aim.beta;
-  const auto at = [&](int vertex) { return Path{query.start(vertex), query.end(vertex)}.at(aim.time); };
-  const bool triangle = has_triangle(query.kind);
-  const Vector first = triangle ? at(0) : Vector((1 - alpha) * at(0) + alpha * at(1));
-  const Vector second = triangle ? Vector((1 - alpha - beta) * at(1) + alpha * at(2) + beta * at(3))
-                                 : Vector((1 - beta) * at(2) + beta * at(3));
-  const Vector shift = second - first;
-  for (int i = 0; i < split(query.kind); ++i) {
-    query.set_start(i, query.start(i) + shift);
-    query.set_end(i, query.end(i) + shift);
-  }
-  return query;
-}
-
-Query changed(Random& random, const Query& pair, double size) {
-  Query query = pair;
-  if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));
-  switch (random.integer(0, 3)) {
-    case 0:
-      break;
-    case 1:
-      query = nudged(random, query, random.integer(1, 4), 4);
-      break;
-    default:
-      query = perturbed(random, query, size * extent(pair));
-  }
-  return is_finite(query) ? query : pair;
-}
-
-}  // namespace
-
-Family mesh_family(const MovingMesh& mesh, const Stop& stop, std::size_t most) {
-  PairSample sample(most);
-  find_candidates(
-      mesh, [&](const Candidate& each) { sample.add(mesh, each); }, [&] { return stop.is_due(); });
-  stop.check();
-
+Family family_of(PairSample&& sample) {
   const auto pairs = std::make_shared<PairsByKind>(std::move(sample).pairs());
   for (const Kind kind : kinds_of_meshes)
     if (!pairs->contains(kind))
@@ -72,6 +26,27 @@ Family mesh_family(const MovingMesh& mesh, const Stop& stop, std::size_t most) {
   return with_parameter("mesh",
                         "pairs of a moving mesh (--mesh), as they are, perturbed, and moved into contact",
                         {"perturbation / size of the pair = 10^x", -16, -1, false, make});
+}
+
+}  // namespace
+
+Family mesh_family(const MovingMesh& mesh, const Stop& stop, std::size_t most) {
+  PairSample sample(most);
+  find_candidates(
+      mesh, [&](const Candidate& each) { sample.add(mesh, each); }, [&] { return stop.is_due(); });
+  stop.check();
+  return family_of(std::move(sample));
+}
+
+Family mesh_family(const Scene& scene, const Stop& stop, std::size_t most) {
+  PairSample sample(most);
+  const auto is_over = [&] { return stop.is_due(); };
+  for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
+    find_candidates(
+        mesh, [&](const Candidate& each) { sample.add(mesh, each, step); }, is_over);
+  });
+  stop.check();
+  return family_of(std::move(sample));
 }
 
 }  // namespace nearmiss

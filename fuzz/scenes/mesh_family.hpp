@@ -3,6 +3,7 @@
 
 #include "fuzz/families/families.hpp"
 #include "fuzz/meshes/mesh.hpp"
+#include "fuzz/scenes/scene.hpp"
 #include "fuzz/stop.hpp"
 
 namespace nearmiss {
@@ -12,5 +13,7 @@ namespace nearmiss {
 /// allows. At most `most` pairs of each kind are kept; the choice only depends on the mesh. Throws Error if
 /// there is no pair of a kind, and Stopped if the stop is due before all pairs are known.
 Family mesh_family(const MovingMesh& mesh, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
+/// The same for all steps of a scene.
+Family mesh_family(const Scene& scene, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
 
 }  // namespace nearmiss

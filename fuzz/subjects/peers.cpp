@@ -15,7 +15,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::array<Peer, 23> all{{
+constexpr std::array<Peer, 25> all{{
     {.name = "fcl", .object = "fcl", .package = "libfcl-dev"},
     {.name = "fcl-newton", .object = "fcl", .package = "libfcl-dev"},
     {.name = "bullet", .object = "bullet", .package = "libbullet-dev"},
@@ -39,6 +39,8 @@ constexpr std::array<Peer, 23> all{{
     {.name = "eltopo-root-parity", .object = "eltopo-root-parity", .package = "", .adapter = "eltopo"},
     {.name = "arcsim", .object = "arcsim", .package = ""},
     {.name = "dart", .object = "dart", .package = ""},
+    {.name = "scalable-ccd", .object = "scalable-ccd", .package = ""},
+    {.name = "scalable-ccd-float", .object = "scalable-ccd-float", .package = "", .adapter = "scalable-ccd"},
 }};
 
 }  // namespace

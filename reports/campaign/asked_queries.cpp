@@ -62,6 +62,9 @@ std::set<CountsKey> random_keys(const Campaign& campaign, const RunInfo& info) {
   return keys;
 }
 
+/// Whether the queries of a family are those of files.
+bool is_of_files(std::string_view root) { return root == "mesh" || root == "near" || root == "near-within"; }
+
 }  // namespace
 
 void AskedQueries::add_simulations(const Campaign& campaign, const std::string& name) {
@@ -78,12 +81,13 @@ void AskedQueries::add(const Campaign& campaign, const std::string& name) {
   for (const Run& run : campaign.runs) {
     const std::string seed = fact(run.info, "seed");
     if (seed.empty()) continue;
-    Asked asked{task_of(run.info), fact(run.info, "scene"), name, random_keys(campaign, run.info)};
+    Asked asked{task_of(run.info), fact(run.info, "scene") + fact(run.info, "near"), name,
+                random_keys(campaign, run.info)};
     for (const Asked& other : by_seed_[seed]) {
       if (other.task == asked.task) continue;
       const auto twice = std::ranges::find_if(asked.keys, [&](const CountsKey& key) {
         return other.keys.contains(key) &&
-               (FamilyName(key.family).base != "mesh" || other.mesh == asked.mesh);
+               (!is_of_files(FamilyName(key.family).root) || other.files == asked.files);
       });
       if (twice != asked.keys.end())
         throw Error(

@@ -22,7 +22,7 @@ class AskedQueries {
   /// The queries that the runs of one task asked.
   struct Asked {
     RunInfo task;
-    std::string mesh;  ///< the files of the family "mesh", if it was asked
+    std::string files;  ///< those of the families "mesh" and "near", if they were asked
     std::string name;
     std::set<CountsKey> keys;
   };

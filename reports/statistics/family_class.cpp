@@ -12,15 +12,11 @@ namespace nearmiss {
 namespace {
 
 // The only place that says which class a family has.
-constexpr std::array<std::string_view, 18> ordinary{"v-drifting",   "v-rest-angle",
-                                                    "v-rest-ratio", "rest",
-                                                    "rest-units",   "rest-distant",
-                                                    "uniform",      "uniform-end",
-                                                    "uniform-slow", "mesh",
-                                                    "floats",       "kilometres",
-                                                    "metres",       "units",
-                                                    "distant",      "v-small-integer",
-                                                    "v-decimals",   "v-reached-separation"};
+constexpr std::array<std::string_view, 20> ordinary{
+    "near",         "near-within", "v-drifting",      "v-rest-angle", "v-rest-ratio",
+    "rest",         "rest-units",  "rest-distant",    "uniform",      "uniform-end",
+    "uniform-slow", "mesh",        "floats",          "kilometres",   "metres",
+    "units",        "distant",     "v-small-integer", "v-decimals",   "v-reached-separation"};
 
 constexpr std::array<std::string_view, 39> degenerate{"v-along",
                                                       "rest-touching",

@@ -63,6 +63,18 @@ refuse_flags clang++ -ffast-math -ffinite-math-only
 # The library ignores the environment variable NEARMISS_LANES, which only the program reads.
 NEARMISS_LANES=16 "$folder/g++/answers_c" <"$folder/queries"
 
+# A user's tests put a CCD on trial, with GoogleTest, Catch2, libFuzzer, and without code of their own.
+quietly cmake -S "$here/trial" -B "$folder/trial" -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release
+quietly cmake --build "$folder/trial"
+quietly "$folder/trial/gtest"
+quietly "$folder/trial/catch"
+quietly ctest --test-dir "$folder/trial" -R another
+! ctest --test-dir "$folder/trial" -R mine >"$folder/log" || fail "the test of a CCD with a bug passes"
+grep -q '<failure message="missed' "$folder/trial/trial_of_mine.xml" || fail "$(cat "$folder/log")"
+clang++ -std=c++20 -fsanitize=fuzzer -I"$folder/prefix/include" "$here/trial/libfuzzer.cpp" -L"$folder/prefix/lib" -lnearmiss-trial -o "$folder/fuzzed"
+! (cd "$folder" && LD_LIBRARY_PATH=$folder/prefix/lib ./fuzzed -runs=100) 2>"$folder/log" || fail "libFuzzer finds nothing"
+grep -q '^mine failed' "$folder/log" || fail "libFuzzer: $(cat "$folder/log")"
+
 # pkg-config
 export PKG_CONFIG_PATH=$folder/prefix/lib/pkgconfig
 gcc -std=c99 "$here/answers.c" $(pkg-config --cflags --libs nearmiss) -o "$folder/by_pkg_config"

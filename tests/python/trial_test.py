@@ -287,9 +287,46 @@ import nearmiss
         findings = nearmiss.trial(never, 100, 'uniform', shrunk=0).findings
         self.assertEqual(len(findings[[0, 2]]), 2)
         self.assertEqual(len(findings[:3]), 3)
-        for select in (lambda: findings[0], lambda: list(findings)):
-            with self.assertRaisesRegex(TypeError, 'found 0, expected a mask, a slice or'):
-                select()
+        with self.assertRaisesRegex(TypeError, "found 'a', expected a number, a mask, a slice or"):
+            findings['a']
+
+    def test_a_finding_explains_itself(self):
+        subject = nearmiss.Subject(never, kinds=('vt', 'vv'), takes_separation=True)
+        findings = nearmiss.trial(subject, 400, ['uniform', 'v-uniform']).findings
+        self.assertEqual(len(list(findings)), len(findings))
+        with self.assertRaises(IndexError):
+            findings[len(findings)]
+        for finding in (findings[0], findings[findings.kind == 'vv'][0]):
+            vertices = 4 if finding.kind == 'vt' else 2
+            self.assertEqual(finding.x.shape, (2, vertices, 3))
+            self.assertTrue(finding.is_shrunk)
+            self.assertTrue(nearmiss.collides(finding.kind, finding.x, finding.separation))
+            self.assertIn('inside the step', finding.explanation)
+            self.assertIn(finding.class_, ('ordinary', 'degenerate'))
+            self.assertTrue(finding.certificate.startswith('{'))
+            names = {'np': np, 'nearmiss': nearmiss}
+            exec(finding.code, names)
+            self.assertTrue((names['x'] == finding.x).all())
+            page = finding._repr_html_()
+            self.assertIn('<svg ', page)
+            self.assertIn(finding.explanation, page)
+        self.assertEqual(findings[-1].provenance, findings.provenance[-1])
+
+    def test_a_finding_draws_itself(self):
+        matplotlib = __import__('matplotlib')
+        matplotlib.use('Agg')
+        axes = nearmiss.trial(never, 100, 'uniform').findings[0].plot()
+        self.assertIn('false-negative of never', axes.get_title())
+        self.assertGreaterEqual(len(axes.lines), 4)
+
+    def test_findings_become_a_data_frame_where_pandas_is(self):
+        findings = nearmiss.trial(never, 100, 'uniform', shrunk=0).findings
+        try:
+            frame = findings.to_dataframe()
+        except ModuleNotFoundError:
+            self.skipTest('pandas is not installed')
+        self.assertEqual(len(frame), len(findings))
+        self.assertEqual(list(frame.family), list(findings.family))
 
     def test_refuses_other_types(self):
         for message, make in (

@@ -67,6 +67,7 @@ Counts filled_counts(std::uint64_t last = 0) {
   counts.false_positives = 50000;
   counts.times_given = 40000;
   counts.times_promised = 30000;
+  counts.committed = 10000;
   return counts;
 }
 
@@ -144,8 +145,9 @@ TEST_F(CountersTest, ACounterIsNotMoreThanWhatItIsAPartOf) {
     EXPECT_REFUSED(load_campaign(name), words);
     std::filesystem::remove(name);
   };
-  for (const auto counter : {&Counts::collisions, &Counts::positives, &Counts::false_negatives, &Counts::late,
-                             &Counts::false_positives, &Counts::refuted_bounds, &Counts::stuck})
+  for (const auto counter :
+       {&Counts::collisions, &Counts::positives, &Counts::false_negatives, &Counts::late,
+        &Counts::false_positives, &Counts::refuted_bounds, &Counts::stuck, &Counts::unsafe_steps})
     refused(counter, 1, "found a counter that exceeds the one of which it counts a part");
   refused(&Counts::queries, largest_count + 1, "found the count 1152921504606846977, expected at most 2^60");
 }

@@ -160,6 +160,13 @@ TEST(Cliffs, AreBetweenTheValuesWhereMissesChangeMost) {
   EXPECT_EQ(found[0].missed.count, 300);
 }
 
+TEST(Cliffs, AreNotBetweenNoLimitAndTheSmallestOne) {
+  const auto found = cliffs(budgets({{-1, 0}, {100, 900}, {1000, 300}, {10000, 0}}, {}));
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].value, 100);
+  EXPECT_EQ(found[0].next, 1000);
+}
+
 TEST(Cliffs, InOrdinaryFamiliesComeFirst) {
   const auto both = cliffs(budgets({{10, 20}, {100, 0}}, {{10, 900}, {100, 0}}));
   ASSERT_EQ(both.size(), 1);

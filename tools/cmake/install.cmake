@@ -61,7 +61,7 @@ if("ccd" IN_LIST NEARMISS_COMPONENTS)
   # Every operation must be rounded to double; ccd/README.md says why.
   target_compile_options(nearmiss_templates INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
   target_link_libraries(nearmiss_templates INTERFACE Eigen3::Eigen)
-  nearmiss_install_headers(ccd-dev ${templates} ccd/nearmiss_subject.h ccd/nearmiss_functions.hpp ccd/subjects/number_options.hpp)
+  nearmiss_install_headers(ccd-dev ${templates} ccd/nearmiss_subject.h ccd/nearmiss_record.h ccd/nearmiss_functions.hpp ccd/subjects/number_options.hpp)
   nearmiss_install_target(ccd nearmiss_templates)
 endif()
 

@@ -1,11 +1,23 @@
 // nearmiss fuzz runs a campaign; nearmiss ladder runs a campaign over many precisions.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
+#include <thread>
 
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/query/printable.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/simulation/simulation_name.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "reports/statistics/family_class.hpp"
 #include "tools/campaign_options.hpp"
 #include "tools/commands.hpp"
@@ -70,6 +82,55 @@ std::vector<std::string> default_scalars() {
   return names;
 }
 
+/// The files of the plug-ins among some subjects. Throws Error if there is none.
+std::vector<std::filesystem::path> files_to_watch(const std::vector<std::string>& subjects) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& subject : subjects)
+    if (const auto plugin = plugin_named(subject); plugin && !is_program(*plugin))
+      files.emplace_back(PluginName::parse(*plugin).path);
+  if (files.empty())
+    throw Error(fmt::format("--watch: found no shared object in --subject {}, expected one",
+                            excerpt(fmt::format("{}", fmt::join(subjects, ",")))));
+  return files;
+}
+
+/// When the files were last written; the earliest time for one that is not there.
+std::vector<std::filesystem::file_time_type> written(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::file_time_type> times;
+  std::error_code missing;
+  for (const auto& file : files) times.push_back(std::filesystem::last_write_time(file, missing));
+  return times;
+}
+
+/// Waits until one of the files is written, and all of them are complete.
+void wait_for_a_change(const std::vector<std::filesystem::path>& files,
+                       const std::vector<std::filesystem::file_time_type>& before) {
+  constexpr std::chrono::milliseconds pause{300};
+  constexpr auto is_missing = [](const std::filesystem::path& file) { return !is_file(file.string()); };
+  for (auto last = before;; std::this_thread::sleep_for(pause)) {
+    const auto now = written(files);
+    if (now != before && now == last && std::ranges::none_of(files, is_missing)) return;
+    last = now;
+  }
+}
+
+/// Runs the campaign again whenever a plug-in is written, until a signal ends the program.
+void watch(const CampaignOptions& options, int& exit_code) {
+  const auto files = files_to_watch(options.trial.subjects);
+  for (;;) {
+    const auto before = written(files);
+    try {
+      exit_code = record_campaign(options);
+      if (exit_code == exit_interrupted) return;
+    } catch (const Error& error) {  // a plug-in that cannot be loaded may be mended
+      fmt::print(stderr, "nearmiss: {}\n", printable(error.what()));
+    }
+    fmt::print(stderr, "watching {}; ^C ends this\n", fmt::join(options.trial.subjects, ", "));
+    std::fflush(stdout);
+    wait_for_a_change(files, before);
+  }
+}
+
 }  // namespace
 
 void add_fuzz(CLI::App& app, int& exit_code) {
@@ -105,12 +166,19 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(short_names_of_kinds()))
       ->type_name("vt,ee,vv,ve");
   command
-      ->add_option(
-          "--mesh", options->mesh,
-          "Add the family mesh: pairs of this moving mesh, unchanged, moved into contact, and perturbed "
-          "by 10^x of their size, x from -16 to -1")
-      ->expected(2)
-      ->type_name("START.obj END.obj");
+      ->add_option("--mesh", options->mesh,
+                   "Add the family mesh: pairs of this moving mesh (START END), folder of frames or built-in "
+                   "scene (nearmiss scene), "
+                   "unchanged, moved into contact, and perturbed by 10^x of their size, x from -16 to -1")
+      ->expected(1, 2)
+      ->type_name("SCENE");
+  command
+      ->add_option("--near", options->near,
+                   "Add the families near and near-within: the queries of this file or folder (nearmiss "
+                   "replay), such as a "
+                   "recording, unchanged, moved into contact, and perturbed; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("PATH");
   options->separation.add_to(*command, true);
   command->add_flag(
       "--search", options->search,
@@ -124,7 +192,15 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       "cases = 100000; those of the command line count more."
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "
       "night.db -o report");
-  command->callback([options, &exit_code] { exit_code = record_campaign(*options); });
+  auto watches = std::make_shared<bool>(false);
+  command->add_flag("--watch", *watches, "Run the campaign again whenever a plug-in is compiled")
+      ->excludes("--db");
+  command->callback([options, watches, &exit_code] {
+    if (*watches)
+      watch(*options, exit_code);
+    else
+      exit_code = record_campaign(*options);
+  });
 }
 
 void add_ladder(CLI::App& app, int& exit_code) {

@@ -14,6 +14,9 @@
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "reports/statistics/confidence.hpp"
+#include "reports/statistics/failure.hpp"
+#include "reports/statistics/sums.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
@@ -41,15 +44,6 @@ struct Options {
 
 const std::map<std::string, LeaveOut> leave_outs{
     {"nothing", LeaveOut::nothing}, {"boxes", LeaveOut::boxes}, {"all", LeaveOut::all}};
-
-Scene open_scene(const std::vector<std::string>& arguments) {
-  if (arguments.size() == 2) return scene_of_files(arguments[0], arguments[1]);
-  if (is_built_in_scene(arguments[0])) return built_in_scene(arguments[0]);
-  if (std::error_code error; !fs::exists(arguments[0], error))
-    throw Error(fmt::format(
-        "{}: found neither a folder nor a scene with this name (see nearmiss scene --list)", arguments[0]));
-  return scene_of_folder(arguments[0]);
-}
 
 /// Prints a line for each built-in scene.
 void list_scenes(std::FILE* out) {
@@ -215,6 +209,29 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   return held;
 }
 
+/// A line for each subject that missed nothing in so few collisions that this says little, and the command that hunts
+/// around the scene; "" if there is none.
+std::string what_few_collisions_show(const Options& options, const Statistics& statistics) {
+  constexpr double much = 0.01;  // of a miss rate
+  std::string lines;
+  for (const auto& [subject, sum] : sums_by(statistics, &CountsKey::subject)) {
+    const Counts& counts = sum.counts;
+    const double below = clopper_pearson_upper(counts.false_negatives, counts.collisions);
+    if (counts.false_negatives > 0 || below <= much || is_beyond_contract(subject)) continue;
+    lines += fmt::format("{}: {} {} little: a miss rate below {:.2g} % at 95 % confidence\n", subject,
+                         counted(counts.collisions, "collision", "collisions"),
+                         counts.collisions == 1 ? "shows" : "show", 100 * below);
+  }
+  if (lines.empty()) return "";
+  std::string scene;
+  for (const std::string& each : options.scene) scene += " " + printable_argument(each);
+  const std::string within =
+      options.separation.is_given() ? " --separation " + shell_quoted(options.separation.text) : "";
+  return fmt::format(
+      "{}to hunt around this mesh: nearmiss fuzz --subject {} --mesh{}{} --family mesh --time 1m\n", lines,
+      shell_quoted(fmt::format("{}", fmt::join(options.trial.subjects, ","))), scene, within);
+}
+
 int run(Options options) {
   const double h = options.separation.apply({}).separation;
   if (options.plan_only) options.trial.subjects = {h > 0 ? "exact" : "wang"};
@@ -239,6 +256,7 @@ int run(Options options) {
     fmt::print(text, "no subject was asked: the plan decides all pairs\n");
   if (!stop.is_requested()) record.add_unasked(all.subjects);
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
+  fmt::print(text, "{}", what_few_collisions_show(options, record.statistics()));
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = held.asking.count();
   const double verifying = held.verification.seconds;

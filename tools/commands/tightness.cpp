@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <string>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
@@ -68,6 +70,16 @@ int measure_tolerances(const Options& options) {
   return record.finish(stop, !stop);
 }
 
+/// Throws Error if two of the values are the same number.
+void expect_different(const std::vector<std::string>& values) {
+  std::map<double, std::string> known;
+  for (const std::string& value : values)
+    if (const auto number = number_in(value))
+      if (const auto [at, is_new] = known.try_emplace(*number, value); !is_new)
+        throw Error(fmt::format("--values: found '{}' and '{}', expected different numbers",
+                                excerpt(at->second), excerpt(value)));
+}
+
 /// The subjects, with each of the values in place of the star in KEY=*. Throws Error if no subject has a
 /// star.
 std::vector<std::string> with_values(const std::vector<std::string>& subjects,
@@ -91,6 +103,7 @@ std::vector<std::string> with_values(const std::vector<std::string>& subjects,
 
 int measure_values(const Options& options) {
   CampaignOptions campaign = options.campaign;
+  expect_different(options.values);
   campaign.trial.subjects = with_values(campaign.trial.subjects, options.values);
   campaign.time = options.time.empty() && campaign.cases == 0 ? usual_time : options.time;
   return record_campaign(campaign);

@@ -31,6 +31,7 @@
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/trial.hpp"
+#include "oracle/explanation.hpp"
 #include "tools/python/ending.hpp"
 #include "tools/python/function_subject.hpp"
 
@@ -161,6 +162,7 @@ py::dict columns(const std::vector<Finding>& findings) {
                  [](const Finding& each) { return each.is_shrunk; });
   of["is_shrunk"] = is_shrunk;
   of["kind"] = column(findings, [](const Finding& each) { return short_name(each.query.kind); });
+  of["class_"] = column(findings, [](const Finding& each) { return name(each.query_class); });
   of["what"] = column(findings, [](const Finding& each) { return name(each.what); });
   of["subject"] = column(findings, [](const Finding& each) { return each.subject; });
   of["family"] = column(findings, [](const Finding& each) { return each.family; });
@@ -216,6 +218,17 @@ py::tuple make(const std::string& family, const std::string& kind_name, std::siz
   return py::make_tuple(coordinates_of(kind, queries), separations_of(queries));
 }
 
+/// What happens in a query, in words.
+std::string explanation(const std::string& kind_name, const py::array_t<double, py::array::c_style>& x,
+                        double separation) {
+  const PlainArithmetic guard;
+  const Kind kind = parse_kind(kind_name, "kind");
+  if (static_cast<std::size_t>(x.size()) != coordinate_count(kind))
+    throw Error("x: found " + std::to_string(x.size()) + " coordinates, expected " +
+                std::to_string(coordinate_count(kind)));
+  return to_text(explain(with_separation(query_of(kind, x.data()), separation)));
+}
+
 }  // namespace
 }  // namespace nearmiss::python
 
@@ -225,6 +238,7 @@ PYBIND11_MODULE(_trial, module) {
   module.def("hold", &hold);
   module.def("families", &known_families);
   module.def("queries", &make);
+  module.def("explanation", &explanation);
   module.def("end_calls", &end_calls);
   pthread_atfork(nullptr, nullptr, forget_other_threads);
 }

@@ -35,6 +35,7 @@ from nearmiss._functions import (
     wang,
     wang_bound,
 )
+from nearmiss._finding import Finding
 from nearmiss._interface import version as __version__
 from nearmiss._queries import Kind, MeshPairs
 from nearmiss._trials import Counts, Findings, Subject, TrialResult, families, queries, trial
@@ -42,6 +43,7 @@ from nearmiss._trials import Counts, Findings, Subject, TrialResult, families, q
 __all__ = [
     'Counts',
     'DecidedBy',
+    'Finding',
     'Findings',
     'Interval',
     'Kind',

@@ -6,11 +6,22 @@ import functools
 import importlib
 import operator
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, Literal, Optional, Sequence, Union
+from typing import (
+    Any,
+    Callable,
+    Iterable,
+    Iterator,
+    Literal,
+    Optional,
+    Sequence,
+    Union,
+    overload,
+)
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nearmiss._finding import Finding, finding_of
 from nearmiss._queries import KindLike, _expect_no_mask, kind_of
 
 _TIME_SORTS = ('none', 'estimate', 'lower-bound', 'free-step')
@@ -112,7 +123,8 @@ class Counts:
 
 @dataclass(frozen=True)
 class Findings:
-    """Queries on which subjects fail, with an array for each property. findings[mask] selects some of them.
+    """Queries on which subjects fail, with an array for each property. findings[mask] selects some of them, and
+    findings[i] is one of them, a Finding, as in `for finding in findings`.
 
     x, separation:             the queries: (m, 2, 4, 3) and (m,); 'vv' and 've' repeat their last vertex
     shrunk, shrunk_separation: where is_shrunk is true, the simplest queries that fail in the same way; else
@@ -120,6 +132,7 @@ class Findings:
     kind:                      'vt', 'ee', 'vv' or 've'
     what:                      'false-negative', 'late', 'fault' or 'refuted-bound' of a subject; or
                                'oracle-disagreement'
+    class_:                    'ordinary', 'degenerate' or 'extreme'
     subject, family:           names
     signature:                 what findings of the same kind have in common, such as the features of the
                                first contact
@@ -133,6 +146,7 @@ class Findings:
     is_shrunk: NDArray[np.bool_]
     kind: NDArray[np.str_]
     what: NDArray[np.str_]
+    class_: NDArray[np.str_]
     subject: NDArray[np.str_]
     family: NDArray[np.str_]
     signature: NDArray[np.str_]
@@ -141,10 +155,33 @@ class Findings:
     def __len__(self) -> int:
         return len(self.x)
 
-    def __getitem__(self, mask: Union[slice, NDArray[Any]]) -> 'Findings':
-        if not isinstance(mask, slice) and np.ndim(mask) != 1:
-            raise TypeError(f'found {mask!r}, expected a mask, a slice or an array of numbers')
-        return Findings(**{name: array[mask] for name, array in vars(self).items()})
+    @overload
+    def __getitem__(self, which: Union[int, np.integer[Any]]) -> Finding:
+        ...
+
+    @overload
+    def __getitem__(self, which: Union[slice, NDArray[Any]]) -> 'Findings':
+        ...
+
+    def __getitem__(self, which: Any) -> Union[Finding, 'Findings']:
+        if isinstance(which, slice) or np.ndim(which) == 1:
+            return Findings(**{name: array[which] for name, array in vars(self).items()})
+        try:
+            number = operator.index(which)
+        except TypeError:
+            raise TypeError(
+                f'found {which!r}, expected a number, a mask, a slice or an array of numbers'
+            ) from None
+        of_one = {name: array[number] for name, array in vars(self).items()}
+        return finding_of(of_one, _extension().explanation)
+
+    def __iter__(self) -> Iterator[Finding]:
+        return (self[i] for i in range(len(self)))
+
+    def to_dataframe(self) -> Any:
+        """A row for each finding, without the coordinates, as a DataFrame of pandas."""
+        flat = {name: array for name, array in vars(self).items() if array.ndim == 1}
+        return importlib.import_module('pandas').DataFrame(flat)
 
     def __repr__(self) -> str:
         return f'<{len(self)} findings>'

@@ -1,0 +1,270 @@
+/* Records what a program asks its CCD, and what it is answered. C99 or C++, g++ or clang, POSIX; nothing to link.
+ *
+ *   nearmiss_record(NEARMISS_EDGE_EDGE, x, h, 1, answer, toi, 0);
+ *
+ * behind each call of a CCD keeps the latest queries in a file of fixed size, a ring:
+ *
+ *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is its size, by default 64 MiB
+ *   nearmiss replay run.nmq --as-answered                judges the answers
+ *
+ * Without the environment variable, a call costs about a nanosecond. With it, any number of threads may record at
+ * once, and a child that a process forks shares its file. A second process that is given the same file takes one
+ * with its number in the name, run-4711.nmq. An earlier recording of that name becomes run.nmq~. If the program
+ * crashes, the file has everything except records that were just being written. If there is no room for the file,
+ * a line on stderr says so, and nothing is recorded. */
+#ifndef NEARMISS_RECORD_H
+#define NEARMISS_RECORD_H
+
+#ifndef _DEFAULT_SOURCE
+#define _DEFAULT_SOURCE \
+  1 /* flock(2) and posix_fallocate(3), also with -std=c99, if this header comes first */
+#endif
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <sched.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Kinds, and numbers of an answer, as in nearmiss_subject.h. */
+#ifndef NEARMISS_VERTEX_TRIANGLE
+#define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
+#define NEARMISS_EDGE_EDGE 2       /* edges x0x1 and x2x3 */
+#define NEARMISS_VERTEX_VERTEX 4   /* vertices x0 and x1 */
+#define NEARMISS_VERTEX_EDGE 8     /* vertex x0, edge x1x2 */
+#endif
+#ifndef NEARMISS_COLLISION
+#define NEARMISS_NO_COLLISION 0
+#define NEARMISS_COLLISION 1
+#endif
+#ifndef NEARMISS_UNKNOWN
+#define NEARMISS_UNKNOWN 2 /* cannot tell */
+#endif
+
+/* A flag: keep this record longer, in a part of the file that only such records use. For queries that matter: slow
+ * ones, a time of 0, or those before a step that intersects. */
+#define NEARMISS_KEEP 1
+
+/* The file: this header, then `slots` records, then `kept_slots` for those with NEARMISS_KEEP. */
+#define NEARMISS_RECORDING_MAGIC "NEARMISS"
+#define NEARMISS_RECORDING_VERSION 1
+#define NEARMISS_RECORDING_BYTE_ORDER 0x01020304
+
+typedef struct {
+  char magic[8];
+  uint32_t version, byte_order;
+  uint64_t slots, kept_slots;
+  uint64_t unused[12];
+  uint64_t next[8];      /* next[0]: the number of records so far, of both parts */
+  uint64_t next_slot[8]; /* next_slot[0]: the number of records so far in the first part */
+  uint64_t next_kept[8]; /* next_kept[0]: in the second part */
+  uint64_t rest[472];    /* up to 4096 bytes */
+} nearmiss_recording;
+
+typedef struct {
+  uint64_t number; /* from 1 on, in order; 0 while the record is written */
+  uint32_t check;  /* nearmiss_record_check() */
+  uint8_t kind, is_float, flags;
+  int8_t answer;
+  double separation, tmax, toi;
+  double x[24];
+  uint64_t unused[3];
+} nearmiss_record_slot;
+
+/* The program's recorder: one for all its files and shared objects, as far as the linker knows it. */
+typedef struct {
+  int state; /* 0: not yet asked; 1: off; 2: on; 3: about to be one of these */
+  nearmiss_recording* file;
+} nearmiss_recorder;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+__attribute__((weak, visibility("default"))) nearmiss_recorder nearmiss_the_recorder = {0, NULL};
+#ifdef __cplusplus
+}
+#endif
+
+/* A number that depends on every byte of a record except its number, `check` and `unused`. */
+__attribute__((unused)) static uint32_t nearmiss_record_check(const nearmiss_record_slot* slot) {
+  uint64_t words[28], sum = 0;
+  size_t i;
+  memcpy(words, (const char*)slot + offsetof(nearmiss_record_slot, check), sizeof words);
+  words[0] &= ~(uint64_t)UINT32_MAX; /* `check` itself; the order of bytes is that of x86 and ARM */
+  for (i = 0; i < 28; ++i) sum = (sum << 7 | sum >> 57) ^ words[i];
+  sum *= UINT64_C(0x9e3779b97f4a7c15);
+  return (uint32_t)(sum >> 32);
+}
+
+/* Says on stderr why nothing is recorded. */
+__attribute__((unused)) static int nearmiss_record_fails(const char* file, const char* why) {
+  fprintf(stderr, "nearmiss_record: %s: %s; nothing is recorded\n", file, why);
+  return 0;
+}
+
+/* Opens and locks a new file of this name. An earlier file, which no process uses, gets a ~ behind its name. Returns
+ * -1 if a process uses it, or for another error. */
+__attribute__((unused)) static int nearmiss_record_open(const char* file) {
+  struct stat found;
+  char earlier[4097];
+  int fd = open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (fd < 0) return -1;
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0 || fstat(fd, &found) != 0) {
+    const int why = errno;
+    close(fd);
+    errno = why;
+    return -1;
+  }
+  if (found.st_size == 0) return fd;
+  if (snprintf(earlier, sizeof earlier, "%s~", file) >= (int)sizeof earlier || rename(file, earlier) != 0) {
+    close(fd);
+    return -1;
+  }
+  close(fd);
+  fd = open(file, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd >= 0) flock(fd, LOCK_EX | LOCK_NB);
+  return fd;
+}
+
+/* Makes the file for so many bytes of records, and maps it into memory. Returns whether it succeeds. */
+__attribute__((unused)) static int nearmiss_record_map(const char* file, size_t bytes) {
+  char own[4097];
+  nearmiss_recording* head;
+  const size_t slots = bytes / sizeof(nearmiss_record_slot);
+  size_t size;
+  int fd, error;
+  if (file == NULL || file[0] == '\0') return 0;
+  if (slots < 64) return nearmiss_record_fails(file, "the size is below 16 KiB");
+  fd = nearmiss_record_open(file);
+  if (fd < 0 && errno == EWOULDBLOCK) {
+    const char* dot = strrchr(file, '.');
+    const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
+    snprintf(own, sizeof own, "%.*s-%ld%s", (int)stem, file, (long)getpid(), file + stem);
+    file = own;
+    fd = nearmiss_record_open(file);
+  }
+  if (fd < 0) return nearmiss_record_fails(file, strerror(errno));
+  size = sizeof(nearmiss_recording) + slots * sizeof(nearmiss_record_slot);
+  error = posix_fallocate(fd, 0,
+                          (off_t)size); /* a hole in the file would end the program when the disk is full */
+  if (error != 0) {
+    unlink(file);
+    close(fd);
+    return nearmiss_record_fails(file, strerror(error));
+  }
+  head = (nearmiss_recording*)mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  if (head == (nearmiss_recording*)MAP_FAILED) {
+    close(fd);
+    return nearmiss_record_fails(file, strerror(errno));
+  }
+  head->version = NEARMISS_RECORDING_VERSION;
+  head->byte_order = NEARMISS_RECORDING_BYTE_ORDER;
+  head->kept_slots = slots / 4;
+  head->slots = slots - slots / 4;
+  memcpy(head->magic, NEARMISS_RECORDING_MAGIC, sizeof head->magic);
+  nearmiss_the_recorder.file = head; /* the file stays open, and locked, until the process ends */
+  return 1;
+}
+
+/* Records to this file from now on, whatever the environment says; NULL ends that for good. Returns whether it will.
+ * Call it before other threads record. */
+__attribute__((unused)) static int nearmiss_record_to(const char* file, size_t bytes) {
+  int is_on;
+  __atomic_store_n(&nearmiss_the_recorder.state, 3, __ATOMIC_RELEASE);
+  is_on = nearmiss_record_map(file, bytes);
+  __atomic_store_n(&nearmiss_the_recorder.state, is_on ? 2 : 1, __ATOMIC_RELEASE);
+  return is_on;
+}
+
+/* Follows the environment, once. */
+__attribute__((unused, noinline)) static void nearmiss_record_begin(void) {
+  int asked = 0;
+  const char* bytes = getenv("NEARMISS_RECORD_BYTES");
+  if (!__atomic_compare_exchange_n(&nearmiss_the_recorder.state, &asked, 3, 0, __ATOMIC_ACQ_REL,
+                                   __ATOMIC_ACQUIRE))
+    return; /* another thread does so */
+  nearmiss_record_to(getenv("NEARMISS_RECORD"),
+                     bytes == NULL ? (size_t)64 << 20 : (size_t)strtoull(bytes, NULL, 10));
+}
+
+/* Whether queries are recorded. The first call opens the file; other threads wait for it. */
+static inline int nearmiss_record_is_on(void) {
+  int state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
+  if (state == 0) nearmiss_record_begin();
+  while (state == 0 || state == 3) {
+    state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
+    if (state == 3) sched_yield();
+  }
+  return state == 2;
+}
+
+/* Writes a record, whose number and check it sets. */
+__attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_record_slot* record) {
+  nearmiss_recording* const file = nearmiss_the_recorder.file;
+  nearmiss_record_slot* slot = (nearmiss_record_slot*)(file + 1);
+  const uint64_t number = __atomic_add_fetch(&file->next[0], 1, __ATOMIC_RELAXED);
+  if ((record->flags & NEARMISS_KEEP) != 0)
+    slot += file->slots + __atomic_fetch_add(&file->next_kept[0], 1, __ATOMIC_RELAXED) % file->kept_slots;
+  else
+    slot += __atomic_fetch_add(&file->next_slot[0], 1, __ATOMIC_RELAXED) % file->slots;
+  record->check = nearmiss_record_check(record);
+  __atomic_store_n(&slot->number, 0, __ATOMIC_RELEASE);
+  __atomic_thread_fence(__ATOMIC_RELEASE);
+  memcpy((char*)slot + sizeof slot->number, (const char*)record + sizeof record->number,
+         sizeof *record - sizeof record->number);
+  __atomic_store_n(&slot->number, number, __ATOMIC_RELEASE);
+}
+
+/* How many coordinates a query of a kind has: 24, 18 or 12. */
+__attribute__((unused)) static int nearmiss_record_size(int kind) {
+  return kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;
+}
+
+/* Records one query and its answer.
+ *   x: x0 x1 .. at t = 0, then at t = 1; x, y, z of each
+ *   separation: 0 if the CCD is asked for contact
+ *   tmax: the CCD is asked about t in [0, tmax]; usually 1
+ *   answer: NEARMISS_COLLISION and so on
+ *   toi: the time that it gives, NAN if none
+ *   flags: 0 or NEARMISS_KEEP */
+static inline void nearmiss_record(int kind, const double* x, double separation, double tmax, int answer,
+                                   double toi, int flags) {
+  nearmiss_record_slot record;
+  if (!nearmiss_record_is_on()) return;
+  memset(&record, 0, sizeof record);
+  record.kind = (uint8_t)kind;
+  record.flags = (uint8_t)flags;
+  record.answer = (int8_t)answer;
+  record.separation = separation;
+  record.tmax = tmax;
+  record.toi = toi;
+  memcpy(record.x, x, sizeof(double) * (size_t)nearmiss_record_size(kind));
+  nearmiss_record_write(&record);
+}
+
+/* The same for a program in float. Its numbers are kept exactly. */
+static inline void nearmiss_record_float(int kind, const float* x, float separation, float tmax, int answer,
+                                         float toi, int flags) {
+  nearmiss_record_slot record;
+  int i;
+  if (!nearmiss_record_is_on()) return;
+  memset(&record, 0, sizeof record);
+  record.kind = (uint8_t)kind;
+  record.is_float = 1;
+  record.flags = (uint8_t)flags;
+  record.answer = (int8_t)answer;
+  record.separation = (double)separation;
+  record.tmax = (double)tmax;
+  record.toi = (double)toi;
+  for (i = 0; i < nearmiss_record_size(kind); ++i) record.x[i] = (double)x[i];
+  nearmiss_record_write(&record);
+}
+
+#endif

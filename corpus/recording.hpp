@@ -1,0 +1,36 @@
+// Recordings: what a simulation asked its CCD, and what it was answered.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "ccd/query/query.hpp"
+
+namespace nearmiss {
+
+/// A record of ccd/nearmiss_record.h.
+struct Recorded {
+  std::uint64_t number;  ///< from 1 on, in the order of the calls
+  Query query;
+  double tmax;    ///< the CCD was asked about t in [0, tmax]
+  int answer;     ///< as in nearmiss_subject.h
+  double time;    ///< that the CCD gave; NaN if none
+  bool is_float;  ///< whether the program computes in float
+  bool is_kept;   ///< NEARMISS_KEEP
+
+  /// The query whose end is at tmax. Each operation is rounded to double.
+  [[nodiscard]] Query asked() const;
+};
+
+/// Records of a file that cannot be used.
+struct UnusedRecords {
+  std::uint64_t unfinished = 0;  ///< they were being written when the program or the file ended
+  std::uint64_t not_finite = 0;  ///< a number is not finite, the separation negative, or tmax not positive
+};
+
+/// Passes on the records of a file *.nmq in the order of the calls. Throws Error if it is no recording of this version.
+UnusedRecords read_recording(const std::filesystem::path& file,
+                             const std::function<void(const Recorded&)>& sink);
+
+}  // namespace nearmiss

@@ -1,0 +1,136 @@
+// nearmiss convert: writes cases in another format.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "ccd/query/error.hpp"
+#include "corpus/file.hpp"
+#include "corpus/query_text.hpp"
+#include "corpus/readers.hpp"
+#include "corpus/sample_csv.hpp"
+#include "oracle/oracle.hpp"
+#include "reports/text/text.hpp"
+#include "tools/commands.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<fs::path> paths;
+  fs::path folder;
+  std::string format = "plain";
+};
+
+/// New files in a folder, which get their names when all of them are complete.
+class NewFiles {
+ public:
+  explicit NewFiles(fs::path folder) : folder_(std::move(folder)) {}
+
+  void write(const fs::path& name, const std::string& text) {
+    auto place = files_.find(name);
+    if (place == files_.end()) place = files_.try_emplace(name, folder_ / name).first;
+    if (!(place->second.out << text)) refuse(name);
+  }
+
+  /// Throws Error if something cannot be written.
+  void finish() {
+    for (auto& [name, file] : files_) {
+      file.out.close();
+      if (!file.out) refuse(name);
+    }
+    for (auto& [name, file] : files_) file.part.put_in_place();
+  }
+
+ private:
+  struct File {
+    explicit File(const fs::path& file) : part(new_file(file)), out(part.path()) {}
+
+    static fs::path new_file(const fs::path& file) {
+      std::error_code error;
+      fs::create_directories(file.parent_path(), error);
+      if (fs::exists(file))
+        throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+      return file;
+    }
+
+    PartFile part;
+    std::ofstream out;
+  };
+
+  [[noreturn]] void refuse(const fs::path& name) const {
+    throw Error(fmt::format("{}: cannot be written", (folder_ / name).string()));
+  }
+
+  fs::path folder_;
+  std::map<fs::path, File> files_;
+};
+
+/// The query, with its exact truth, as lines of "plain" or "csv"; its file.
+std::pair<fs::path, std::string> converted(const std::string& format, const Case& each,
+                                           std::uint64_t number) {
+  const Query& query = each.query;
+  const bool truth = collides(query);
+  if (format == "plain")
+    return {fmt::format("queries.{}", short_name(query.kind)),
+            fmt::format("# expect={:d}\n{}\n", truth, to_line(query))};
+  if (format == "case") {
+    Case written = each;
+    written.truth = truth;
+    return {fmt::format("{:06}.case", number), to_text(written)};
+  }
+  const auto folder = sample_folder(query.kind);
+  if (!folder || query.separation > 0)
+    throw Error(
+        fmt::format("{}: found a {} query{}, expected vt or ee for contact, which is all that csv has",
+                    each.name, short_name(query.kind), query.separation > 0 ? " with a separation" : ""));
+  return {fs::path(*folder) / "queries.csv", to_sample_csv(query, truth)};
+}
+
+int run(const Options& options) {
+  NewFiles files(options.folder);
+  std::uint64_t count = 0;
+  for (const fs::path& path : options.paths)
+    read_cases(path, [&](const Case& each) {
+      const auto [file, text] = converted(options.format, each, ++count);
+      files.write(file, text);
+    });
+  files.finish();
+  fmt::print("{} in {}\n", counted(count, "query", "queries"), options.folder.string());
+  return exit_fine;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("convert", "Write cases in another format, with their exact truths");
+  command
+      ->add_option("PATH", options->paths,
+                   "Files and folders that nearmiss replay reads, such as a recording")
+      ->required();
+  command->add_option("-o,--output", options->folder, "Folder of the new files")
+      ->required()
+      ->type_name("FOLDER");
+  command
+      ->add_option("--as", options->format,
+                   "plain: queries.vt and so on, one query a line; csv: rational numbers, in vertex-face/ "
+                   "and edge-edge/, "
+                   "for contact; case: a file for each query")
+      ->check(CLI::IsMember({"plain", "csv", "case"}))
+      ->capture_default_str();
+  command->footer("\nExample: nearmiss convert run.nmq -o run --as csv");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools
