@@ -223,7 +223,11 @@ class Asked {
     };
     const auto vertices = [&] { return points(q, Vertices()); };
     if constexpr (is_question) {
-      return call(std::tuple<const Question&>(q));
+      const auto said = call(std::tuple<const Question&>(q));
+      if constexpr (std::is_same_v<decltype(said), const Answer>)
+        return said;
+      else
+        return Answer::of(said);
     } else if constexpr (is_ipc) {
       const bool collides = call(vertices(), std::tuple<double&, double, double>(toi, q.separation, 1));
       return Answer::of(collides, toi);

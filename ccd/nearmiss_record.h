@@ -1,23 +1,23 @@
-/* Records what a program asks its CCD, and what it is answered. C99 or C++, g++ or clang, POSIX; nothing to link.
+/* Records what a program asks its CCD, and what it is answered. C99 or C++, g++ or clang, POSIX.
  *
  *   nearmiss_record(NEARMISS_EDGE_EDGE, x, h, 1, answer, toi, 0);
  *
  * behind each call of a CCD keeps the latest queries in a file of fixed size, a ring:
  *
- *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is its size, by default 64 MiB
+ *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is its size: 64M, or other
  *   nearmiss replay run.nmq --as-answered                judges the answers
  *
- * Without the environment variable, a call costs about a nanosecond. With it, any number of threads may record at
- * once, and a child that a process forks shares its file. A second process that is given the same file takes one
- * with its number in the name, run-4711.nmq. An earlier recording of that name becomes run.nmq~. If the program
- * crashes, the file has everything except records that were just being written. If there is no room for the file,
- * a line on stderr says so, and nothing is recorded. */
+ * Without the environment variable, a call costs about a nanosecond. With it, any number of threads may
+ * record at once, and a child that a process forks shares its file. A second process that is given the
+ * same file takes one with its number in the name, run-4711.nmq, as do shared objects of one program that
+ * cannot see each other. An earlier recording of that name becomes run.nmq~. If the program crashes, the
+ * file has everything except records that were just being written. If there is no room for the file, a
+ * line on stderr says so, and nothing is recorded. */
 #ifndef NEARMISS_RECORD_H
 #define NEARMISS_RECORD_H
 
 #ifndef _DEFAULT_SOURCE
-#define _DEFAULT_SOURCE \
-  1 /* flock(2) and posix_fallocate(3), also with -std=c99, if this header comes first */
+#define _DEFAULT_SOURCE 1 /* flock(2), posix_fallocate(3): also with -std=c99, if this header comes first */
 #endif
 #include <errno.h>
 #include <fcntl.h>
@@ -30,6 +30,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -48,8 +49,8 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag: keep this record longer, in a part of the file that only such records use. For queries that matter: slow
- * ones, a time of 0, or those before a step that intersects. */
+/* A flag: keep this record longer, in a part of the file that only such records use. For queries that
+ * matter: slow ones, a time of 0, or those before a step that intersects. */
 #define NEARMISS_KEEP 1
 
 /* The file: this header, then `slots` records, then `kept_slots` for those with NEARMISS_KEEP. */
@@ -80,14 +81,15 @@ typedef struct {
 
 /* The program's recorder: one for all its files and shared objects, as far as the linker knows it. */
 typedef struct {
-  int state; /* 0: not yet asked; 1: off; 2: on; 3: about to be one of these */
+  int state;  /* 0: not yet asked; 1: off; 2: on; 3: about to be one of these */
+  int opener; /* the process that opens the file, while `state` is 3 */
   nearmiss_recording* file;
 } nearmiss_recorder;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-__attribute__((weak, visibility("default"))) nearmiss_recorder nearmiss_the_recorder = {0, NULL};
+__attribute__((weak, visibility("default"))) nearmiss_recorder nearmiss_the_recorder = {0, 0, NULL};
 #ifdef __cplusplus
 }
 #endif
@@ -109,61 +111,93 @@ __attribute__((unused)) static int nearmiss_record_fails(const char* file, const
   return 0;
 }
 
-/* Opens and locks a new file of this name. An earlier file, which no process uses, gets a ~ behind its name. Returns
- * -1 if a process uses it, or for another error. */
+/* Opens and locks a new file of this name. An earlier file, which no process uses, gets a ~ behind its
+ * name. Returns -1 for an error; EWOULDBLOCK means that a process uses the file. */
 __attribute__((unused)) static int nearmiss_record_open(const char* file) {
-  struct stat found;
+  struct stat found, named;
   char earlier[4097];
-  int fd = open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  int fd, old, why;
+  if (snprintf(earlier, sizeof earlier, "%s~", file) >= (int)sizeof earlier) {
+    errno = ENAMETOOLONG;
+    return -1;
+  }
+  if (stat(file, &named) == 0 && !S_ISREG(named.st_mode)) {
+    errno = EINVAL; /* a device, a pipe or a folder */
+    return -1;
+  }
+  fd = open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (fd < 0) return -1;
-  if (flock(fd, LOCK_EX | LOCK_NB) != 0 || fstat(fd, &found) != 0) {
-    const int why = errno;
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
     close(fd);
-    errno = why;
+    errno = EWOULDBLOCK;
+    return -1;
+  }
+  if (fstat(fd, &found) != 0 || stat(file, &named) != 0 || found.st_ino != named.st_ino) {
+    close(fd);
+    errno = EWOULDBLOCK; /* another process has just put a new file in its place */
     return -1;
   }
   if (found.st_size == 0) return fd;
-  if (snprintf(earlier, sizeof earlier, "%s~", file) >= (int)sizeof earlier || rename(file, earlier) != 0) {
+  old = fd; /* stays locked until the new file is */
+  fd = rename(file, earlier) == 0 ? open(file, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+  why = errno == EEXIST ? EWOULDBLOCK : errno;
+  if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0) {
     close(fd);
-    return -1;
+    fd = -1;
+    why = EWOULDBLOCK;
   }
-  close(fd);
-  fd = open(file, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd >= 0) flock(fd, LOCK_EX | LOCK_NB);
+  close(old);
+  errno = why;
   return fd;
+}
+
+/* Opens the file, or, if other processes or objects use it, one with this process's number in its name,
+ * which is written to `own`. */
+__attribute__((unused)) static int nearmiss_record_open_own(const char* file, char* own, size_t size) {
+  const char* dot = strrchr(file, '.');
+  const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
+  int fd, i;
+  snprintf(own, size, "%s", file);
+  fd = nearmiss_record_open(own);
+  for (i = 1; fd < 0 && errno == EWOULDBLOCK && i < 100; ++i) {
+    if (i == 1)
+      snprintf(own, size, "%.*s-%ld%s", (int)stem, file, (long)getpid(), file + stem);
+    else
+      snprintf(own, size, "%.*s-%ld-%d%s", (int)stem, file, (long)getpid(), i, file + stem);
+    fd = nearmiss_record_open(own);
+  }
+  return fd;
+}
+
+/* Whether a file may become so large. Beyond the limit, a signal would end the program. */
+__attribute__((unused)) static int nearmiss_record_may_have(size_t size) {
+  struct rlimit limit;
+  return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
 }
 
 /* Makes the file for so many bytes of records, and maps it into memory. Returns whether it succeeds. */
 __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t bytes) {
   char own[4097];
   nearmiss_recording* head;
+  void* memory;
   const size_t slots = bytes / sizeof(nearmiss_record_slot);
-  size_t size;
+  const size_t size = sizeof(nearmiss_recording) + slots * sizeof(nearmiss_record_slot);
   int fd, error;
   if (file == NULL || file[0] == '\0') return 0;
-  if (slots < 64) return nearmiss_record_fails(file, "the size is below 16 KiB");
-  fd = nearmiss_record_open(file);
-  if (fd < 0 && errno == EWOULDBLOCK) {
-    const char* dot = strrchr(file, '.');
-    const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
-    snprintf(own, sizeof own, "%.*s-%ld%s", (int)stem, file, (long)getpid(), file + stem);
-    file = own;
-    fd = nearmiss_record_open(file);
-  }
-  if (fd < 0) return nearmiss_record_fails(file, strerror(errno));
-  size = sizeof(nearmiss_recording) + slots * sizeof(nearmiss_record_slot);
-  error = posix_fallocate(fd, 0,
-                          (off_t)size); /* a hole in the file would end the program when the disk is full */
-  if (error != 0) {
-    unlink(file);
+  if (slots < 64 || bytes > (size_t)1 << 40)
+    return nearmiss_record_fails(file, "the size is not between 16 KiB and 1 TiB");
+  if (!nearmiss_record_may_have(size)) return nearmiss_record_fails(file, strerror(EFBIG));
+  fd = nearmiss_record_open_own(file, own, sizeof own);
+  if (fd < 0) return nearmiss_record_fails(own, errno == EINVAL ? "no regular file" : strerror(errno));
+  error = posix_fallocate(fd, 0, (off_t)size); /* if the disk fills up later, a hole would end the program */
+  memory = error == 0 ? mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
+  if (memory == MAP_FAILED) {
+    if (error == 0) error = errno;
+    unlink(own); /* this process made it, or found it empty */
     close(fd);
-    return nearmiss_record_fails(file, strerror(error));
+    return nearmiss_record_fails(own, strerror(error));
   }
-  head = (nearmiss_recording*)mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-  if (head == (nearmiss_recording*)MAP_FAILED) {
-    close(fd);
-    return nearmiss_record_fails(file, strerror(errno));
-  }
+  head = (nearmiss_recording*)memory;
   head->version = NEARMISS_RECORDING_VERSION;
   head->byte_order = NEARMISS_RECORDING_BYTE_ORDER;
   head->kept_slots = slots / 4;
@@ -173,34 +207,53 @@ __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t 
   return 1;
 }
 
-/* Records to this file from now on, whatever the environment says; NULL ends that for good. Returns whether it will.
- * Call it before other threads record. */
+/* Records to this file from now on, whatever the environment says; NULL ends that for good. Returns
+ * whether it will. Call it before other threads record. */
 __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t bytes) {
   int is_on;
+  nearmiss_the_recorder.opener = (int)getpid();
   __atomic_store_n(&nearmiss_the_recorder.state, 3, __ATOMIC_RELEASE);
   is_on = nearmiss_record_map(file, bytes);
   __atomic_store_n(&nearmiss_the_recorder.state, is_on ? 2 : 1, __ATOMIC_RELEASE);
   return is_on;
 }
 
+/* The number of bytes in a text such as 1000000, 64K, 64M or 1G; `otherwise` if there is none, and 0 if it
+ * is none. */
+__attribute__((unused)) static size_t nearmiss_record_bytes(const char* text, size_t otherwise) {
+  unsigned long long number;
+  char* end;
+  int shift;
+  if (text == NULL || text[0] == '\0') return otherwise;
+  if (text[0] < '0' || text[0] > '9') return 0;
+  errno = 0;
+  number = strtoull(text, &end, 10);
+  shift = *end == 'K' ? 10 : *end == 'M' ? 20 : *end == 'G' ? 30 : 0;
+  if (shift != 0) ++end;
+  return errno != 0 || *end != '\0' || number > SIZE_MAX >> shift ? 0 : (size_t)number << shift;
+}
+
 /* Follows the environment, once. */
 __attribute__((unused, noinline)) static void nearmiss_record_begin(void) {
   int asked = 0;
-  const char* bytes = getenv("NEARMISS_RECORD_BYTES");
+  nearmiss_the_recorder.opener = (int)getpid(); /* whichever thread opens the file */
   if (!__atomic_compare_exchange_n(&nearmiss_the_recorder.state, &asked, 3, 0, __ATOMIC_ACQ_REL,
                                    __ATOMIC_ACQUIRE))
     return; /* another thread does so */
   nearmiss_record_to(getenv("NEARMISS_RECORD"),
-                     bytes == NULL ? (size_t)64 << 20 : (size_t)strtoull(bytes, NULL, 10));
+                     nearmiss_record_bytes(getenv("NEARMISS_RECORD_BYTES"), (size_t)64 << 20));
 }
 
-/* Whether queries are recorded. The first call opens the file; other threads wait for it. */
+/* Whether queries are recorded. The first call opens the file; other threads wait for it. A child that was
+ * forked meanwhile records nothing. */
 static inline int nearmiss_record_is_on(void) {
   int state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
   if (state == 0) nearmiss_record_begin();
   while (state == 0 || state == 3) {
     state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
-    if (state == 3) sched_yield();
+    if (state != 3) continue;
+    if (nearmiss_the_recorder.opener != (int)getpid()) return 0;
+    sched_yield();
   }
   return state == 2;
 }
@@ -215,8 +268,7 @@ __attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_rec
   else
     slot += __atomic_fetch_add(&file->next_slot[0], 1, __ATOMIC_RELAXED) % file->slots;
   record->check = nearmiss_record_check(record);
-  __atomic_store_n(&slot->number, 0, __ATOMIC_RELEASE);
-  __atomic_thread_fence(__ATOMIC_RELEASE);
+  (void)__atomic_exchange_n(&slot->number, 0, __ATOMIC_ACQ_REL); /* before what follows */
   memcpy((char*)slot + sizeof slot->number, (const char*)record + sizeof record->number,
          sizeof *record - sizeof record->number);
   __atomic_store_n(&slot->number, number, __ATOMIC_RELEASE);
@@ -239,9 +291,9 @@ static inline void nearmiss_record(int kind, const double* x, double separation,
   nearmiss_record_slot record;
   if (!nearmiss_record_is_on()) return;
   memset(&record, 0, sizeof record);
-  record.kind = (uint8_t)kind;
+  record.kind = (uint8_t)(kind < 0 || kind > UINT8_MAX ? 0 : kind);
   record.flags = (uint8_t)flags;
-  record.answer = (int8_t)answer;
+  record.answer = (int8_t)(answer < INT8_MIN || answer > INT8_MAX ? INT8_MIN : answer);
   record.separation = separation;
   record.tmax = tmax;
   record.toi = toi;
@@ -256,10 +308,10 @@ static inline void nearmiss_record_float(int kind, const float* x, float separat
   int i;
   if (!nearmiss_record_is_on()) return;
   memset(&record, 0, sizeof record);
-  record.kind = (uint8_t)kind;
+  record.kind = (uint8_t)(kind < 0 || kind > UINT8_MAX ? 0 : kind);
   record.is_float = 1;
   record.flags = (uint8_t)flags;
-  record.answer = (int8_t)answer;
+  record.answer = (int8_t)(answer < INT8_MIN || answer > INT8_MAX ? INT8_MIN : answer);
   record.separation = (double)separation;
   record.tmax = (double)tmax;
   record.toi = (double)toi;

@@ -27,8 +27,8 @@ extern "C" {
 #define NEARMISS_NO_TIME 0
 #define NEARMISS_TIME_ESTIMATE 1
 #define NEARMISS_TIME_LOWER_BOUND 2 /* nothing happens before this time */
-/* Nor before the end of the step to it: the straight way from x0 to x0 + toi (x1 - x0), where each operation is
- * rounded to double, or to float if `bits` is 24. */
+/* Nor before the end of the step to it: the straight way from x0 to x0 + toi (x1 - x0), where each
+ * operation is rounded to double, or to float if `bits` is 24. Judged where there is a collision. */
 #define NEARMISS_TIME_FREE_STEP 3
 
 /* Layouts of the coordinates of n queries. */

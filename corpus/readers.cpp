@@ -39,6 +39,20 @@ void expect_end(const std::istream& in, const std::string& name) {
   if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
 }
 
+/// The records of a recording as cases. Throws Error if there is none.
+void read_records(const fs::path& path, const CaseSink& sink) {
+  const std::string name = path.string();
+  bool any = false;
+  const UnusedRecords unused = read_recording(path, [&](const Recorded& each) {
+    any = true;
+    sink({.name = fmt::format("{}:{}", name, each.number), .query = each.asked()});
+  });
+  if (any) return;
+  const bool has_records = unused.unfinished + unused.not_queries > 0;
+  throw Error(fmt::format("{}: found no {}, expected some", name,
+                          has_records ? "record that is complete and has a query" : "record"));
+}
+
 void read_file(const fs::path& path, const CaseSink& sink) {
   const std::string name = path.string();
   expect_regular_file(path);
@@ -47,12 +61,8 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   if (in.peek() == std::ifstream::traits_type::eof())
     throw Error(fmt::format("{}: found an empty file, expected cases", name));
   const auto extension = path.extension();
-  if (extension == ".nmq") {
-    read_recording(path, [&](const Recorded& each) {
-      sink({.name = fmt::format("{}:{}", name, each.number), .query = each.asked()});
-    });
-    return;
-  }
+  // A program records to a file of any name.
+  if (extension == ".nmq" || begins_as_recording(in)) return read_records(path, sink);
   if (extension == ".case") {
     sink(parse_case(in, name));
   } else if (extension == ".csv") {

@@ -19,11 +19,12 @@ using CaseSink = std::function<void(Case&&)>;
 ///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the
 ///    truth. The folder, edge-edge or vertex-face, determines the kind. Every coordinate must be exactly a
 ///    double;
-///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax;
+///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. A file that is named itself, not
+///    found in a folder, may have any name if it begins as a recording;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
-/// with file and line, also for a file that is empty, unreadable or of another format, for a line of more than
-/// 1 MiB, and for a folder without a case.
+/// with file and line, also for a file that is empty, unreadable or of another format, for a recording without
+/// a usable record, for a line of more than 1 MiB, and for a folder without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
 /// Reads a stream with one query a line. Messages name the file `name`. Throws Error.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ccd/nearmiss_record.h"
@@ -61,6 +63,15 @@ Query Recorded::asked() const {
   return shorter;
 }
 
+bool begins_as_recording(std::istream& in) {
+  constexpr std::string_view magic = NEARMISS_RECORDING_MAGIC;
+  std::string begin(magic.size(), '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  in.clear();
+  in.seekg(0);
+  return begin == magic;
+}
+
 UnusedRecords read_recording(const std::filesystem::path& file,
                              const std::function<void(const Recorded&)>& sink) {
   const std::string bytes = read_whole_file(file);
@@ -71,7 +82,8 @@ UnusedRecords read_recording(const std::filesystem::path& file,
   std::memcpy(all.data(), bytes.data() + sizeof head, all.size() * sizeof(nearmiss_record_slot));
 
   UnusedRecords unused;
-  // Each part has been filled up to its number of records; what lies behind it in a file that was cut is lost.
+  // Each part has been filled up to its number of records; what lies behind it in a file that was cut is
+  // lost.
   const auto filled = std::min(head.next_slot[0], head.slots) + std::min(head.next_kept[0], head.kept_slots);
   std::erase_if(all, [](const nearmiss_record_slot& each) {
     return each.number == 0 || nearmiss_record_check(&each) != each.check;
@@ -83,7 +95,7 @@ UnusedRecords read_recording(const std::filesystem::path& file,
     if (each && is_usable(*each))
       sink(*each);
     else
-      ++unused.not_finite;
+      ++unused.not_queries;
   }
   return unused;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 
 #include "ccd/query/query.hpp"
 
@@ -25,11 +26,14 @@ struct Recorded {
 
 /// Records of a file that cannot be used.
 struct UnusedRecords {
-  std::uint64_t unfinished = 0;  ///< they were being written when the program or the file ended
-  std::uint64_t not_finite = 0;  ///< a number is not finite, the separation negative, or tmax not positive
+  std::uint64_t unfinished = 0;   ///< they were being written when the program or the file ended
+  std::uint64_t not_queries = 0;  ///< no query has their kind, coordinates, separation or tmax
 };
 
-/// Passes on the records of a file *.nmq in the order of the calls. Throws Error if it is no recording of this version.
+/// Whether a stream begins as a recording does. Goes back to its beginning.
+bool begins_as_recording(std::istream& in);
+
+/// Passes on the records of a file in the order of the calls. Throws Error if it is no recording of this version.
 UnusedRecords read_recording(const std::filesystem::path& file,
                              const std::function<void(const Recorded&)>& sink);
 

@@ -17,7 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The text as it may stand in XML, within an attribute, too. XML has no control characters but ends of lines.
+/// The text as it may stand in XML, within an attribute, too. XML has no control characters but ends of
+/// lines.
 std::string escaped(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -65,14 +66,19 @@ std::string suite_xml(const std::string& name, const std::vector<Test>& tests) {
       escaped(name), tests.size(), failed, rows);
 }
 
+/// "missed 3 of 50 collisions"; only the verb if nothing is counted, as in "was asked nothing"
+std::string message_of(const FailureInfo& failure, const Counts& counts) {
+  if (failure.one.empty()) return std::string(failure.verb);
+  return fmt::format("{} {} of {}", failure.verb, with_separators(failure.count(counts)),
+                     counted(failure.total(counts), failure.one, failure.many));
+}
+
 /// "missed 3 of 50 collisions; exceeded its bound in 1 of 7 false positives"
 std::string message_of(const ClassKey& key, const Counts& counts, const Failures& failing) {
   std::string message;
   for (const FailureKind kind : in_common(failures_of(key.subject, counts), failing)) {
-    const FailureInfo& failure = failure_info(kind);
-    const std::uint64_t total = failure.total(counts);
-    message += fmt::format("{}{} {} of {}", message.empty() ? "" : "; ", failure.verb,
-                           with_separators(failure.count(counts)), counted(total, failure.one, failure.many));
+    if (!message.empty()) message += "; ";
+    message += message_of(failure_info(kind), counts);
   }
   return message;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "ccd/query/printable.hpp"
+#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
@@ -19,6 +21,7 @@
 #include "fuzz/search/search.hpp"
 #include "fuzz/subjects/exact.hpp"
 #include "fuzz/trial/campaign.hpp"
+#include "reports/sha256.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/scene_subjects.hpp"
@@ -96,8 +99,8 @@ std::vector<Query> queries_of(const std::vector<std::filesystem::path>& paths) {
   return queries;
 }
 
-/// The families chosen with --family, --sweep, --mesh, --near and --search. Throws Error, and Stopped if the stop is due
-/// before the pairs of meshes and simulations are known.
+/// The families chosen with --family, --sweep, --mesh, --near and --search. Throws Error, and Stopped if the
+/// stop is due before the pairs of meshes and simulations are known.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
   const std::vector<Kind> asked = chosen_kinds(options, subjects);
@@ -163,6 +166,26 @@ std::string names_of_kinds_asked(const CampaignPlan& plan) {
   return names_of_kinds(sum, ",");
 }
 
+/// A digest of the content of files, and of all files below folders; names that are no files are left out.
+template <class Paths>
+std::string digest_of(const Paths& paths) {
+  namespace fs = std::filesystem;
+  Sha256 digest;
+  std::vector<fs::path> files;
+  for (const auto& given : paths) {
+    const fs::path path(given);
+    std::error_code none;
+    if (fs::is_regular_file(path, none)) files.push_back(path);
+    std::vector<fs::path> below;
+    for (fs::recursive_directory_iterator each(path, none), end; !none && each != end; each.increment(none))
+      if (each->is_regular_file()) below.push_back(each->path());
+    std::ranges::sort(below);
+    files.insert(files.end(), below.begin(), below.end());
+  }
+  for (const fs::path& file : files) digest.add(read_whole_file(file));
+  return digest.hex_digest();
+}
+
 /// Everything that the campaign's results depend on. The time limit is left out, because it changes the
 /// number of rounds, not the result of a round.
 RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const Subjects& subjects) {
@@ -186,10 +209,12 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
   }
   if (!options.mesh.empty()) {
     info["scene"] = printable(fmt::format("{}", fmt::join(options.mesh, " ")));
+    info["scene sha256"] = digest_of(options.mesh);
     again += " --mesh";
     for (const std::string& each : options.mesh) again += " " + printable_argument(each);
   }
   if (!options.near.empty()) {
+    info["near sha256"] = digest_of(options.near);
     for (const auto& path : options.near)
       info["near"] += (info["near"].empty() ? "" : " ") + printable(path.string());
     for (const auto& path : options.near) again += " --near " + printable_argument(path.string());

@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "reports/junit.hpp"
-#include "tools/json_output.hpp"
 
 namespace nearmiss::tools {
 
@@ -18,8 +18,12 @@ void CiOutput::add_to(CLI::App& command) {
   command.add_flag("--github", github_, "Print each failure as an annotation of GitHub's workflows, too");
 }
 
-void CiOutput::expect_writable(const std::filesystem::path& store) const {
-  if (!junit_.empty()) tools::expect_writable(junit_, "--junit", store);
+void CiOutput::expect_writable(std::span<const OptionFile> others) const {
+  if (junit_.empty()) return;
+  // Unlike --json, --junit has no form for standard output.
+  if (junit_ == "-") throw Error("--junit: found '-', expected a file");
+  tools::expect_writable(junit_, "--junit");
+  for (const OptionFile& other : others) expect_different({junit_, "--junit"}, other);
 }
 
 void CiOutput::write(const Campaign& campaign, const Failures& failing, std::FILE* text) const {

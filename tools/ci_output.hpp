@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 
 #include "reports/campaign/campaign.hpp"
 #include "reports/statistics/failure.hpp"
+#include "tools/json_output.hpp"
 
 namespace nearmiss::tools {
 
@@ -15,8 +17,9 @@ class CiOutput {
   /// Adds --junit and --github.
   void add_to(CLI::App& command);
 
-  /// Throws Error if it is already clear that the file cannot be written, or if it would replace the store.
-  void expect_writable(const std::filesystem::path& store = {}) const;
+  /// Throws Error if it is already clear that the file cannot be written, or if it is one of these, such as the
+  /// store.
+  void expect_writable(std::span<const OptionFile> others) const;
 
   /// Writes the file, and prints the annotations to `text`, as far as they are wanted. Throws Error.
   void write(const Campaign& campaign, const Failures& failing, std::FILE* text = stdout) const;

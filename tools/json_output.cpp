@@ -19,14 +19,19 @@ void JsonOutput::add_to(CLI::App& command, const std::string& description) {
       ->type_name("FILE|-");
 }
 
+void expect_different(const OptionFile& one, const OptionFile& other) {
+  if (one.file.empty() || other.file.empty() || true_path(one.file) != true_path(other.file)) return;
+  throw Error(fmt::format("{}: found the same file for {} and {}, expected two", other.file.string(),
+                          one.option, other.option));
+}
+
 void expect_writable(const std::filesystem::path& file, std::string_view option,
                      const std::filesystem::path& db) {
   const auto folder = file.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw Error(fmt::format("{}: no folder {} to write it in", file.string(), folder.string()));
   expect_replaceable(file);
-  if (!db.empty() && true_path(file) == true_path(db))
-    throw Error(fmt::format("{}: found the same file for {} and --db, expected two", db.string(), option));
+  expect_different({file, option}, {db, "--db"});
 }
 
 void JsonOutput::expect_writable(const std::filesystem::path& db) const {

@@ -10,8 +10,17 @@
 
 namespace nearmiss::tools {
 
-/// Throws Error if it is already clear that a file, which is an option's value, cannot be written, or if it would
-/// replace the file `db`.
+/// A file, and the option whose value it is; an empty path if the option is not given.
+struct OptionFile {
+  std::filesystem::path file;
+  std::string_view option;
+};
+
+/// Throws Error if two options name the same file.
+void expect_different(const OptionFile& one, const OptionFile& other);
+
+/// Throws Error if it is already clear that a file, which is an option's value, cannot be written, or if it
+/// would replace the file `db`.
 void expect_writable(const std::filesystem::path& file, std::string_view option,
                      const std::filesystem::path& db = {});
 
@@ -28,7 +37,8 @@ class JsonOutput {
   /// Where the command prints its text.
   [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
 
-  /// Throws Error if it is already clear that the file cannot be written, or if it would replace the file `db`.
+  /// Throws Error if it is already clear that the file cannot be written, or if it would replace the file
+  /// `db`.
   void expect_writable(const std::filesystem::path& db = {}) const;
 
   /// Writes the JSON if it is wanted, indented by `indent` blanks. A file is written whole or not at all.

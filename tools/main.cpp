@@ -11,7 +11,6 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <istream>
 #include <memory>
 #include <new>
 #include <numeric>
@@ -29,6 +28,7 @@
 #include "fuzz/stop.hpp"
 #include "reports/text/shell.hpp"
 #include "tools/commands.hpp"
+#include "tools/configuration.hpp"
 #include "tools/terminal.hpp"
 
 namespace {
@@ -140,27 +140,11 @@ void print_continuation(const CLI::App& command, int argc, char** argv) {
   std::fputs(("nearmiss: interrupted; to continue:" + again + "\n").c_str(), stderr);
 }
 
-/// A TOML file of options: those outside of tables belong to the subcommand that runs.
-class ConfigurationFile final : public CLI::ConfigTOML {
- public:
-  explicit ConfigurationFile(std::string command) : command_(std::move(command)) {}
-
-  [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
-    std::vector<CLI::ConfigItem> read = CLI::ConfigTOML::from_config(input);
-    for (CLI::ConfigItem& item : read)
-      if (item.parents.empty()) item.parents = {command_};
-    return read;
-  }
-
- private:
-  std::string command_;
-};
-
 /// Lets `nearmiss fuzz --config FILE` read its options from a file.
 void add_configuration(CLI::App& app) {
   app.set_config("--config", "", "Read options of fuzz from a TOML file")->group("");
   app.allow_config_extras(CLI::config_extras_mode::error);
-  app.config_formatter(std::make_shared<ConfigurationFile>("fuzz"));
+  app.config_formatter(std::make_shared<nearmiss::tools::ConfigurationFile>("fuzz"));
   app.get_subcommand("fuzz")->fallthrough();
 }
 

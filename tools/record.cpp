@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -99,7 +100,8 @@ Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
   stop_on_signals();
   options_.json.expect_writable(options_.db);
-  options_.ci.expect_writable(options_.db);
+  options_.ci.expect_writable(
+      std::array{OptionFile{options_.db, "--db"}, OptionFile{options_.json.file(), "--json"}});
   shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   shard_.environment.merge(environment());
   if (options_.resume && Store::exists(options_.db))

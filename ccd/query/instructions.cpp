@@ -19,13 +19,15 @@ Instructions& chosen() {
 
 bool has(Instructions instructions) {
   switch (instructions) {
+#ifdef __x86_64__
     case Instructions::avx512:
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
              __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("bmi2");
     case Instructions::avx2:
       return __builtin_cpu_supports("avx2");
+#endif
     default:
-      return true;
+      return instructions == Instructions::sse2;
   }
 }
 

@@ -40,8 +40,8 @@ inline constexpr std::size_t largest_batch = 10'000'000;
 
 /// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
-/// Throws an Error that begins with `where` if a detector does not follow nearmiss_subject.h, of a version that is
-/// known, or has one of the other names.
+/// Throws an Error that begins with `where` if a detector does not follow nearmiss_subject.h, of a version
+/// that is known, or has one of the other names.
 void expect_usable(const std::string& where, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names = {});
 std::string fault_of_name(std::string_view name);

@@ -56,8 +56,8 @@ class Plugin final : public DescribedSubject {
   template <class Opened>
   explicit Plugin(Opened opened);
 
-  /// Returns act(detector, seen, x) for a detector that no other thread uses meanwhile, the query that it sees, and
-  /// that query's coordinates.
+  /// Returns act(detector, seen, x) for a detector that no other thread uses meanwhile, the query that it
+  /// sees, and that query's coordinates.
   template <class Act>
   auto ask(const Query& query, const Act& act) const;
 

@@ -48,12 +48,17 @@ std::string text_or(const char* text, const char* otherwise) {
 std::vector<std::string> split(const std::string& names) {
   std::vector<std::string> parts;
   std::istringstream from(names);
-  for (std::string part; std::getline(from, part, ',');) parts.push_back(part);
+  for (std::string part; std::getline(from, part, ',');) {
+    const std::size_t first = part.find_first_not_of(" \t\n");
+    if (first == std::string::npos) continue;
+    parts.push_back(part.substr(first, part.find_last_not_of(" \t\n") + 1 - first));
+  }
   return parts;
 }
 
 /// The caller's options, of whose structure an older version may have had fewer fields.
 nearmiss_trial_options complete(const nearmiss_trial_options& given) {
+  if (given.size == 0) throw Error("size: found 0, expected sizeof(nearmiss_trial_options)");
   nearmiss_trial_options options{};
   std::memcpy(&options, &given, std::min(given.size, sizeof options));
   return options;
@@ -73,7 +78,9 @@ CampaignPlan plan_of(const nearmiss_trial_options& options, const Subject& subje
   CampaignPlan plan;
   const std::string names = text_or(options.families, "all");
   const std::string separation = text_or(options.separation, "");
-  if (options.cases == 0 && !(options.seconds > 0))
+  if (!(options.seconds >= 0))
+    throw Error("seconds: found " + std::to_string(options.seconds) + ", expected at least 0");
+  if (options.cases == 0 && options.seconds == 0)
     throw Error("cases: found 0, without a time, expected a number of queries or of seconds");
   if (options.threads < 0)
     throw Error("threads: found " + std::to_string(options.threads) + ", expected at least 1");
@@ -125,19 +132,26 @@ void add_finding(const Finding& finding, Result& result) {
   added.separation = finding.shrunk.separation;
 }
 
-/// Shrinks the first findings of the most ordinary ways to fail; a test need not wait for more.
-void shrink_first(Campaign& campaign, const Subjects& subjects, const nearmiss_trial_options& options) {
+/// The findings in the order of the text: the most ordinary class first, and in it the gravest failure.
+std::vector<Finding> in_order(const Campaign& campaign) {
+  std::vector<Finding> findings = campaign.findings();
+  std::ranges::stable_sort(findings, {}, [](const Finding& each) {
+    return std::pair(each.query_class, failure_of(signature_of(each)));
+  });
+  return findings;
+}
+
+/// Shrinks the first findings of the first ways to fail; a test need not wait for more.
+void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop) {
   constexpr std::size_t most = 3;
-  static const std::atomic<bool> never{false};
-  Stop stop(never);
-  if (options.seconds > 0) stop.limit(std::chrono::duration<double>(options.seconds) + Stop::grace);
-  const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);
+  constexpr ShrinkLimits limits{.work = limits_in_campaign.work, .time = std::chrono::seconds(2)};
+  const FindingShrinker shrinker(pointers_to(subjects), stop, limits);
   std::set<Signature> shrunk;
   std::vector<Finding>& found = campaign.runs.front().findings;
-  for (const Finding& each : campaign.findings()) {
+  for (const Finding& each : in_order(campaign)) {
     if (shrunk.size() == most) return;
     if (!shrunk.insert(signature_of(each)).second) continue;
-    Finding& finding = *std::find(found.begin(), found.end(), each);
+    Finding& finding = *std::ranges::find(found, each);
     try {
       shrinker.shrink(finding);
     } catch (const Stopped&) {
@@ -147,16 +161,11 @@ void shrink_first(Campaign& campaign, const Subjects& subjects, const nearmiss_t
   }
 }
 
-std::unique_ptr<Result> hold(const nearmiss_subject& detector, void* state,
-                             const nearmiss_trial_options& options) {
-  expect_usable("trial", detector);
-  const Subjects subjects =
-      keep_contract(std::make_unique<CalledDetector>(detector, state, options.threads > 1), false);
-  const CampaignPlan plan = plan_of(options, *subjects.front());
-  expect_all_asked(subjects, plan.families);
+/// Asks the detector, and simplifies some of what it fails on.
+Campaign campaign_of(const CampaignPlan& plan, const Subjects& subjects, double seconds) {
   static const std::atomic<bool> never{false};
   Stop stop(never);
-  if (options.seconds > 0) stop.limit(std::chrono::duration<double>(options.seconds));
+  if (seconds > 0) stop.limit(std::chrono::duration<double>(seconds));
   Campaign campaign{.runs = std::vector<Run>(1), .statistics = {}};
   std::vector<Finding>& found = campaign.runs.front().findings;
   run_campaign(
@@ -168,14 +177,25 @@ std::unique_ptr<Result> hold(const nearmiss_subject& detector, void* state,
       },
       stop);
   std::erase_if(found, [](const Finding& each) { return is_only_shown(each.what); });
-  shrink_first(campaign, subjects, options);
+  shrink_first(campaign, subjects, stop);
+  return campaign;
+}
+
+std::unique_ptr<Result> hold(const nearmiss_subject& detector, void* state,
+                             const nearmiss_trial_options& options) {
+  expect_usable("trial", detector);
+  const Subjects subjects =
+      keep_contract(std::make_unique<CalledDetector>(detector, state, options.threads > 1), false);
+  const CampaignPlan plan = plan_of(options, *subjects.front());
+  expect_all_asked(subjects, plan.families);
+  const Campaign campaign = campaign_of(plan, subjects, options.seconds);
+  const std::vector<Finding> findings = in_order(campaign);
   auto result = std::make_unique<Result>();
-  const std::vector<Finding> findings = campaign.findings();
-  result->is_clean = has_failed(campaign.statistics) ? 0 : 1;
   result->lines = trial_text({subjects.front()->name(), text_or(options.check, "assert"), options.seed},
                              campaign.statistics, findings);
   result->text = result->lines.c_str();
   add_counts(campaign.statistics, *result);
+  result->is_clean = result->all.queries > 0 && !has_failed(campaign.statistics) ? 1 : 0;
   for (const Finding& each : findings) add_finding(each, *result);
   result->finding_count = result->list.size();
   result->findings = result->list.data();
@@ -220,8 +240,11 @@ nearmiss_trial_result* nearmiss_hold_trial(const nearmiss_subject* detector, voi
                                            const nearmiss_trial_options* options, char* message,
                                            size_t size) {
   std::unique_ptr<nearmiss::Result> result;
-  nearmiss::told(message, size,
-                 [&] { result = nearmiss::hold(*detector, state, nearmiss::complete(*options)); });
+  nearmiss::told(message, size, [&] {
+    if (detector == nullptr || options == nullptr)
+      throw nearmiss::Error("trial: found NULL, expected a detector and options");
+    result = nearmiss::hold(*detector, state, nearmiss::complete(*options));
+  });
   return result.release();
 }
 

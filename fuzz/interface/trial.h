@@ -1,6 +1,6 @@
 /** \file
- * A trial of a CCD inside its own program, such as a unit test: nearmiss asks a detector hard queries, judges its
- * answers exactly, and simplifies the queries on which it fails. trial.hpp has the same in C++. C99.
+ * A trial of a CCD inside its own program, such as a unit test: nearmiss asks a detector hard queries, judges
+ * its answers exactly, and simplifies the queries on which it fails. trial.hpp has the same in C++. C99.
  *
  * The detector runs in the caller's process, so a crash of it ends that process, and an endless loop never
  * returns; `nearmiss fuzz` runs detectors in processes of their own. Nothing is written to files.
@@ -28,8 +28,8 @@ typedef struct {
   int kinds;         /**< sum of kinds; 0: all that the detector decides */
   int threads;       /**< how many call the detector at once; 0: one */
   uint64_t seed;     /**< of the random queries */
-  uint64_t cases;    /**< number of queries; 0: no limit */
-  double seconds;    /**< after this time, no further query is asked; 0: no limit */
+  uint64_t cases;    /**< number of queries; 0: as many as there is time for */
+  double seconds;    /**< for the queries, and a second more to simplify some; 0: no limit */
 } nearmiss_trial_options;
 
 /** Counters of the detector's answers. */
@@ -70,18 +70,19 @@ typedef struct {
   const nearmiss_trial_finding* findings; /**< the first of each way to fail, the most ordinary ones first */
 } nearmiss_trial_result;
 
-/** Puts a detector on trial. Its functions get `state` first; open() and close() are not called. If `threads` is more
- * than 1, several threads call it at once. Returns a result, which nearmiss_free_trial() releases, or NULL and a line
- * in `message`, which has `size` bytes: for a name or a number that is not known, or if there is no memory. */
+/** Puts a detector on trial. Its functions get `state` first; open() and close() are not called. If
+ * `threads` is more than 1, several threads call it at once. Returns a result, which nearmiss_free_trial()
+ * releases, or NULL and a line in `message`, which has `size` bytes: for a name or a number that is not
+ * known, or if there is no memory. */
 nearmiss_trial_result* nearmiss_hold_trial(const nearmiss_subject* detector, void* state,
                                            const nearmiss_trial_options* options, char* message, size_t size);
 
 /** Releases a result; NULL is allowed. */
 void nearmiss_free_trial(nearmiss_trial_result* result);
 
-/** Queries `first` to `first + n - 1` of a kind of a family, for loops of one's own. `x` gets n rows of coordinates, as
- * nearmiss_subject.h orders them, and `separation` n numbers; it may be NULL if the family asks for contact. Returns
- * 1, or 0 and a line in `message`. */
+/** Queries `first` to `first + n - 1` of a kind of a family, for loops of one's own. `x` gets n rows of
+ * coordinates, as nearmiss_subject.h orders them, and `separation` n numbers; it may be NULL if the family
+ * asks for contact. Returns 1, or 0 and a line in `message`. */
 int nearmiss_hard_queries(const char* family, int kind, uint64_t seed, uint64_t first, size_t n, double* x,
                           double* separation, char* message, size_t size);
 

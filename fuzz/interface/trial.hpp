@@ -1,20 +1,21 @@
 /// \file
-/// A trial of a CCD inside a unit test: hard queries, exact judgement, and a counterexample to paste. C++20; link
-/// with nearmiss::trial. Include the test framework first, so that counterexamples use its macro.
+/// A trial of a CCD inside a unit test: hard queries, exact judgement, and a counterexample to paste. C++20;
+/// link with nearmiss::trial. Include the test framework first, so that counterexamples use its macro.
 ///
 ///     const auto r = nearmiss::trial([](const nearmiss::Question& q) { return mine(q.x); }, {.cases = 20000});
 ///     EXPECT_TRUE(r.clean()) << r;
 ///
-/// A CCD is a function, or an object that is called like one:
+/// A CCD is a function, or an object with a const operator(), of one of these forms:
 ///
 ///     bool f(const Question&)                                       whether there is a collision
 ///     std::optional<double> f(const Question&)                      its time, if there is one: an estimate
 ///     plugin::Answer f(const Question&)                             either, or "cannot tell"
 ///     void f(std::span<const Question>, std::span<plugin::Answer>)  many queries at once
 ///
-/// It is asked vertex-triangle and edge-edge queries, unless the options name other kinds. A detector of
-/// nearmiss_functions.hpp is one, too, and decides each kind by a function with one of the field's usual
-/// signatures:
+/// The last two give times if TrialOptions::time_sort says so. A function is asked vertex-triangle and
+/// edge-edge queries, unless the options name other kinds. A detector of nearmiss_functions.hpp is a CCD,
+/// too, and decides each kind by a function with one of the field's usual signatures; it says itself what it
+/// promises:
 ///
 ///     nearmiss::trial(nearmiss::plugin::detector("mine").vertex_triangle(f).edge_edge(g))
 ///
@@ -27,6 +28,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -48,18 +50,20 @@ namespace nearmiss {
 
 using plugin::Question;
 
+inline constexpr int of_the_form = -1;  ///< estimates for a function that returns optional, else no times
+
 /// What is asked, how long, and what the CCD promises.
 struct TrialOptions {
-  std::string name = "my_ccd";   ///< of the CCD in the text
+  std::string name = "my_ccd";   ///< of a function, in the text; a detector has its own
   std::string families = "all";  ///< names with ',' between them (nearmiss fuzz --help)
   std::string separation = {};   ///< of each query: a positive number, or "drawn"; "": contact
   int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that it decides
   std::uint64_t seed = 1;        ///< of the random queries
   std::uint64_t cases = 20'000;  ///< number of queries; 0: as many as there is time for
-  std::chrono::duration<double> time{};    ///< after which no further query is asked; 0: no limit
-  int threads = 1;                         ///< how many call the CCD at once
-  int time_sort = NEARMISS_TIME_ESTIMATE;  ///< what the times of a function mean; a detector says it itself
-  nearmiss_contract contract{};            ///< what a function takes for granted; a detector says it itself
+  std::chrono::duration<double> time{};  ///< for the queries; a second more to simplify some; 0: no limit
+  int threads = 1;                       ///< how many call the CCD at once
+  int time_sort = of_the_form;   ///< what the times of a function mean: NEARMISS_TIME_LOWER_BOUND and so on
+  nearmiss_contract contract{};  ///< what a function takes for granted; a detector says it itself
 };
 
 /// The result of a trial.
@@ -92,20 +96,33 @@ namespace detail {
 
 inline plugin::Answer answer_of(const plugin::Answer& answer) { return answer; }
 inline plugin::Answer answer_of(bool collides) { return plugin::Answer::of(collides); }
-inline plugin::Answer answer_of(const std::optional<double>& time) {
-  return time ? plugin::Answer::of(true, *time) : plugin::Answer::of(false);
+template <class Number>
+plugin::Answer answer_of(const std::optional<Number>& time) {
+  return time ? plugin::Answer::of(true, static_cast<double>(*time)) : plugin::Answer::of(false);
 }
+
+template <class Said>
+constexpr bool is_time = false;
+template <class Number>
+constexpr bool is_time<std::optional<Number>> = std::is_floating_point_v<Number>;
 
 template <class CCD>
 concept Batched = std::is_invocable_v<const CCD&, std::span<const Question>, std::span<plugin::Answer>>;
+/// What a function returns for one query, without const and &.
 template <class CCD>
-concept OneByOne = requires(const CCD& ccd, const Question& q) {
-  answer_of(ccd(q));
-};
+using Said = std::remove_cvref_t<std::invoke_result_t<const CCD&, const Question&>>;
+template <class CCD>
+concept OneByOne = std::is_invocable_v<const CCD&, const Question&> &&
+    (std::is_same_v<Said<CCD>, bool> || std::is_same_v<Said<CCD>, plugin::Answer> || is_time<Said<CCD>>);
 template <class CCD>
 constexpr bool is_detector = false;
 template <class Settings, class... Parts>
 constexpr bool is_detector<plugin::Detector<Settings, Parts...>> = true;
+template <class CCD>
+constexpr bool has_options = false;
+template <class Settings, class... Parts>
+constexpr bool has_options<plugin::Detector<Settings, Parts...>> =
+    !std::is_same_v<Settings, plugin::NoOptions>;
 
 /// Answers n queries of a kind with a function.
 template <class CCD>
@@ -129,13 +146,16 @@ void decide(const CCD& ccd, int kind, std::size_t n, const double* x, const doub
   }
 }
 
-/// Whether a function gives times.
+/// What the times of a function mean.
 template <class CCD>
-constexpr bool gives_time() {
-  if constexpr (Batched<CCD>)
-    return false;
-  else
-    return std::is_same_v<std::invoke_result_t<const CCD&, const Question&>, std::optional<double>>;
+int time_sort_of(int asked) {
+  if constexpr (!Batched<CCD>) {
+    if (asked == of_the_form && is_time<Said<CCD>>) return NEARMISS_TIME_ESTIMATE;
+    if (asked > NEARMISS_NO_TIME && std::is_same_v<Said<CCD>, bool>)
+      throw std::invalid_argument(
+          "time_sort: found a function that returns bool, expected one that gives times");
+  }
+  return asked == of_the_form ? NEARMISS_NO_TIME : asked;
 }
 
 /// What the functions of a CCD's description get first.
@@ -148,6 +168,8 @@ void* pointer_to(const CCD& ccd) {
 template <class CCD>
 nearmiss_subject describe(const CCD& ccd, const TrialOptions& options) {
   if constexpr (is_detector<CCD>) {
+    static_assert(!has_options<CCD>,
+                  "trial() takes detectors without options<>(): give it one with fixed values");
     return plugin::described_by_itself(ccd);
   } else {
     constexpr std::size_t at_once = 1024;
@@ -155,7 +177,7 @@ nearmiss_subject describe(const CCD& ccd, const TrialOptions& options) {
     subject.interface_version = NEARMISS_INTERFACE;
     subject.name = options.name.c_str();
     subject.kinds = options.kinds != 0 ? options.kinds : NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
-    subject.time_sort = gives_time<CCD>() ? options.time_sort : NEARMISS_NO_TIME;
+    subject.time_sort = time_sort_of<CCD>(options.time_sort);
     subject.takes_separation = 1;
     subject.batch = Batched<CCD> ? at_once : 1;
     subject.contract = options.contract;
@@ -176,8 +198,10 @@ plugin::Answer ask(const CCD& ccd, const Question& q) {
 
 template <class CCD>
 TrialReport hold(const CCD& ccd, const TrialOptions& options, const char* check) {
-  static_assert(is_detector<CCD> || Batched<CCD> || OneByOne<CCD>,
-                "the CCD is none of the functions that trial.hpp lists, and no detector");
+  static_assert(
+      is_detector<CCD> || Batched<CCD> || OneByOne<CCD>,
+      "the CCD is no detector, and none of the functions that trial.hpp lists; its operator() must be const, "
+      "and the answer a bool, an optional<double> or a nearmiss::plugin::Answer");
   const nearmiss_subject subject = describe(ccd, options);
   const nearmiss_trial_options asked{.size = sizeof(nearmiss_trial_options),
                                      .families = options.families.c_str(),
@@ -188,7 +212,7 @@ TrialReport hold(const CCD& ccd, const TrialOptions& options, const char* check)
                                      .seed = options.seed,
                                      .cases = options.cases,
                                      .seconds = options.time.count()};
-  std::array<char, 1024> message{};
+  std::array<char, 4096> message{};
   auto* const result = nearmiss_hold_trial(&subject, pointer_to(ccd), &asked, message.data(), message.size());
   if (result == nullptr) throw std::invalid_argument(message.data());
   return TrialReport(result);
@@ -203,6 +227,21 @@ plugin::Answer ask(const CCD& ccd, const Question& question) {
     return detail::ask(&ccd, question);
   else
     return detail::ask(ccd, question);
+}
+
+/// Whether a CCD gives an answer that counts, as the counterexamples of reports ask for it: no unknown
+/// number, and a valid time where it gives times.
+template <class CCD>
+bool answers(const CCD& ccd, const Question& question) {
+  const plugin::Answer answer = ask(ccd, question);
+  if (answer.value == NEARMISS_COLLISION && !std::isnan(answer.time))
+    return answer.time >= 0 && answer.time <= 1;
+  if constexpr (detail::is_detector<CCD>) {
+    if (answer.value == NEARMISS_COLLISION) return detail::describe(ccd, {}).time_sort == NEARMISS_NO_TIME;
+  } else if constexpr (!std::is_function_v<CCD> && !detail::Batched<CCD>) {
+    if (answer.value == NEARMISS_COLLISION) return !detail::is_time<detail::Said<CCD>>;
+  }
+  return answer.value >= NEARMISS_NO_COLLISION && answer.value <= NEARMISS_UNKNOWN;
 }
 
 /// Puts a CCD on trial. Throws std::invalid_argument for options that make no sense.
@@ -235,7 +274,7 @@ struct HardQueries {
 /// The first n queries of a kind of a family (nearmiss fuzz --help). Throws std::invalid_argument.
 inline HardQueries hard_queries(const std::string& family, Kind kind, std::uint64_t seed, std::size_t n) {
   HardQueries made{kind, std::vector<double>(n * coordinate_count(kind)), std::vector<double>(n)};
-  std::array<char, 1024> message{};
+  std::array<char, 4096> message{};
   if (nearmiss_hard_queries(family.c_str(), bit_of(kind), seed, 0, n, made.x.data(), made.separation.data(),
                             message.data(), message.size()) == 0)
     throw std::invalid_argument(message.data());

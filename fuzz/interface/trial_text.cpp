@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "ccd/query/printable.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/trial/truth.hpp"
 #include "oracle/explanation.hpp"
@@ -18,18 +19,25 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t widest = 100;
+constexpr std::size_t widest = 79;  // test frameworks break longer lines, within code, too
+constexpr std::size_t most_lines = 15;
 
-/// The text in lines of at most `widest` columns, as far as blanks allow it; lines after the first are indented.
-std::string wrapped(std::string_view text, std::string_view indent) {
+/// The text in at most so many lines, of at most `widest` columns as far as blanks allow it; lines after the
+/// first are indented. What does not fit is cut off.
+std::string wrapped(std::string text, std::string_view indent, std::size_t most) {
   std::string lines;
-  while (text.size() > widest) {
-    const std::size_t end = text.rfind(' ', widest);
-    if (end == std::string_view::npos || end <= indent.size()) break;
-    lines.append(text.substr(0, end)).append("\n").append(indent);
-    text.remove_prefix(end + 1);
+  for (std::size_t line = 1; line <= most; ++line) {
+    if (text.size() <= widest) return lines + text + "\n";
+    const std::size_t blank = text.rfind(' ', widest - (line == most ? 4 : 0));
+    const std::size_t end = blank == std::string::npos || blank <= indent.size() ? widest : blank;
+    lines += text.substr(0, end) + (line == most ? " ...\n" : "\n");
+    text = std::string(indent) + text.substr(std::min(end + 1, text.size()));
   }
-  return lines.append(text).append("\n");
+  return lines;
+}
+
+std::size_t lines_in(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
 std::string_view macro_of(Kind kind) {
@@ -46,35 +54,52 @@ std::string_view macro_of(Kind kind) {
   return "";
 }
 
-/// The positions at a time (0 or 1), which start after `indent`.
-std::string positions(const Query& query, std::size_t time, std::string_view indent) {
+/// The positions at a time (0 or 1), separated by commas.
+std::string positions(const Query& query, std::size_t time) {
   std::string text;
   for (int vertex = 0; vertex < vertices(query.kind); ++vertex) {
     const double* const x = query.x.data() + 12 * time + 3 * static_cast<std::size_t>(vertex);
-    const std::string point = fmt::format("{}, {}, {}", to_exact(x[0]), to_exact(x[1]), to_exact(x[2]));
-    const bool fits = text.size() - (text.rfind('\n') + 1) + point.size() + indent.size() < widest;
-    if (vertex > 0) text += fits ? ",  " : fmt::format(",\n{}", indent);
-    text += point;
+    text +=
+        fmt::format("{}{}, {}, {}", vertex == 0 ? "" : ",  ", to_exact(x[0]), to_exact(x[1]), to_exact(x[2]));
   }
   return text;
 }
 
-/// What a right answer to the finding's query is, as a condition on `answer`.
-std::string expectation(const Finding& finding, const std::string& answer) {
+/// Whether a text can stand for a variable.
+bool is_identifier(std::string_view text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !text.empty() && is_letter(text.front()) &&
+         std::ranges::all_of(text, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
+}
+
+/// A condition that holds for a right answer to the finding's query. `arguments` are those of nearmiss::ask.
+std::string expectation(const Finding& finding, const std::string& arguments) {
+  const std::string answer = "nearmiss::ask" + arguments;
   auto earliest = earliest_time(finding.shrunk);
-  if (finding.what == Finding::What::late && earliest)
-    return fmt::format("{}.time <= {}", answer, to_exact(earliest->enclosure().lo));
-  return earliest ? answer : "!" + answer;
+  switch (finding.what) {
+    case Finding::What::fault:
+      return "nearmiss::answers" + arguments;
+    case Finding::What::late:
+      return fmt::format("{}.time <= {}", answer, to_exact(earliest ? earliest->enclosure().lo : 1));
+    case Finding::What::unsafe_step:
+      return fmt::format("{}.time < {}", answer, to_exact(finding.time));
+    default:
+      return earliest ? answer : "!" + answer;
+  }
 }
 
 /// The finding as code that can be pasted into a test.
 std::string example(const TrialSetting& setting, const Finding& finding) {
   const Query& query = finding.shrunk;
-  constexpr std::string_view indent = "                      ";
-  const std::string answer = fmt::format("nearmiss::ask({}, {{{}, x, {}}})", setting.subject,
-                                         macro_of(query.kind), to_exact(query.separation));
-  return fmt::format("  const double x[] = {{{},\n{}{}}};\n  {}({});\n", positions(query, 0, indent), indent,
-                     positions(query, 1, indent), setting.check, expectation(finding, answer));
+  constexpr std::string_view indent = "      ";
+  const std::string arguments =
+      fmt::format("({}, {{{}, x, {}}})", is_identifier(setting.subject) ? setting.subject : "ccd",
+                  macro_of(query.kind), to_exact(query.separation));
+  const std::string start = fmt::format("  const double x[] = {{{},", positions(query, 0));
+  return wrapped(start, indent, most_lines) +
+         wrapped(fmt::format("{}{}}};", indent, positions(query, 1)), indent, most_lines) +
+         wrapped(fmt::format("  {}({});", setting.check, expectation(finding, arguments)), indent,
+                 most_lines);
 }
 
 /// What happens in the finding's query, in words.
@@ -103,20 +128,23 @@ std::string_view words_for(Finding::What what) {
 
 std::string trial_text(const TrialSetting& setting, const Statistics& statistics,
                        const std::vector<Finding>& findings) {
-  const std::vector<SubjectVerdict> verdicts = subject_verdicts(statistics);
-  const bool is_clean = !has_failed(statistics);
+  std::string shown;
+  if (has_failed(statistics) && !findings.empty()) {
+    const Finding& first = findings.front();
+    shown = wrapped(fmt::format("A simple {} {} query that it {} ({}, found in {}):", name(first.query_class),
+                                short_name(first.query.kind), words_for(first.what),
+                                printable(first.signature), first.family),
+                    "  ", 2) +
+            example(setting, first) + wrapped("  // " + what_happens(first), "", 1);
+  }
+  const std::size_t left = most_lines - std::min(lines_in(shown), most_lines - 1);
   std::string text =
-      wrapped(fmt::format("{} Seed {}.", headline(statistics, std::nullopt).text, setting.seed), "  ");
-  for (const SubjectVerdict& each : verdicts) text += wrapped(fmt::format("  {}", each.text), "    ");
-  if (is_clean || findings.empty()) return text;
-  const Finding& first = findings.front();
-  text +=
-      wrapped(fmt::format("The simplest {} {} query that it {} ({}, found in {}):", name(first.query_class),
-                          short_name(first.query.kind), words_for(first.what), first.signature, first.family),
-              "  ");
-  text += example(setting, first);
-  text += wrapped("  // " + what_happens(first), "  // ");
-  return text;
+      wrapped(fmt::format("{} Seed {}.", headline(statistics, std::nullopt).text, setting.seed), "  ",
+              std::min(left, std::size_t{3}));
+  for (const SubjectVerdict& each : subject_verdicts(statistics))
+    if (const std::size_t used = lines_in(text); used < left)
+      text += wrapped("  " + each.text, "    ", std::min(left - used, std::size_t{3}));
+  return text + shown;
 }
 
 }  // namespace nearmiss

@@ -1,7 +1,9 @@
 #include "fuzz/subjects/recorded.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -40,7 +42,7 @@ bool is_exact(const Recorded& each) {
 /// Whether the query that ends at tmax, rounded, is decided as the exact one.
 bool is_same_decision(const Recorded& each) {
   auto earliest = earliest_time(each.query);
-  return collides(each.asked()) == (earliest && earliest->enclosure().hi <= each.tmax);
+  return earliest_time(each.asked()).has_value() == (earliest && earliest->enclosure().hi <= each.tmax);
 }
 
 /// A time as a part of [0, tmax]. A quotient that no double holds is rounded down, so that it is no later.
@@ -49,17 +51,18 @@ double part_of(double time, double tmax) {
   return std::fma(part, tmax, -time) > 0 ? std::nextafter(part, 0.0) : part;
 }
 
-/// What can be judged of a record.
-std::optional<RecordedAnswer> judgeable(const Recorded& each) {
-  RecordedAnswer judged{each.number, each.asked(), each.answer, part_of(each.time, each.tmax)};
-  if (is_exact(each)) return judged;
-  if (each.tmax > 1) return std::nullopt;
-  if (each.answer == NEARMISS_COLLISION) {
-    judged.query = each.query;
-    judged.time = each.time;
-    return judged;
-  }
-  return is_same_decision(each) ? std::optional(judged) : std::nullopt;
+/// What can be judged of a record of a file.
+std::optional<RecordedAnswer> judgeable(const std::filesystem::path& file, const Recorded& each) {
+  const bool has_time = each.answer == NEARMISS_COLLISION && !std::isnan(each.time);
+  RecordedAnswer judged{
+      file, each.number, each.query, each.answer, has_time ? each.time : std::nan(""), each.is_float};
+  if (each.tmax == 1 || (each.tmax < 1 && has_time)) return judged;
+  const bool exact = is_exact(each);
+  if (!exact && (each.tmax > 1 || !is_same_decision(each))) return std::nullopt;
+  judged.query = each.asked();
+  judged.time = part_of(judged.time, each.tmax);
+  judged.in_float = false;
+  return judged;
 }
 
 struct Order {
@@ -94,7 +97,7 @@ class RecordedSubject final : public DescribedSubject {
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink) {
   LeftOut left;
   left.unused = read_recording(file, [&](const Recorded& each) {
-    if (auto judged = judgeable(each))
+    if (auto judged = judgeable(file, each))
       sink(std::move(*judged));
     else
       ++left.rounded;
@@ -102,21 +105,55 @@ LeftOut read_judgeable(const std::filesystem::path& file, const std::function<vo
   return left;
 }
 
-std::unique_ptr<Subject> recorded_answers(std::span<const RecordedAnswer> all) {
-  const bool has_times = std::ranges::all_of(all, [](const RecordedAnswer& each) {
-    return each.answer != NEARMISS_COLLISION || !std::isnan(each.time);
-  });
+namespace {
+
+/// The recorded answer as a verdict. A collision may lack a time, although others have one.
+Verdict verdict_of(const DetectorInfo& info, const RecordedAnswer& each) {
+  if (each.answer == NEARMISS_COLLISION && std::isnan(each.time))
+    return Verdict::accepted(Stage::unspecified, each.time);
+  return nearmiss::verdict_of(info, each.answer, each.time);
+}
+
+/// Whether two answers are the same.
+bool is_same(const Verdict& one, const Verdict& other) {
+  return one.hit == other.hit && one.fault == other.fault && one.stage == other.stage &&
+         (one.time == other.time || (std::isnan(one.time) && std::isnan(other.time)));
+}
+
+}  // namespace
+
+std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
   DetectorInfo info{.name = std::string(recorded_name)};
   info.kinds = info.separation_kinds = bits_of_all_kinds;
+  const bool has_times =
+      std::ranges::any_of(answers, [](const auto& each) { return !std::isnan(each.time); });
   info.time_sort = has_times ? TimeSort::lower_bound : TimeSort::none;
-  Answers answers;
-  for (const RecordedAnswer& each : all) {
-    const Verdict verdict = verdict_of(info, each.answer, each.time);
-    const auto [place, is_new] = answers.try_emplace(each.query, verdict);
-    const bool is_same = place->second.hit == verdict.hit && place->second.fault == verdict.fault;
-    if (!is_new && !is_same) place->second = {.fault = Fault::inconsistent};
+  struct Made {
+    Answers known;
+    std::vector<RecordedAnswer> answers;
+  };
+  std::array<std::vector<Made>, 2> made;  // of answers in double and in float
+  for (RecordedAnswer& each : answers) {
+    auto& passes = made[each.in_float ? 1 : 0];
+    const Verdict verdict = verdict_of(info, each);
+    const auto fits = [&](Made& pass) {
+      return is_same(pass.known.try_emplace(each.query, verdict).first->second, verdict);
+    };
+    auto pass = std::ranges::find_if(passes, fits);
+    if (pass == passes.end()) {
+      passes.emplace_back().known.emplace(each.query, verdict);
+      pass = std::prev(passes.end());
+    }
+    pass->answers.push_back(std::move(each));
   }
-  return std::make_unique<RecordedSubject>(std::move(info), std::move(answers));
+  std::vector<RecordedPass> passes;
+  for (const bool in_float : {false, true})
+    for (Made& pass : made[in_float ? 1 : 0]) {
+      info.is_narrow = in_float;
+      passes.push_back(
+          {std::make_unique<RecordedSubject>(info, std::move(pass.known)), std::move(pass.answers)});
+    }
+  return passes;
 }
 
 }  // namespace nearmiss

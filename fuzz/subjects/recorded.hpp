@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "ccd/subjects/subject.hpp"
 #include "corpus/recording.hpp"
@@ -17,10 +18,12 @@ inline constexpr std::string_view recorded_name = "recorded";
 
 /// A query and its recorded answer, as they are judged.
 struct RecordedAnswer {
+  std::filesystem::path file;
   std::uint64_t number;  ///< of the record
   Query query;
-  int answer;   ///< as in nearmiss_subject.h
-  double time;  ///< in the query's own step; NaN if none
+  int answer;     ///< as in nearmiss_subject.h
+  double time;    ///< in the query's own step; NaN if none
+  bool in_float;  ///< whether the program takes the step to that time in float
 };
 
 /// Records that are left out.
@@ -29,13 +32,21 @@ struct LeftOut {
   std::uint64_t rounded = 0;  ///< tmax is not 1, and no query of doubles stands for what was asked
 };
 
-/// Passes on what can be judged of a recording, in order. If tmax is not 1, that is the query whose end is at tmax, if doubles hold
-/// it. If they do not, and tmax is below 1, a reported collision is judged in the whole step, where the same times are late,
-/// and another answer on the rounded query, if that is decided as the exact one. Throws Error.
+/// Passes on what can be judged of a recording, in order. If tmax is not 1, that is the query that ends at
+/// tmax. But below 1, a reported collision with a time is judged in the whole step, where the same times are
+/// late (and a collision after tmax counts as found), and any other answer on the rounded query if doubles do
+/// not hold the exact one, and it is decided in the same way. Throws Error.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
-/// A subject that gives the recorded answers, under the name recorded_name. It promises lower bounds if every collision
-/// has a time. A query that was answered in two ways is a fault (inconsistent); one that was never recorded is not asked.
-std::unique_ptr<Subject> recorded_answers(std::span<const RecordedAnswer> all);
+/// Some answers, no two different ones to the same query, and a subject that gives them under the name
+/// recorded_name. It promises lower bounds if any answer has a time.
+struct RecordedPass {
+  std::unique_ptr<Subject> subject;
+  std::vector<RecordedAnswer> answers;
+};
+
+/// All answers, in as few passes as possible: a simulation may ask the same query twice, and get different
+/// answers.
+std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers);
 
 }  // namespace nearmiss

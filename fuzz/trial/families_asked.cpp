@@ -23,7 +23,14 @@ std::vector<Family> families_asked(const std::vector<std::string>& names, std::s
   std::vector<Family> known = all_of(separation);
   if (!names.empty()) {
     known.clear();
-    for (const std::string& name : names) known.push_back(find_family(name));
+    for (const std::string& name : names) {
+      const std::vector<Family> all = name == "all" ? all_of(separation) : std::vector<Family>();
+      const std::span<const Family> group = name == "vertices" ? vertex_families() : std::span(all);
+      if (group.empty())
+        known.push_back(find_family(name));
+      else
+        known.insert(known.end(), group.begin(), group.end());
+    }
   }
   std::vector<Family> chosen;
   for (const Family& each : known) {
@@ -33,7 +40,7 @@ std::vector<Family> families_asked(const std::vector<std::string>& names, std::s
                                                : each;
     if (auto some = of_kinds(family, asked))
       chosen.push_back(std::move(*some));
-    else if (!names.empty())
+    else if (std::ranges::find(names, each.name) != names.end())
       expect_kind(family, asked.front(), "families");
   }
   return chosen;

@@ -172,21 +172,6 @@ class Maker {
   std::vector<SmallQuery> list_;
 };
 
-/// Asks the subject; false if it refuses the queries.
-bool ask(const Subject& subject, std::span<const SmallQuery> asked, std::vector<Verdict>& verdicts) {
-  std::vector<Query> queries;
-  for (const SmallQuery& each : asked) queries.push_back(each.query);
-  verdicts.assign(asked.size(), {});
-  try {
-    subject.decide(queries, verdicts);
-    return true;
-  } catch (const isolation::TrialError&) {
-    throw;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 template <Kind kind, bool apart>
 const std::vector<SmallQuery>& list_of() {
   static const auto list = Maker(kind).run(apart);
@@ -208,21 +193,34 @@ SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
   constexpr std::size_t largest_batch = 64;  // the first ones are smaller: the subject may end at each query
   const Judge judge(subject);
   const std::span list(small_queries(kind, apart));
-  std::vector<Verdict> verdicts;
   std::size_t first = 0;
   for (std::size_t batch = 1; first < list.size(); batch = std::min(2 * batch, largest_batch)) {
     check();
     const auto asked = list.subspan(first, std::min(batch, list.size() - first));
     first += asked.size();
-    if (!ask(subject, asked, verdicts)) return;
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      const bool is_right = verdicts[i].fault == Fault::none && verdicts[i].hit == asked[i].collision &&
-                            std::isnan(verdicts[i].time);
-      if (is_right) continue;
-      if (auto failure = judge.failure(asked[i].query, verdicts[i]))
-        simplest_.try_emplace({std::move(*failure), exoticness(asked[i].query, classify(asked[i].query))},
-                              asked[i]);
+    try {
+      ask(subject, judge, asked);
+    } catch (const isolation::TrialError&) {
+      throw;
+    } catch (const Error&) {  // the subject refuses the queries, or further ones
+      return;
     }
+  }
+}
+
+/// Asks the subject, and notes how it fails.
+void SmallFailures::ask(const Subject& subject, const Judge& judge, std::span<const SmallQuery> asked) {
+  std::vector<Query> queries;
+  for (const SmallQuery& each : asked) queries.push_back(each.query);
+  std::vector<Verdict> verdicts(asked.size());
+  subject.decide(queries, verdicts);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const bool is_right = verdicts[i].fault == Fault::none && verdicts[i].hit == asked[i].collision &&
+                          std::isnan(verdicts[i].time);
+    if (is_right) continue;
+    if (auto failure = judge.failure(asked[i].query, verdicts[i]))
+      simplest_.try_emplace({std::move(*failure), exoticness(asked[i].query, classify(asked[i].query))},
+                            asked[i]);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,8 @@ class SmallFailures {
                                                    const std::optional<NoMoreExotic>& among = {}) const;
 
  private:
+  void ask(const Subject& subject, const Judge& judge, std::span<const SmallQuery> asked);
+
   std::map<std::pair<Failure, int>, SmallQuery> simplest_;  // by exoticness
 };
 

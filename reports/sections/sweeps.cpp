@@ -95,7 +95,8 @@ std::optional<Cliff> cliff_of(const std::string& pattern, const OptionSweep& swe
     const auto& [key, sum] = *at;
     const auto& [next, next_sum] = *std::next(at);
     if (next.first != key.first || (best && best->of != key.first)) continue;
-    if (key.second < 0 && next.second >= 0) continue;  // -1 often means no limit, so 100 is no neighbour of it
+    if (key.second < 0 && next.second >= 0)
+      continue;  // -1 often means no limit, so 100 is no neighbour of it
     const Cliff cliff{pattern, key.first, key.second, next.second, missed(sum), missed(next_sum)};
     const bool is_there = cliff.missed.total > 0 && cliff.missed_next.total > 0 &&
                           fisher_test(cliff.missed_next, cliff.missed).either() < improbable;

@@ -1,4 +1,6 @@
-/* A program that records queries as a simulation would: recording COUNT [kill|float|tmax T|kept N|threads]. */
+/* A program that records queries as a simulation would: recording COUNT [open|kill|wait|float|tmax
+ * T|kept|threads|fork|lines]. lines: each line of stdin is a record: kind, separation, tmax, answer, toi,
+ * whether in float, coordinates. */
 #include "ccd/nearmiss_record.h"
 
 #include <pthread.h>
@@ -19,12 +21,32 @@ static void* record_all(void* first) {
   return NULL;
 }
 
+static void record_lines(void) {
+  int kind, answer, is_float;
+  double h, tmax, toi, x[24];
+  float y[24];
+  while (scanf("%d %la %la %d %la %d", &kind, &h, &tmax, &answer, &toi, &is_float) == 6) {
+    for (int i = 0; i < nearmiss_record_size(kind); ++i) {
+      if (scanf("%la", &x[i]) != 1) exit(1);
+      y[i] = (float)x[i];
+    }
+    if (is_float)
+      nearmiss_record_float(kind, y, (float)h, (float)tmax, answer, (float)toi, 0);
+    else
+      nearmiss_record(kind, x, h, tmax, answer, toi, 0);
+  }
+}
+
 int main(int argc, char** argv) {
   const char* how = argc > 2 ? argv[2] : "";
   count = argc > 1 ? atol(argv[1]) : 0;
-  if (strcmp(how, "float") == 0) {
+  if (strcmp(how, "open") == 0) {
+    (void)nearmiss_record_is_on(); /* makes the file */
+  } else if (strcmp(how, "float") == 0) {
     const float x[24] = {0.1F, 0.1F, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.1F, 0.1F, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
     nearmiss_record_float(NEARMISS_VERTEX_TRIANGLE, x, 0, 1, NEARMISS_COLLISION, 0.5F, 0);
+  } else if (strcmp(how, "lines") == 0) {
+    record_lines();
   } else if (strcmp(how, "threads") == 0) {
     pthread_t threads[4];
     long first[4];

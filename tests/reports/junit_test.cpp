@@ -21,6 +21,12 @@ TEST(JUnit, SaysWhatFailedWithItsQuery) {
   EXPECT_THAT(junit_xml(testing::some_campaign("basic"), {FailureKind::late}), Not(HasSubstr("<failure")));
 }
 
+TEST(JUnit, ASubjectThatWasAskedNothingFails) {
+  Campaign campaign;
+  campaign.statistics.counts[{"idle", Kind::vertex_triangle, "uniform"}] = {};
+  EXPECT_THAT(junit_xml(campaign), HasSubstr("<failure message=\"was asked nothing\" type"));
+}
+
 TEST(JUnit, EscapesNames) {
   const std::string xml = junit_xml(testing::some_campaign("<&\">\x01"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"&lt;&amp;&quot;&gt;?\""));

@@ -114,7 +114,7 @@ TEST_F(CommandLine, BadUsage) {
   expect_refused("fuzz --cases 10 --sweep aspect --steps 1 --db new.db", {"--steps"});
   expect_refused("fuzz --cases 10 --steps 3 --db new.db", {"--steps", "--sweep"});
   expect_refused("fuzz --cases 10 --sweep aspect --family aspect --db new.db", {"--sweep", "--family"});
-  expect_refused("fuzz --cases 10 --mesh a.obj --db new.db", {"--mesh"});
+  expect_refused("fuzz --cases 10 --mesh a.obj --db new.db", {"a.obj", "neither a folder nor a scene"});
   expect_refused("fuzz --time 3parsec --db new.db", {"--time: found '3parsec'", "30s"});
   expect_refused("fuzz --cases 10 --shard 2/2 --db new.db", {"--shard: found '2/2'"});
   expect_refused("fuzz --cases 10 --shard 0/18446744073709551615",

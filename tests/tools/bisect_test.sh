@@ -6,7 +6,9 @@ source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
 NEARMISS=$(realpath "${arguments[0]}")
-export NEARMISS GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b
+# shellcheck disable=SC2046
+unset $(git rev-parse --local-env-vars)
+export NEARMISS GIT_ALLOW_PROTOCOL=file GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b
 root=$(realpath "$(dirname "$script")/../..")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -59,6 +61,51 @@ code=0
 said=$("$root/tools/bisect" --from HEAD~2 --build "$build" --subject ./mine.so ../q.vt) || code=$?
 ((code == 1)) && [[ $said == *'commit 2'*'commit 3'* || $said == *'commit 3'*'commit 2'* ]] || fail "skipped: code $code: $said"
 
+# finds WHAT BUILD NUMBER: of the last four commits, the one with this number has the failure first.
+finds() {
+  local before said
+  before=$(git rev-parse HEAD; git symbolic-ref HEAD)
+  said=$("$root/tools/bisect" --from HEAD~3 --build "$2" --subject ./mine.so ../q.vt 2>&1) || fail "$1: $said"
+  [[ $said == *"first commit with the failure: "*": commit $3" ]] || fail "$1: expected commit $3, found $said"
+  [[ $(git rev-parse HEAD; git symbolic-ref HEAD) == "$before" ]] || fail "$1: the user's HEAD is moved"
+  [[ -z $(git status --porcelain) ]] || fail "$1: the user's files are changed"
+}
+
+# The build changes files of git's, moves its HEAD, and leaves a repository.
+git checkout -q --orphan odd
+commit 1 1; commit 2 1; commit 3 0; commit 4 0
+finds 'a build that changes files' "$build && echo changed | tee number answer && git init -q nested" 3
+finds 'a build that commits' "$build && echo changed >number && git commit -qam built && git checkout -qb built\$\$" 3
+finds 'a build that leaves a repository' "$build && [ ! -e nested ] && git init -q nested" 3
+
+# Variables of a hook, and hooks of the user.
+printf '#!/bin/sh\ntouch "%s/hooked"\n' "$folder" >.git/hooks/post-checkout
+chmod +x .git/hooks/post-checkout
+(export GIT_DIR=$PWD/.git GIT_WORK_TREE=$PWD GIT_INDEX_FILE=$PWD/.git/index; finds 'in a hook' "$build" 3)
+[[ ! -e $folder/hooked ]] || fail 'a hook of the user has run'
+rm .git/hooks/post-checkout
+
+# Hashes of 64 digits.
+git init -q -b main --object-format=sha256 ../sha256
+(cd ../sha256; cp ../repository/ccd.c .; commit 1 1; commit 2 0; commit 3 0; commit 4 0; finds sha256 "$build" 2)
+
+# Submodules, also within each other, of a clone that has not filled them. One becomes a folder with a file of
+# the same name.
+git init -q -b main ../inner
+(cd ../inner; commit inner 1)
+git init -q -b main ../outer
+(cd ../outer; git submodule --quiet add ../inner inner; commit outer 1)
+git checkout -q --orphan modules
+git submodule --quiet add ../outer outer
+commit 1 1; commit 2 1
+git rm -qf outer; mkdir outer; echo file >outer/number
+commit 3 0; commit 4 0
+git clone -q -b modules ../repository ../clone
+(cd ../clone
+ finds submodules "$build && { grep -q file outer/number || [ -e outer/inner/answer ]; }" 3
+ ! git config --get-regexp '^submodule' || fail 'a submodule is in the configuration')
+git checkout -q -f skipped && git clean -ffdxq
+
 # refused WORDS ARGUMENTS...
 refused() {
   local code=0 said words=$1
@@ -70,4 +117,7 @@ refused "found --from 'nowhere'" --from nowhere --build "$build" --subject ./min
 refused 'found no --build' --from HEAD --subject ./mine.so ../q.vt
 refused 'found no case' --from HEAD --build "$build" --subject ./mine.so
 refused 'cannot be tried' --from HEAD~1 --build "$build" --subject ./mine.so ../q.vt
+# The last line of a build that fails, and its last ten.
+refused '   skipped: the build fails: no such header' --from HEAD~2 --build 'echo no such header; echo; false' --subject ./mine.so ../q.vt
+refused $'\n16\n17\n18\n19\n20\n' --from HEAD~2 --build 'seq 20; false' --subject ./mine.so ../q.vt
 [[ -z $(git status --porcelain) ]] || fail "the user's files are changed"

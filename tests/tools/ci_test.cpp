@@ -41,6 +41,12 @@ TEST_F(Ci, JUnitHasATestForEachSubjectKindAndClass) {
 TEST_F(Ci, JUnitIsRefusedWhereItCannotBeWritten) {
   expect_refused("fuzz --subject wang --cases 10 --junit nowhere/new.xml --db new.db", {"nowhere"});
   expect_refused("fuzz --subject wang --cases 10 --junit new.db --db new.db", {"--junit", "--db"});
+  expect_refused("fuzz --subject wang --cases 10 --junit ./new.json --json new.json", {"--junit", "--json"});
+  expect_refused("fuzz --subject wang --cases 10 --junit -", {"--junit: found '-', expected a file"});
+  expect_code(0, "fuzz --subject wang --cases 10 --junit a.xml --json - --db a.db");
+  expect_refused("report a.db -o new --junit a.db", {"--junit", "DB"});
+  expect_refused("report a.db -o new --junit -", {"--junit: found '-', expected a file"});
+  EXPECT_FALSE(std::filesystem::exists(file("-")));
 }
 
 TEST_F(Ci, GitHubGetsAnAnnotationForEachFailure) {
@@ -85,6 +91,19 @@ TEST_F(Ci, AFileDescribesACampaign) {
   expect_refused("fuzz --config nowhere.toml", {"nowhere.toml"});
   write("bad.toml", "subjects = \"wang\"\ncases = 10\n");
   expect_refused("fuzz --config bad.toml", {"subjects"});
+  // Everything that a list and a number may have in TOML.
+  write("odd.toml",
+        "\xEF\xBB\xBFsubject = [  # \"never\", [\n  \"basic\" ,\n\n  'wang',  # ]\n]  # two\r\n"
+        "family = [ \"uniform\", \"planted\", ]\ncases = 2_000\n");
+  expect_code(1, "fuzz --config odd.toml --json d.json");
+  EXPECT_EQ(results("d.json"), results("a.json"));
+  // Within quotes, '#' and brackets are letters.
+  write("a#[b.vt", hit);
+  write("near.toml", "subject = \"wang\"\nnear = \"a#[b.vt\"\nfamily = [\"near\"]\ncases = 10\n");
+  expect_code(0, "fuzz --config near.toml --json e.json");
+  EXPECT_EQ(read_json("e.json")["subjects"]["wang"]["vt"]["families"]["near"]["queries"], 10);
+  write("open.toml", "cases = 10\nsubject = [\n  \"wang\",\n");
+  expect_refused("fuzz --config open.toml", {"--config:2: found '[' without ']'"});
 }
 
 }  // namespace

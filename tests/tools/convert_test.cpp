@@ -54,10 +54,27 @@ TEST_F(Convert, OtherKindsAndSeparationsAreInPlainFilesAndCases) {
   expect_refused("convert w.ve -o new --as csv", {"w.ve:1", "ve query with a separation", "vt or ee"});
 }
 
+TEST_F(Convert, ADistanceOfExactlyTheSeparationIsACollision) {
+  write("tie.vt", "0.25 0.25 1 0 0 0 1 0 0 0 1 0 0.25 0.25 0.25 0 0 0 1 0 0 0 1 0 0.25\n");
+  expect_code(0, "convert tie.vt -o plain");
+  EXPECT_THAT(read("plain/queries.vt"), HasSubstr("# expect=1\n"));
+}
+
+TEST_F(Convert, ThereMayBeMoreCasesThanOpenFiles) {
+  std::string all;
+  for (int i = 0; i < 1500; ++i) all += hit;
+  write("q.vt", all);
+  expect_code(0, "convert q.vt -o cases --as case", "ulimit -n 100;");
+  EXPECT_THAT(read("cases/000001.case"), HasSubstr("truth 1\n"));
+  EXPECT_EQ(plain("cases"), plain("q.vt"));
+}
+
 TEST_F(Convert, NothingIsOverwritten) {
   write("q.vt", hit);
   expect_code(0, "convert q.vt -o plain");
   expect_refused("convert q.vt -o plain", {"plain/queries.vt", "exists already"});
+  expect_code(0, "convert q.vt -o cases --as case");
+  expect_refused("convert q.vt -o cases --as case", {"cases/000001.case", "exists already"});
 }
 
 }  // namespace

@@ -22,6 +22,11 @@ class Recording : public CommandLine {
     return std::system(command.c_str());
   }
 
+  /// The counters of the vt answers in what --json printed.
+  static nlohmann::json read_json_of(const std::string& text) {
+    return nlohmann::json::parse(text)["subjects"]["recorded"]["vt"];
+  }
+
   /// The counters of the recorded answers.
   [[nodiscard]] nlohmann::json judged(int code, const std::string& files = "run.nmq") const {
     expect_code(code, "replay " + files + " --as-answered --json new.json");
@@ -134,7 +139,8 @@ TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
   ASSERT_EQ(record("20 tmax 0.25"), 0);
   auto counts = judged(0);
   EXPECT_EQ(counts["queries"], 20);
-  EXPECT_EQ(counts["collisions"], 0);
+  EXPECT_EQ(counts["false_negatives"], 0);
+  EXPECT_EQ(counts["collisions"], 18);  // with a time, they are judged in the whole step
   for (const char* tmax : {"0.75", "1.25"}) {
     ASSERT_EQ(record(std::string("20 tmax ") + tmax), 0);
     counts = judged(1);
@@ -142,6 +148,92 @@ TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
     EXPECT_EQ(counts["false_negatives"], 2) << tmax;
     EXPECT_EQ(counts["late"], 0) << tmax;
   }
+}
+
+/// A record of a vertex that moves from z0 to z1 over a triangle at z = 0.
+std::string falling(const std::string& z0, const std::string& z1, const std::string& tmax, int answer,
+                    const std::string& toi, int in_float = 0, const std::string& h = "0") {
+  return "1 " + h + " " + tmax + " " + std::to_string(answer) + " " + toi + " " + std::to_string(in_float) +
+         "  0.25 0.25 " + z0 + " 0 0 0 1 0 0 0 1 0  0.25 0.25 " + z1 + " 0 0 0 1 0 0 0 1 0\n";
+}
+
+TEST_F(Recording, TimesAreJudgedBesideCollisionsWithoutOne) {
+  write("lines", falling("1", "-1", "1", 1, "0.9") + falling("1", "-1", "1", 1, "nan"));
+  ASSERT_EQ(record("0 lines <lines"), 0);
+  const auto counts = judged(1);
+  EXPECT_EQ(counts["queries"], 2);
+  EXPECT_EQ(counts["times_given"], 1);
+  EXPECT_EQ(counts["late"], 1);
+}
+
+TEST_F(Recording, EachAnswerToTheSameQueryIsJudged) {
+  // A line search asks about shorter and shorter steps.
+  write("lines", falling("1.1", "-1.2", "0.7", 1, "0.3") + falling("1.1", "-1.2", "0.61", 1, "0.55") +
+                     falling("1.1", "-1.2", "0.61", 1, "0.55") + falling("1", "0.5", "0.3", 1, "nan") +
+                     falling("1", "0.5", "1", 0, "nan"));
+  ASSERT_EQ(record("0 lines <lines"), 0);
+  const auto counts = judged(1);
+  EXPECT_EQ(counts["queries"], 5);
+  EXPECT_EQ(counts["late"], 2);
+  EXPECT_EQ(counts["false_positives"], 1);
+  EXPECT_EQ(counts["false_negatives"], 0);
+  EXPECT_TRUE(counts["faults"].empty());
+}
+
+TEST_F(Recording, ATimeIsLateByOneUlpWhateverTmaxIs) {
+  // Contact is at t = 1/2, exactly.
+  for (const char* tmax : {"1", "0.875", "0.61", "0x1.8p-1"}) {
+    write("lines", falling("1", "-1", tmax, 1, "0x1.0000000000001p-1") + falling("1", "-1", tmax, 1, "0.5"));
+    ASSERT_EQ(record("0 lines <lines"), 0);
+    EXPECT_EQ(judged(1)["late"], 1) << tmax;
+  }
+}
+
+TEST_F(Recording, StepsOfAProgramInFloatAreTakenInFloat) {
+  // In float, the step to 0.1 from 1 to -9 ends just below the plane at 0: 1 - 0.1F * 10 < 0.
+  write("lines", falling("1", "-9", "1", 1, "0x1.99999ap-4", 1));
+  ASSERT_EQ(record("0 lines <lines"), 0);
+  const auto in_float = read_json_of(run("replay run.nmq --as-answered --fail-on committed --json -").out);
+  write("lines", falling("1", "-9", "1", 1, "0x1.9999999999999p-4", 0));
+  ASSERT_EQ(record("0 lines <lines"), 0);
+  const auto in_double = read_json_of(run("replay run.nmq --as-answered --fail-on committed --json -").out);
+  EXPECT_EQ(
+      in_float["late"].get<int>() + in_float["committed"].get<int>() + in_float["touch_at_end"].get<int>(),
+      1);
+  EXPECT_EQ(in_double["late"], 0);
+}
+
+TEST_F(Recording, NumbersThatFitNoRecordAreInvalid) {
+  write("lines", falling("1", "-1", "1", 256, "nan") + falling("1", "-1", "1", 1, "0.25"));
+  ASSERT_EQ(record("0 lines <lines"), 0);
+  const auto counts = judged(1);
+  EXPECT_EQ(counts["false_negatives"], 0);
+  EXPECT_EQ(counts["faults"]["error"], 1);
+}
+
+TEST_F(Recording, HarmsNoOtherFile) {
+  ASSERT_EQ(std::system(("mkfifo " + file("fifo").string()).c_str()), 0);
+  ASSERT_EQ(record("1", "NEARMISS_RECORD=fifo"), 0);
+  EXPECT_THAT(read("recorder.txt"), HasSubstr("fifo: no regular file; nothing is recorded"));
+  EXPECT_TRUE(fs::is_fifo(file("fifo")));
+  for (const char* bytes : {"-1", "1e9", "64X", "18446744073709551615", "99999999999999999999999", "100"}) {
+    ASSERT_EQ(record("1", std::string("NEARMISS_RECORD=run.nmq NEARMISS_RECORD_BYTES=") + bytes), 0) << bytes;
+    EXPECT_THAT(read("recorder.txt"), HasSubstr("the size is not between 16 KiB and 1 TiB")) << bytes;
+  }
+  ASSERT_EQ(record("1", "ulimit -f 100; NEARMISS_RECORD=run.nmq"), 0);
+  EXPECT_THAT(read("recorder.txt"), HasSubstr("File too large; nothing is recorded"));
+  EXPECT_FALSE(fs::exists(file("run.nmq")));
+  ASSERT_EQ(record("1", "NEARMISS_RECORD=run.nmq NEARMISS_RECORD_BYTES=64K"), 0);
+  EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 65536);
+}
+
+TEST_F(Recording, ACampaignAroundOtherQueriesIsAnotherOne) {
+  ASSERT_EQ(record("100"), 0);
+  const std::string command =
+      "fuzz --subject wang --near run.nmq --family near --cases 400 --db a.db --quiet";
+  expect_code(0, command);
+  ASSERT_EQ(record("200"), 0);
+  EXPECT_EQ(run(command + " --resume").code, 2);
 }
 
 TEST_F(Recording, ThatIsNoneIsRefused) {
@@ -155,6 +247,26 @@ TEST_F(Recording, ThatIsNoneIsRefused) {
   ASSERT_EQ(record("1", "NEARMISS_RECORD=/nowhere/run.nmq"), 0);
   EXPECT_THAT(read("recorder.txt"),
               HasSubstr("nearmiss_record: /nowhere/run.nmq: No such file or directory; nothing is recorded"));
+}
+
+TEST_F(Recording, WithoutAUsableRecordIsRefused) {
+  ASSERT_EQ(record("0 open"), 0);
+  expect_refused("replay run.nmq --subject wang", {"run.nmq: found no record, expected some"});
+  expect_refused("convert run.nmq -o new", {"run.nmq: found no record, expected some"});
+  expect_refused("replay run.nmq --as-answered", {"run.nmq: found no record that can be judged"});
+  ASSERT_EQ(record("20 tmax 0"), 0);
+  expect_refused("replay run.nmq --subject wang", {"found no record that is complete and has a query"});
+  const Output output = expect_code(2, "replay run.nmq --as-answered");
+  EXPECT_THAT(output.error,
+              HasSubstr("run.nmq: 20 records left out: they have numbers or kinds that no query has"));
+}
+
+TEST_F(Recording, MayHaveAnyName) {
+  ASSERT_EQ(record("20", "NEARMISS_RECORD=run"), 0);
+  EXPECT_THAT(expect_code(0, "replay run --subject wang").out, HasSubstr("no miss in 20 collisions"));
+  EXPECT_EQ(judged(1, "run")["queries"], 20);
+  write("none", "no recording");
+  expect_refused("replay none --subject wang", {"none: found an unknown kind of file"});
 }
 
 TEST_F(Recording, IsWhereACampaignHunts) {

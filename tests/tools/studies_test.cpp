@@ -187,7 +187,7 @@ TEST_F(OptionValues, AreRefusedWithoutAnOptionToTakeThem) {
   expect_refused(tightness + "wang-eps:h='*' --values 1,2",
                  {"found 'h=2', expected h=NUMBER from 1e-300 to 1"});
   expect_refused(tightness + sampling + " --values 1,2 --separation 0.1", {"answers for contact only"});
-  expect_refused(tightness + sampling + " --values 1,1", {"two subjects named 'sampling:tolerance=1'"});
+  expect_refused(tightness + sampling + " --values 1,1", {"found '1' and '1', expected different numbers"});
 }
 
 }  // namespace

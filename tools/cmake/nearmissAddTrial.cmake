@@ -4,10 +4,12 @@
 # to name.xml in the build folder, as JUnit's XML. OPTIONS are further options of nearmiss fuzz.
 function(nearmiss_add_trial)
   cmake_parse_arguments(PARSE_ARGV 0 trial "" "NAME;CASES;SEED;SEPARATION" "SOURCES;TARGET;FAMILIES;OPTIONS")
-  if(NOT trial_NAME OR NOT trial_SOURCES OR trial_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "nearmiss_add_trial: found '${trial_UNPARSED_ARGUMENTS}', expected NAME and SOURCES, and none but the arguments that it lists")
+  if(NOT trial_NAME OR NOT trial_SOURCES OR trial_UNPARSED_ARGUMENTS OR trial_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "nearmiss_add_trial: found '${trial_UNPARSED_ARGUMENTS}${trial_KEYWORDS_MISSING_VALUES}', expected NAME and SOURCES, a value for each argument, and none but those that it lists")
   endif()
-  if(NOT trial_CASES)
+  # The caller may have found the package in another folder of the project.
+  find_package(nearmiss 1 REQUIRED COMPONENTS tools PATHS ${CMAKE_CURRENT_FUNCTION_LIST_DIR} NO_DEFAULT_PATH)
+  if(NOT DEFINED trial_CASES)
     set(trial_CASES 100000)
   endif()
   foreach(option SEED SEPARATION)

@@ -22,6 +22,13 @@ if(NEARMISS_LIBFUZZER)
   add_link_options(-fsanitize=undefined)  # provides the runtime of coverage to executables without libFuzzer
 endif()
 
+# The options of the vector instructions of x86-64; another processor has others, which need none.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  set(nearmiss_avx2 -mavx2)
+  set(nearmiss_avx512 -mavx512f -mavx512dq -mavx512vl)
+  set(nearmiss_bmi2 -mbmi2)
+endif()
+
 # Our code joins bools by | to save a branch, although clang advises against it.
 set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 

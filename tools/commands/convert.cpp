@@ -32,6 +32,14 @@ struct Options {
   std::string format = "plain";
 };
 
+/// Makes the folder of a file. Throws Error if the file exists.
+fs::path new_file(fs::path file) {
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+  return file;
+}
+
 /// New files in a folder, which get their names when all of them are complete.
 class NewFiles {
  public:
@@ -56,14 +64,6 @@ class NewFiles {
   struct File {
     explicit File(const fs::path& file) : part(new_file(file)), out(part.path()) {}
 
-    static fs::path new_file(const fs::path& file) {
-      std::error_code error;
-      fs::create_directories(file.parent_path(), error);
-      if (fs::exists(file))
-        throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
-      return file;
-    }
-
     PartFile part;
     std::ofstream out;
   };
@@ -77,18 +77,11 @@ class NewFiles {
 };
 
 /// The query, with its exact truth, as lines of "plain" or "csv"; its file.
-std::pair<fs::path, std::string> converted(const std::string& format, const Case& each,
-                                           std::uint64_t number) {
+std::pair<fs::path, std::string> converted(const std::string& format, const Case& each, bool truth) {
   const Query& query = each.query;
-  const bool truth = collides(query);
   if (format == "plain")
     return {fmt::format("queries.{}", short_name(query.kind)),
             fmt::format("# expect={:d}\n{}\n", truth, to_line(query))};
-  if (format == "case") {
-    Case written = each;
-    written.truth = truth;
-    return {fmt::format("{:06}.case", number), to_text(written)};
-  }
   const auto folder = sample_folder(query.kind);
   if (!folder || query.separation > 0)
     throw Error(
@@ -101,8 +94,17 @@ int run(const Options& options) {
   NewFiles files(options.folder);
   std::uint64_t count = 0;
   for (const fs::path& path : options.paths)
-    read_cases(path, [&](const Case& each) {
-      const auto [file, text] = converted(options.format, each, ++count);
+    read_cases(path, [&](Case&& each) {
+      ++count;
+      // Unlike collides(), this is true if the smallest distance is exactly the separation.
+      const bool truth = earliest_time(each.query).has_value();
+      if (options.format == "case") {
+        // Written at once, because the system limits the number of open files.
+        each.truth = truth;
+        write_case(each, new_file(options.folder / fmt::format("{:06}.case", count)));
+        return;
+      }
+      const auto [file, text] = converted(options.format, each, truth);
       files.write(file, text);
     });
   files.finish();

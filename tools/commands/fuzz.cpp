@@ -189,7 +189,7 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       "\nFamilies, and the range of x in NAME@x:" + list_of_families() +
       "\n\n--config FILE reads options from a TOML file, such as the lines subject = [\"wang\", "
       "\"./mine.so\"] and "
-      "cases = 100000; those of the command line count more."
+      "cases = 100000; those of the command line count more. Paths in it are relative to the current folder."
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "
       "night.db -o report");
   auto watches = std::make_shared<bool>(false);

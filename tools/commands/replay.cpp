@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -43,72 +44,109 @@ std::string family_of(const std::string& name) {
   return printable(folder.filename().string()) + "/";
 }
 
-/// What is replayed: the cases of files and folders, or the answers of recordings.
-class Replayed {
- public:
-  explicit Replayed(const Options& options) : options_(options) {
-    for (const fs::path& path : options.paths)  // reads all files before anything is written
-      if (options.as_answered)
-        add_recording(path);
-      else
-        read_cases(path, [&](const Case& each) { kinds_.insert(each.query.kind); });
-  }
+/// Says on stderr which records of a recording are left out, and why.
+void say(const fs::path& path, const LeftOut& left) {
+  const auto line = [&](std::uint64_t count, std::string_view why) {
+    if (count > 0)
+      fmt::print(stderr, "nearmiss: {}: {} left out: {}\n", printable(path.string()),
+                 counted(count, "record", "records"), why);
+  };
+  line(left.unused.unfinished, "they were being written when the program or the file ended");
+  line(
+      left.unused.not_queries,
+      "they have numbers or kinds that no query has, such as infinity, a tmax of 0 or a negative separation");
+  line(left.rounded, "their tmax is not 1, and doubles do not hold what was asked");
+}
 
-  /// The kinds of the cases.
-  [[nodiscard]] const std::set<Kind>& kinds() const { return kinds_; }
-
-  [[nodiscard]] Subjects subjects(const Stop& stop) const {
-    if (!options_.as_answered) return options_.trial.make_subjects(stop, parse_bound(options_.bound));
-    Subjects subjects;
-    subjects.push_back(recorded_answers(answers_));
-    return subjects;
-  }
-
-  void read(const std::function<void(const Case&)>& sink) const {
-    for (const auto& [path, count] : recordings_) {
-      for (std::size_t i = 0; i < count.second; ++i) {
-        const RecordedAnswer& each = answers_[count.first + i];
-        sink({.name = fmt::format("{}:{}", path.string(), each.number), .query = each.query});
-      }
-    }
-    if (options_.as_answered) return;
-    for (const fs::path& path : options_.paths) read_cases(path, sink);
-  }
-
- private:
-  void add_recording(const fs::path& path) {
-    const std::size_t first = answers_.size();
-    const LeftOut left = read_judgeable(path, [&](RecordedAnswer&& each) {
-      kinds_.insert(each.query.kind);
-      answers_.push_back(std::move(each));
-    });
-    recordings_.emplace_back(path, std::pair(first, answers_.size() - first));
-    const auto say = [&](std::uint64_t count, std::string_view why) {
-      if (count > 0)
-        fmt::print(stderr, "nearmiss: {}: {} left out: {}\n", printable(path.string()),
-                   counted(count, "record", "records"), why);
-    };
-    say(left.unused.unfinished, "they were being written when the program or the file ended");
-    say(left.unused.not_finite, "they have numbers that no query has, such as infinity");
-    say(left.rounded, "their tmax is not 1, and doubles do not hold what was asked");
-    if (answers_.size() == first)
-      throw Error(fmt::format("{}: found no record that can be judged, expected some", path.string()));
-  }
-
-  const Options& options_;
-  std::set<Kind> kinds_;
-  std::vector<RecordedAnswer> answers_;
-  std::vector<std::pair<fs::path, std::pair<std::size_t, std::size_t>>>
-      recordings_;  // first answer, and count
+/// Subjects, and the cases that they decide.
+struct Pass {
+  Subjects subjects;
+  std::function<void(const CaseSink&)> read;
 };
 
-int run(const Options& options) {
-  const Stop stop(interrupted());
-  const Replayed replayed(options);
-  const Subjects subjects = replayed.subjects(stop);
-  const std::set<Kind>& seen = replayed.kinds();
-  if (options.separation.apply({}).separation > 0)
-    expect_separations(subjects, std::vector(seen.begin(), seen.end()));
+/// The answers of the recordings, which are judged without asking anybody.
+std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& seen) {
+  std::vector<RecordedAnswer> answers;
+  for (const fs::path& path : options.paths) {
+    const std::size_t before = answers.size();
+    say(path, read_judgeable(path, [&](RecordedAnswer&& each) {
+          seen.insert(each.query.kind);
+          answers.push_back(std::move(each));
+        }));
+    if (answers.size() == before)
+      throw Error(fmt::format("{}: found no record that can be judged, expected some", path.string()));
+  }
+  std::vector<Pass> passes;
+  for (RecordedPass& each : in_passes(std::move(answers))) {
+    Pass& pass = passes.emplace_back();
+    pass.subjects.push_back(std::move(each.subject));
+    pass.read = [recorded = std::move(each.answers)](const CaseSink& sink) {
+      for (const RecordedAnswer& answer : recorded)
+        sink({.name = fmt::format("{}:{}", answer.file.string(), answer.number), .query = answer.query});
+    };
+  }
+  return passes;
+}
+
+/// The cases of files and folders, and the subjects that are asked.
+Pass pass_of_cases(const Options& options, std::set<Kind>& seen, const Stop& stop) {
+  Pass pass;
+  pass.subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
+  for (const fs::path& path : options.paths)  // checks all files before anything is written
+    read_cases(path, [&](const Case& each) { seen.insert(each.query.kind); });
+  pass.read = [&options](const CaseSink& sink) {
+    for (const fs::path& path : options.paths) read_cases(path, sink);
+  };
+  return pass;
+}
+
+/// The number of cases with a separation, by their kind.
+using WithSeparation = std::map<Kind, std::uint64_t>;
+
+/// Lets the subjects of a pass decide its cases. Results go to the record.
+void hold(const Options& options, const Pass& pass, const Stop& stop, Record& record, Progress& progress,
+          WithSeparation& with_separation) {
+  std::uint64_t count = 0;
+  const bool shrinks = !options.trial.no_shrink && !options.as_answered;
+  Trials trials(pass.subjects, options.trial.comparison, options.trial.jobs, stop, shrinks,
+                [&](TrialResult&& result) { record.add(std::move(result)); });
+  TrialStream stream(trials);
+  const auto add = [&](const Case& each) {
+    stop.check();
+    // A recorded truth does not hold for another separation.
+    const Query query = options.separation.apply(each.query);
+    stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
+               [name = each.name] { return printable(name); });
+    ++count;
+    with_separation[query.kind] += query.separation > 0 ? 1 : 0;
+    if (progress.due())
+      progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
+                                with_separators(record.statistics().false_negatives())));
+  };
+  try {
+    pass.read(add);
+  } catch (const Stopped&) {  // the results so far are still reported
+  }
+  stream.finish();
+  trials.finish([&] {
+    if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
+  });
+}
+
+/// Says which subjects were not asked about cases, because they answer for contact only.
+void print_unasked(const Subjects& subjects, const WithSeparation& with_separation, std::FILE* out) {
+  for (const auto& subject : subjects) {
+    std::uint64_t not_asked = 0;
+    for (const auto& [kind, cases] : with_separation)
+      if (subject->decides(kind) && !subject->takes_separation(kind)) not_asked += cases;
+    if (not_asked > 0)
+      fmt::print(out, "{}: not asked about {}, because it answers for contact only\n", subject->name(),
+                 counted(not_asked, "case with a separation", "cases with a separation"));
+  }
+}
+
+/// Everything that the results depend on.
+RunInfo run_info(const Options& options, const Subjects& subjects) {
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + printable_argument(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
@@ -119,44 +157,27 @@ int run(const Options& options) {
     info["again"] += " --certify";
   }
   if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
-  Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
-  std::map<Kind, std::uint64_t> with_separation;
+  return info;
+}
+
+int run(const Options& options) {
+  const Stop stop(interrupted());
+  std::set<Kind> seen;
+  std::vector<Pass> passes;
+  if (options.as_answered)
+    passes = passes_as_answered(options, seen);
+  else
+    passes.push_back(pass_of_cases(options, seen, stop));
+  const Subjects& subjects = passes.front().subjects;
+  if (options.separation.apply({}).separation > 0)
+    expect_separations(subjects, std::vector(seen.begin(), seen.end()));
+  Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
+  WithSeparation with_separation;
   {
     Progress progress(options.record.quiet);
-    std::uint64_t count = 0;
-    const bool shrinks = !options.trial.no_shrink && !options.as_answered;
-    Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, shrinks,
-                  [&](TrialResult&& result) { record.add(std::move(result)); });
-    TrialStream stream(trials);
-    const auto add = [&](const Case& each) {
-      stop.check();
-      // A recorded truth does not hold for another separation.
-      const Query query = options.separation.apply(each.query);
-      stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
-                 [name = each.name] { return printable(name); });
-      ++count;
-      with_separation[query.kind] += query.separation > 0 ? 1 : 0;
-      if (progress.due())
-        progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
-                                  with_separators(record.statistics().false_negatives())));
-    };
-    try {
-      replayed.read(add);
-    } catch (const Stopped&) {  // the results so far are still reported
-    }
-    stream.finish();
-    trials.finish([&] {
-      if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
-    });
+    for (const Pass& pass : passes) hold(options, pass, stop, record, progress, with_separation);
   }
-  for (const auto& subject : subjects) {
-    std::uint64_t not_asked = 0;
-    for (const auto& [kind, cases] : with_separation)
-      if (subject->decides(kind) && !subject->takes_separation(kind)) not_asked += cases;
-    if (not_asked > 0)
-      fmt::print(options.record.json.text(), "{}: not asked about {}, because it answers for contact only\n",
-                 subject->name(), counted(not_asked, "case with a separation", "cases with a separation"));
-  }
+  print_unasked(subjects, with_separation, options.record.json.text());
   if (!stop.is_requested()) record.add_unasked(subjects);
   return record.finish(stop.is_requested(), !stop.is_requested());
 }
@@ -177,7 +198,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   options->trial.add_to(*command);
   as_answered->excludes("--subject");
   add_bound_option(*command, options->bound);
-  options->separation.add_to(*command);
+  as_answered->excludes(options->separation.add_to(*command));
   command->add_flag(
       "--certify", options->trial.comparison.certify_truths,
       "Demand a certificate of each recorded truth, which the checker of tools/certificates/ accepts; "

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "ccd/query/error.hpp"
 #include "reports/sections/baseline.hpp"
@@ -97,10 +98,22 @@ void expect_to_fit(const Options& options) {
       }
 }
 
+/// The files that the command reads.
+std::vector<OptionFile> read_files(const Options& options) {
+  std::vector<OptionFile> files{{options.power, "--power"},
+                                {options.audit, "--audit"},
+                                {options.paper, "--paper"},
+                                {options.distances, "--distances"},
+                                {options.environments, "--environments"}};
+  for (const auto& store : options.stores) files.push_back({store, "DB"});
+  for (const auto& store : options.baseline) files.push_back({store, "--baseline"});
+  return files;
+}
+
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
   expect_to_fit(options);
-  options.ci.expect_writable();
+  options.ci.expect_writable(read_files(options));
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));

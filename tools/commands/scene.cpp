@@ -209,8 +209,8 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   return held;
 }
 
-/// A line for each subject that missed nothing in so few collisions that this says little, and the command that hunts
-/// around the scene; "" if there is none.
+/// A line for each subject that missed nothing in so few collisions that this says little, and the command
+/// that hunts around the scene; "" if there is none.
 std::string what_few_collisions_show(const Options& options, const Statistics& statistics) {
   constexpr double much = 0.01;  // of a miss rate
   std::string lines;

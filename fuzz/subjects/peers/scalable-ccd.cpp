@@ -56,8 +56,8 @@ long long __double_as_longlong(double x) { return std::bit_cast<long long>(x); }
 double __longlong_as_double(long long bits) { return std::bit_cast<double>(bits); }
 // NOLINTEND(bugprone-reserved-identifier)
 
-/// Replaces *at by change(*at), and returns what was there. Copies bytes, because *at may be a float or double
-/// whose bits the caller takes for an integer.
+/// Replaces *at by change(*at), and returns what was there. Copies bytes, because *at may be a float or
+/// double whose bits the caller takes for an integer.
 template <class Number, class Change>
 Number replaced(Number* at, const Change& change) {
   Number before;

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <nearmiss/nearmiss.hpp>
 #include <nearmiss/trial.hpp>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "my_ccd.hpp"
@@ -38,7 +40,6 @@ TEST(MyCcd, ABugIsFoundInASecondAndShownByAnOrdinaryQuery) {
   EXPECT_FALSE(nearmiss::ask(mine, {first.kind, first.x, first.separation}));
   EXPECT_TRUE(exact({first.kind, first.x, first.separation}));
   const std::string text(report.text());
-  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 15) << text;
   EXPECT_NE(text.find("EXPECT_TRUE(nearmiss::ask(mine, {NEARMISS_VERTEX_TRIANGLE, x, 0}))"),
             std::string::npos)
       << text;
@@ -82,7 +83,96 @@ TEST(MyCcd, AnExceptionIsAFaultOfItsQuery) {
   EXPECT_GT(report.counts().no_answer, 0U);
   EXPECT_LT(report.counts().no_answer, 2000U);
   EXPECT_EQ(report.counts().missed, 0U);
-  EXPECT_NE(report.text().find("not on my watch"), std::string::npos) << report;
+  EXPECT_NE(report.text().find("not on my"), std::string::npos) << report;
+}
+
+/// At most 15 lines of 79 columns.
+void expect_short(const nearmiss::TrialReport& report) {
+  std::istringstream lines{std::string(report.text())};
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 79U) << report;
+  EXPECT_LE(count, 15) << report;
+}
+
+TEST(MyCcd, TextsAreShortWhateverFails) {
+  expect_short(nearmiss::trial(mine));
+  const auto loud = [](const nearmiss::Question& q) -> std::optional<double> {
+    if (q.x[1] > 0.5) throw std::runtime_error(std::string(300, 'x') + "\nsecond\x1b[31m line");
+    return q.x[2] > 0 ? std::optional(1.0) : std::nullopt;
+  };
+  for (const char* families : {"all", "decimals", "near-underflow", "v-uniform"}) {
+    const auto report = nearmiss::trial(
+        loud, {.families = families, .kinds = 15, .cases = 2000, .time_sort = NEARMISS_TIME_LOWER_BOUND});
+    EXPECT_FALSE(report.clean());
+    expect_short(report);
+    EXPECT_EQ(report.text().find('\x1b'), std::string_view::npos);
+  }
+}
+
+TEST(MyCcd, OfAnyFormMayPromiseLowerBounds) {
+  const nearmiss::TrialOptions promises{.cases = 1000, .time_sort = NEARMISS_TIME_LOWER_BOUND};
+  const auto answer = [](const nearmiss::Question& q) {
+    return exact(q) ? nearmiss::plugin::Answer::of(true, 1) : nearmiss::plugin::Answer();
+  };
+  EXPECT_GT(nearmiss::trial(answer, promises).counts().late, 0U);
+  EXPECT_GT(nearmiss::trial(
+                [&](const nearmiss::Question& q) { return exact(q) ? std::optional(1.0F) : std::nullopt; },
+                promises)
+                .counts()
+                .late,
+            0U);
+  EXPECT_GT(nearmiss::trial(
+                [&](std::span<const nearmiss::Question> q, std::span<nearmiss::plugin::Answer> answers) {
+                  for (std::size_t i = 0; i < q.size(); ++i) answers[i] = answer(q[i]);
+                },
+                promises)
+                .counts()
+                .late,
+            0U);
+  EXPECT_TRUE(nearmiss::trial(answer, {.cases = 1000}).clean());
+  EXPECT_THROW(nearmiss::trial(exact, promises), std::invalid_argument);  // it gives no times
+}
+
+TEST(MyCcd, ThatIsAskedNothingIsNotClean) {
+  EXPECT_FALSE(nearmiss::trial(exact, {.time = std::chrono::nanoseconds(1)}).clean());
+  EXPECT_THROW(nearmiss::trial(exact, {.time = std::chrono::seconds(-1)}), std::invalid_argument);
+}
+
+TEST(MyCcd, FaultsAndUnsafeStepsHaveExamplesThatFail) {
+  const auto nonsense = [](const nearmiss::Question& q) {
+    return nearmiss::plugin::Answer{exact(q) ? 7 : 0, 0};
+  };
+  const auto faults = nearmiss::trial(nonsense, {.cases = 500});
+  EXPECT_NE(faults.text().find("EXPECT_TRUE(nearmiss::answers(my_ccd, {NEARMISS_"), std::string_view::npos)
+      << faults;
+  const auto late = [](const nearmiss::Question& q) { return exact(q) ? std::optional(2.0) : std::nullopt; };
+  for (const auto& each : nearmiss::trial(late, {.cases = 500}).findings())
+    EXPECT_FALSE(nearmiss::answers(late, {each.kind, each.x, each.separation}));
+  for (const auto& each : faults.findings()) {
+    EXPECT_STREQ(each.what, "fault");
+    EXPECT_FALSE(nearmiss::answers(nonsense, {each.kind, each.x, each.separation}));
+    EXPECT_TRUE(nearmiss::answers(exact, {each.kind, each.x, each.separation}));
+  }
+}
+
+TEST(MyCcd, ABoundAndExceptionsTogetherGiveAReport) {
+  const auto f = [](const nearmiss::Question& q) {
+    if (q.x[3] > 0.9) throw std::runtime_error("x");
+    return nearmiss::plugin::Answer::of(true);
+  };
+  const auto both = nearmiss::plugin::detector("both").vertex_triangle(f).edge_edge(f).set(
+      &nearmiss_subject::distance_bound, +[](void*, int, const double*) { return 0.0; });
+  const auto report = nearmiss::trial(both, {.cases = 3000});
+  EXPECT_GT(report.counts().no_answer, 0U);
+  EXPECT_GT(report.counts().beyond_bound, 0U);
+}
+
+TEST(MyCcd, FamiliesMayBeGroupsWithBlanks) {
+  const auto report = nearmiss::trial(exact, {.families = "uniform, vertices,", .kinds = 15, .cases = 1000});
+  EXPECT_TRUE(report.clean());
+  EXPECT_GT(report.counts(nearmiss::Kind::vertex_vertex).queries, 0U);
+  // A function of a question within a detector may return a bool.
+  EXPECT_TRUE(nearmiss::trial(nearmiss::plugin::detector("d").edge_edge(exact), {.cases = 500}).clean());
 }
 
 TEST(MyCcd, TimesAreLowerBoundsIfItSaysSo) {
