@@ -168,6 +168,10 @@ void form_bound(Pair<kind, T>& pair) {
   const Six edges = has_triangle(kind) ? extent : Six(hi.max(-lo));
   pair.E = max_component(edges.template head<3>());
   pair.W = max_component(extent.template tail<3>());
+  // r is NaN where p and v32 are infinite with opposite signs, and whether p or the NaN is then the larger one
+  // for Eigen depends on the processor. p is never above a finite W.
+  using std::max;
+  if constexpr (is_scalar<T>) pair.W = max(pair.W, max_component(pair.p.v()));
   pair.B = (pair.E + pair.W) * (1 + bound_margin * epsilon<T>());
 }
 

@@ -181,6 +181,14 @@ TEST_P(EveryWang, ReportsCollisionsWhosePositionsOverflowAtBothTimes) {
   }
 }
 
+// The computed velocities of x2 - x0 and x3 - x2 are infinite with opposite signs, and their sum is NaN.
+TEST_P(EveryWang, ReportsCollisionsWhoseVelocitiesOverflow) {
+  const double big = 0x1p1022;
+  const Query query = make_query(Kind::edge_edge, {{-1, 0, big}, {1, 0, big}, {0, -1, big}, {0, 1, big}},
+                                 {{-1, 0, 3 * big}, {1, 0, big}, {0, -1, -3 * big}, {0, 1, 3 * big}});
+  EXPECT_TRUE(decide(query).hit);
+}
+
 // §3.3, small triangle: the residual of F is small although the vertex is far away in units of the triangle.
 TEST_P(EveryWang, ReportsAVertexThroughATinyTriangle) {
   const double s = 1e-9;
