@@ -262,11 +262,11 @@ TEST_F(Recording, WithoutAUsableRecordIsRefused) {
 }
 
 TEST_F(Recording, MayHaveAnyName) {
+  write("none", "no recording");
+  expect_refused("replay none --subject wang", {"none: found an unknown kind of file"});
   ASSERT_EQ(record("20", "NEARMISS_RECORD=run"), 0);
   EXPECT_THAT(expect_code(0, "replay run --subject wang").out, HasSubstr("no miss in 20 collisions"));
   EXPECT_EQ(judged(1, "run")["queries"], 20);
-  write("none", "no recording");
-  expect_refused("replay none --subject wang", {"none: found an unknown kind of file"});
 }
 
 TEST_F(Recording, IsWhereACampaignHunts) {
