@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Lets tools/bisect find the commit that breaks or mends a CCD, in repositories that this test makes.
-# Usage: bisect_test.sh NEARMISS
+# Usage: bisect_test.sh [--histories 6] NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
-options '' "$@"
+histories=6
+options 'histories=' "$@"
 ((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
 NEARMISS=$(realpath "${arguments[0]}")
 # shellcheck disable=SC2046
@@ -35,9 +36,9 @@ build="cc -shared -fPIC -I$root/ccd -DANSWER=\"\$(cat answer)\" ccd.c -o mine.so
 # commit NUMBER ANSWER
 commit() { echo "$2" >answer; echo "$1" >number; git add -A; git commit -qm "commit $1"; }
 
-# 20 histories of 12 commits: the answer changes at commit k, in one of both directions, and some commits do not build.
+# Histories of 12 commits: the answer changes at commit k, in one of both directions, and some commits do not build.
 right=0
-for ((k = 1; k <= 20; ++k)); do
+for ((k = 1; k <= histories; ++k)); do
   git checkout -q --orphan "history$k" 2>/dev/null
   change=$((2 + k % 11)) broken=$((1 + (5 * k) % 12))
   before=1 after=0 what='first commit with the failure'
@@ -52,7 +53,7 @@ for ((k = 1; k <= 20; ++k)); do
   ((++right))
   git worktree list | grep -q bisect && fail "a worktree is left"
 done
-echo "the right commit in $right of 20"
+echo "the right commit in $right of $histories"
 
 # Only skipped commits are left: both are printed.
 git checkout -q --orphan skipped
