@@ -80,9 +80,10 @@ class TrialReport {
     return result_->of_kind[static_cast<std::size_t>(kind)];
   }
   /// The first queries of each way to fail, the most ordinary ones first.
-  [[nodiscard]] std::span<const nearmiss_trial_finding> findings() const {
+  [[nodiscard]] std::span<const nearmiss_trial_finding> findings() const& {
     return {result_->findings, result_->finding_count};
   }
+  void findings() const&& = delete;  // they would not outlive a report without a name
   /// At most 15 lines.
   [[nodiscard]] std::string_view text() const { return result_->text; }
 

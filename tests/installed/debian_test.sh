@@ -51,17 +51,23 @@ install g++ cmake make netbase  # Python 3.13 needs netbase; it makes /etc/hosts
 files >"$folder/before"
 install "$(cd "$root" && ls ./libnearmiss1_*.deb)"
 debian sh -c 'ldconfig -p | grep -q libnearmiss.so.1' || fail "the linker does not know the library"
+install "$(cd "$root" && ls ./libnearmiss-trial1_*.deb)"
 install "$(cd "$root" && ls ./libnearmiss-dev_*.deb)" pkg-config
 answers /tmp/packaged
 debian sh -c 'gcc -std=c99 nearmiss/tests/installed/answers.c $(pkg-config --cflags --libs nearmiss) -o /tmp/answers && /tmp/answers </queries'
 install "$(cd "$root" && ls ./nearmiss_*.deb)"
 debian /nearmiss/tests/installed/tools_test.sh /usr
 debian sh -c 'cd /tmp && nearmiss demo'
+install libgtest-dev catch2
+debian sh -c 'cmake -S nearmiss/tests/installed/trial -B /tmp/trial -DCMAKE_BUILD_TYPE=Release && cmake --build /tmp/trial -j "$(nproc)"' >"$folder/log" 2>&1 ||
+  fail "$(tail -20 "$folder/log")"
+debian sh -c '/tmp/trial/gtest && /tmp/trial/catch'
+get purge -y libgtest-dev catch2
 install "$(cd "$root" && ls ./python3-nearmiss_*.deb)"
 debian python3 -B nearmiss/tests/python/trial_test.py /usr/bin/nearmiss
 get purge -y nearmiss
 answers /tmp/without_tools
-get remove -y libnearmiss-dev libnearmiss1 pkg-config
+get remove -y libnearmiss-dev libnearmiss-trial1 libnearmiss1 pkg-config
 debian sh -c 'python3 -B /nearmiss/tests/installed/answers.py </queries'
 get remove -y python3-nearmiss
 get autoremove -y --purge

@@ -107,6 +107,12 @@ quietly cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.
 quietly cmake -S "$here/../.." -B "$folder/plain"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
 
+# A build of trials without the tools defines what its files need.
+quietly cmake -S "$here/../.." -B "$folder/only_trial" -DNEARMISS_COMPONENTS=trial
+for each in 'NEARMISS_INSTALLED=.*supervisor.cpp' 'NEARMISS_INSTALLED=.*peers.cpp' 'NEARMISS_WORKER_CODE=.*supervisor.cpp'; do
+  grep -q "$each" "$folder/only_trial/compile_commands.json" || fail "a build of only the trial has no $each"
+done
+
 # A build of only the templates needs only Eigen, and compiles nothing.
 quietly cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON

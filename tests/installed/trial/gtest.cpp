@@ -146,7 +146,8 @@ TEST(MyCcd, FaultsAndUnsafeStepsHaveExamplesThatFail) {
   EXPECT_NE(faults.text().find("EXPECT_TRUE(nearmiss::answers(my_ccd, {NEARMISS_"), std::string_view::npos)
       << faults;
   const auto late = [](const nearmiss::Question& q) { return exact(q) ? std::optional(2.0) : std::nullopt; };
-  for (const auto& each : nearmiss::trial(late, {.cases = 500}).findings())
+  const auto result = nearmiss::trial(late, {.cases = 500});
+  for (const auto& each : result.findings())
     EXPECT_FALSE(nearmiss::answers(late, {each.kind, each.x, each.separation}));
   for (const auto& each : faults.findings()) {
     EXPECT_STREQ(each.what, "fault");
