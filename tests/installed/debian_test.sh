@@ -55,7 +55,7 @@ install "$(cd "$root" && ls ./libnearmiss-trial1_*.deb)"
 install "$(cd "$root" && ls ./libnearmiss-dev_*.deb)" pkg-config
 answers /tmp/packaged
 debian sh -c 'gcc -std=c99 nearmiss/tests/installed/answers.c $(pkg-config --cflags --libs nearmiss) -o /tmp/answers && /tmp/answers </queries'
-install "$(cd "$root" && ls ./nearmiss_*.deb)"
+install "$(cd "$root" && ls ./nearmiss_*.deb)" python3  # for the pasted test
 debian /nearmiss/tests/installed/tools_test.sh /usr
 debian sh -c 'cd /tmp && nearmiss demo'
 install libgtest-dev catch2
