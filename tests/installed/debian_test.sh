@@ -70,6 +70,7 @@ answers /tmp/without_tools
 get remove -y libnearmiss-dev libnearmiss-trial1 libnearmiss1 pkg-config
 debian sh -c 'python3 -B /nearmiss/tests/installed/answers.py </queries'
 get remove -y python3-nearmiss
+debian apt-mark auto python3 >"$folder/log"
 get autoremove -y --purge
 rm -rf "$root"/tmp/*
 files >"$folder/after"
