@@ -279,6 +279,21 @@ __attribute__((unused)) static int nearmiss_record_size(int kind) {
   return kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;
 }
 
+/* A record without coordinates. */
+__attribute__((unused)) static nearmiss_record_slot nearmiss_record_of(int kind, double separation,
+                                                                       double tmax, int answer, double toi,
+                                                                       int flags) {
+  nearmiss_record_slot record;
+  memset(&record, 0, sizeof record);
+  record.kind = (uint8_t)(kind < 0 || kind > UINT8_MAX ? 0 : kind);
+  record.flags = (uint8_t)flags;
+  record.answer = (int8_t)(answer < INT8_MIN || answer > INT8_MAX ? INT8_MIN : answer);
+  record.separation = separation;
+  record.tmax = tmax;
+  record.toi = toi;
+  return record;
+}
+
 /* Records one query and its answer.
  *   x: x0 x1 .. at t = 0, then at t = 1; x, y, z of each
  *   separation: 0 if the CCD is asked for contact
@@ -290,13 +305,7 @@ static inline void nearmiss_record(int kind, const double* x, double separation,
                                    double toi, int flags) {
   nearmiss_record_slot record;
   if (!nearmiss_record_is_on()) return;
-  memset(&record, 0, sizeof record);
-  record.kind = (uint8_t)(kind < 0 || kind > UINT8_MAX ? 0 : kind);
-  record.flags = (uint8_t)flags;
-  record.answer = (int8_t)(answer < INT8_MIN || answer > INT8_MAX ? INT8_MIN : answer);
-  record.separation = separation;
-  record.tmax = tmax;
-  record.toi = toi;
+  record = nearmiss_record_of(kind, separation, tmax, answer, toi, flags);
   memcpy(record.x, x, sizeof(double) * (size_t)nearmiss_record_size(kind));
   nearmiss_record_write(&record);
 }
@@ -307,14 +316,8 @@ static inline void nearmiss_record_float(int kind, const float* x, float separat
   nearmiss_record_slot record;
   int i;
   if (!nearmiss_record_is_on()) return;
-  memset(&record, 0, sizeof record);
-  record.kind = (uint8_t)(kind < 0 || kind > UINT8_MAX ? 0 : kind);
+  record = nearmiss_record_of(kind, (double)separation, (double)tmax, answer, (double)toi, flags);
   record.is_float = 1;
-  record.flags = (uint8_t)flags;
-  record.answer = (int8_t)(answer < INT8_MIN || answer > INT8_MAX ? INT8_MIN : answer);
-  record.separation = (double)separation;
-  record.tmax = (double)tmax;
-  record.toi = (double)toi;
   for (i = 0; i < nearmiss_record_size(kind); ++i) record.x[i] = (double)x[i];
   nearmiss_record_write(&record);
 }

@@ -118,6 +118,14 @@ std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings
                  [&](const Finding& each) { return is_own(each) && class_of(each.family) == key.of; });
 }
 
+/// The text with some characters as % and their hexadecimal codes.
+std::string percent_encoded(std::string_view text, std::string_view characters) {
+  std::string safe;
+  for (const char c : text)
+    safe += characters.find(c) == std::string_view::npos ? std::string(1, c) : fmt::format("%{:02X}", c);
+  return safe;
+}
+
 }  // namespace
 
 std::string junit_xml(const Campaign& campaign, const Failures& failing) {
@@ -141,16 +149,9 @@ std::string junit_xml(const Campaign& campaign, const Failures& failing) {
 
 std::string github_annotations(const Campaign& campaign, const Failures& failing) {
   const auto line = [](std::string_view title, std::string_view message) {
-    // GitHub takes these characters for the ends of a property or of the line.
-    const auto in_property = [](std::string_view text) {
-      std::string safe;
-      for (const char c : text)
-        safe += c == '%' ? "%25" : c == ':' ? "%3A" : c == ',' ? "%2C" : std::string(1, c);
-      return safe;
-    };
-    std::string safe;
-    for (const char c : message) safe += c == '%' ? "%25" : c == '\n' ? "%0A" : std::string(1, c);
-    return fmt::format("::error title={}::{}\n", in_property(title), safe);
+    // GitHub takes these characters for the end of a property, and of the line.
+    return fmt::format("::error title={}::{}\n", percent_encoded(title, "%:,"),
+                       percent_encoded(message, "%\n"));
   };
   const std::vector<Finding> findings = campaign.findings();
   std::string lines;

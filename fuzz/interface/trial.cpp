@@ -2,7 +2,6 @@
 #include "fuzz/interface/trial.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -163,8 +162,7 @@ void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop
 
 /// Asks the detector, and simplifies some of what it fails on.
 Campaign campaign_of(const CampaignPlan& plan, const Subjects& subjects, double seconds) {
-  static const std::atomic<bool> never{false};
-  Stop stop(never);
+  Stop stop = Stop::never();
   if (seconds > 0) stop.limit(std::chrono::duration<double>(seconds));
   Campaign campaign{.runs = std::vector<Run>(1), .statistics = {}};
   std::vector<Finding>& found = campaign.runs.front().findings;
@@ -253,9 +251,8 @@ void nearmiss_free_trial(nearmiss_trial_result* result) { delete static_cast<nea
 int nearmiss_hard_queries(const char* family, int kind, uint64_t seed, uint64_t first, size_t n, double* x,
                           double* separation, char* message, size_t size) {
   return nearmiss::told(message, size, [&] {
-    for (const nearmiss::Kind each : nearmiss::kinds)
-      if (nearmiss::bit_of(each) == kind)
-        return nearmiss::write_queries(family, each, seed, first, n, x, separation);
-    throw nearmiss::Error("kind: found " + std::to_string(kind) + ", expected one kind of queries");
+    const auto one = nearmiss::kind_of_bit(kind);
+    if (!one) throw nearmiss::Error("kind: found " + std::to_string(kind) + ", expected one kind of queries");
+    nearmiss::write_queries(family, *one, seed, first, n, x, separation);
   });
 }

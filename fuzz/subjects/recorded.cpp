@@ -92,21 +92,6 @@ class RecordedSubject final : public DescribedSubject {
   Answers answers_;
 };
 
-}  // namespace
-
-LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink) {
-  LeftOut left;
-  left.unused = read_recording(file, [&](const Recorded& each) {
-    if (auto judged = judgeable(file, each))
-      sink(std::move(*judged));
-    else
-      ++left.rounded;
-  });
-  return left;
-}
-
-namespace {
-
 /// The recorded answer as a verdict. A collision may lack a time, although others have one.
 Verdict verdict_of(const DetectorInfo& info, const RecordedAnswer& each) {
   if (each.answer == NEARMISS_COLLISION && std::isnan(each.time))
@@ -121,6 +106,17 @@ bool is_same(const Verdict& one, const Verdict& other) {
 }
 
 }  // namespace
+
+LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink) {
+  LeftOut left;
+  left.unused = read_recording(file, [&](const Recorded& each) {
+    if (auto judged = judgeable(file, each))
+      sink(std::move(*judged));
+    else
+      ++left.rounded;
+  });
+  return left;
+}
 
 std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
   DetectorInfo info{.name = std::string(recorded_name)};
