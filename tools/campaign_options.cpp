@@ -15,7 +15,6 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/near_families.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search/search.hpp"

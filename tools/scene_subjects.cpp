@@ -9,7 +9,6 @@
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
-#include "fuzz/scenes/scene_bound.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/text/text.hpp"
 

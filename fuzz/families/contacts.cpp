@@ -97,7 +97,7 @@ Aim ContactSampler::aim(Kind kind) {
 
 Contact ContactSampler::contact(Kind kind, double speed) {
   const Aim place = aim(kind);
-  Contact contact{.base = {Vector::Zero(), Vector::Zero()},
+  Contact contact{.base = still(Vector::Zero()),
                   .q = {},
                   .r = {},
                   .alpha = place.alpha,
@@ -140,11 +140,21 @@ Contact integer_contact(Random& random, Kind kind) {
   return contact;
 }
 
-Query placed(Random& random, Query query) {
-  if (random.one_in(4)) {
-    const Vector offset = random.integer_vector(1 << 20);
-    for (std::size_t i = 0; i < 24; ++i) query.x[i] += offset[static_cast<int>(i % 3)];
+Query moved(Query query, const Vector& by) {
+  for (std::size_t i = 0; i < 24; ++i) query.x[i] += by[static_cast<int>(i % 3)];
+  return query;
+}
+
+Query with_first_moved(Query query, const Vector& by) {
+  for (int i = 0; i < split(query.kind); ++i) {
+    query.set_start(i, query.start(i) + by);
+    query.set_end(i, query.end(i) + by);
   }
+  return query;
+}
+
+Query placed(Random& random, Query query) {
+  if (random.one_in(4)) query = moved(query, random.integer_vector(1 << 20));
   return rescaled(random, query);
 }
 

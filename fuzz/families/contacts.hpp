@@ -19,6 +19,8 @@ struct Path {
 /// The path that passes `place` at `time`.
 Path passing(const Vector3<double>& place, const Vector3<double>& velocity, double time);
 Path scaled(const Path& path, double factor);
+/// The path of a point at rest.
+inline Path still(const Vector3<double>& at) { return {at, at}; }
 
 /// The weights of the point of contact, as in Contact, and the time of contact.
 struct Aim {
@@ -85,6 +87,11 @@ Contact integer_contact(Random& random, Kind kind);
 
 /// The sign with which x0 - base = β r + sign α q at a contact.
 constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
+
+/// All vertices, or those of the first primitive, moved by the same vector at both times, as nearly as double
+/// allows.
+Query moved(Query query, const Vector3<double>& by);
+Query with_first_moved(Query query, const Vector3<double>& by);
 
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);

@@ -1,5 +1,4 @@
-#include "fuzz/families/coverage.hpp"
-
+// Which combinations of factors occur in the family `crossed`.
 #include <fmt/format.h>
 
 #include "fuzz/families/crossed.hpp"
@@ -25,68 +24,47 @@ struct Numbering {
   }
 };
 
-/// The pairs and triples of values that occur together.
-class Occurrences {
- public:
-  explicit Occurrences(const Numbering& numbering)
-      : numbering_(numbering),
-        size_(numbering.name.size()),
-        pairs_(size_ * size_),
-        triples_(size_ * size_ * size_) {}
+/// A flag for each pair and triple of values that occur together, at a place made of the values' numbers.
+struct Occurrences {
+  std::size_t size;  ///< number of values
+  std::vector<bool> pairs, triples;
 
-  void add(const Levels& levels) {
+  explicit Occurrences(const Numbering& numbering)
+      : size(numbering.name.size()), pairs(size * size), triples(size * size * size) {}
+
+  void add(const Numbering& numbering, const Levels& levels) {
     std::array<std::size_t, factor_count> number{};
-    for (std::size_t f = 0; f < factor_count; ++f) number[f] = numbering_.first[f] + levels[f];
+    for (std::size_t f = 0; f < factor_count; ++f) number[f] = numbering.first[f] + levels[f];
     for (std::size_t i = 0; i < factor_count; ++i)
       for (std::size_t j = i + 1; j < factor_count; ++j) {
-        const std::size_t pair = number[i] * size_ + number[j];
-        pairs_[pair] = 1;
-        for (std::size_t k = j + 1; k < factor_count; ++k) triples_[pair * size_ + number[k]] = 1;
+        const std::size_t pair = number[i] * size + number[j];
+        pairs[pair] = true;
+        for (std::size_t k = j + 1; k < factor_count; ++k) triples[pair * size + number[k]] = true;
       }
   }
-
-  /// Calls use(text, whether it occurs) for each pair of values of different factors.
-  template <class Use>
-  void for_each_pair(const Use& use) const {
-    for (std::size_t i = 0; i < size_; ++i)
-      for (std::size_t j = i + 1; j < size_; ++j)
-        if (numbering_.factor[i] != numbering_.factor[j])
-          use(fmt::format("{} {}", numbering_.name[i], numbering_.name[j]), pairs_[i * size_ + j] != 0);
-  }
-
-  /// Says which of the pairs in `made`, those that the family makes, also occur here.
-  [[nodiscard]] Combinations pairs_among(const Occurrences& made) const {
-    return compared(pairs_, made.pairs_, 2);
-  }
-  [[nodiscard]] Combinations triples_among(const Occurrences& made) const {
-    return compared(triples_, made.triples_, 3);
-  }
-
- private:
-  using Flags = std::vector<std::uint8_t>;
-
-  [[nodiscard]] Combinations compared(const Flags& seen, const Flags& made, int values) const {
-    Combinations result;
-    for (std::size_t place = 0; place < made.size(); ++place) {
-      if (made[place] == 0) continue;
-      ++result.made;
-      if (seen[place] != 0)
-        ++result.seen;
-      else
-        result.missing.push_back(text(place, values));
-    }
-    return result;
-  }
-
-  [[nodiscard]] std::string text(std::size_t place, int values) const {
-    const std::string& last = numbering_.name[place % size_];
-    return values == 1 ? last : fmt::format("{} {}", text(place / size_, values - 1), last);
-  }
-
-  const Numbering& numbering_;
-  std::size_t size_;
-  Flags pairs_, triples_;
 };
+
+/// The text of a place among the combinations of two or three values.
+std::string text_of(const Numbering& numbering, std::size_t place, int values) {
+  const std::size_t size = numbering.name.size();
+  const std::string& last = numbering.name[place % size];
+  return values == 1 ? last : fmt::format("{} {}", text_of(numbering, place / size, values - 1), last);
+}
+
+/// Says which of the combinations in `made`, those that the family makes, also occur in `seen`.
+Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
+                      const std::vector<bool>& made, int values) {
+  Combinations result;
+  for (std::size_t place = 0; place < made.size(); ++place) {
+    if (!made[place]) continue;
+    ++result.made;
+    if (seen[place])
+      ++result.seen;
+    else
+      result.missing.push_back(text_of(numbering, place, values));
+  }
+  return result;
+}
 
 /// All levels that the family makes.
 Occurrences occurrences_made(const Numbering& numbering) {
@@ -100,7 +78,7 @@ Occurrences occurrences_made(const Numbering& numbering) {
       levels[f] = static_cast<std::uint8_t>(rest % factors()[f].values.size());
       rest /= factors()[f].values.size();
     }
-    if (is_made(levels)) made.add(levels);
+    if (is_made(levels)) made.add(numbering, levels);
   }
   return made;
 }
@@ -111,11 +89,14 @@ Coverage coverage(std::uint64_t seed, std::uint64_t first, std::uint64_t count) 
   const Numbering numbering;
   const Occurrences made = occurrences_made(numbering);
   Occurrences seen(numbering);
-  for (std::uint64_t i = 0; i < count; ++i) seen.add(levels_of(seed, first + i));
-  Coverage result{seen.pairs_among(made), seen.triples_among(made), {}};
-  made.for_each_pair([&](const std::string& text, bool occurs) {
-    if (!occurs) result.pairs_not_made.push_back(text);
-  });
+  for (std::uint64_t i = 0; i < count; ++i) seen.add(numbering, levels_of(seed, first + i));
+  Coverage result{
+      compared(numbering, seen.pairs, made.pairs, 2), compared(numbering, seen.triples, made.triples, 3), {}};
+  for (std::size_t i = 0; i < made.size; ++i)
+    for (std::size_t j = i + 1; j < made.size; ++j)
+      if (const std::size_t pair = i * made.size + j;
+          numbering.factor[i] != numbering.factor[j] && !made.pairs[pair])
+        result.pairs_not_made.push_back(text_of(numbering, pair, 2));
   return result;
 }
 

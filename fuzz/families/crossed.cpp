@@ -1,7 +1,6 @@
 #include "fuzz/families/crossed.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <vector>
 
@@ -65,10 +64,6 @@ bool is_made(const Levels& levels) {
   return has_roots(shape, levels.motion(), levels.roots());
 }
 
-bool touches(const Levels& levels) {
-  return levels.when() != When::outside && levels.where() != Where::outside;
-}
-
 Levels draw_levels(Random& random) {
   for (;;) {
     Levels levels;
@@ -91,7 +86,5 @@ std::vector<std::string> to_texts(const Levels& levels) {
     texts.push_back(fmt::format("{}={}", all_factors[i].name, all_factors[i].values[levels[i]]));
   return texts;
 }
-
-std::string to_text(const Levels& levels) { return fmt::format("{}", fmt::join(to_texts(levels), " ")); }
 
 }  // namespace nearmiss::crossed

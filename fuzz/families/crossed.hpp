@@ -44,9 +44,6 @@ std::span<const Factor> factors();
 /// Whether the family makes queries with these levels.
 bool is_made(const Levels& levels);
 
-/// Whether queries with these levels touch exactly, by construction, at the time that the levels give.
-bool touches(const Levels& levels);
-
 /// Draws every level independently; draws again if the family makes no query with them.
 Levels draw_levels(Random& random);
 
@@ -56,10 +53,22 @@ Levels levels_of(std::uint64_t seed, std::uint64_t index);
 /// "shape=sliver", "motion=rest" and so on, in the order of the factors.
 std::vector<std::string> to_texts(const Levels& levels);
 
-/// "shape=sliver motion=rest ..."
-std::string to_text(const Levels& levels);
-
 /// A query with these levels.
 Query make_query(Random& random, Kind kind, const Levels& levels);
+
+/// The combinations of the values of two factors, or of three.
+struct Combinations {
+  std::uint64_t made = 0;  ///< number of those that the family makes
+  std::uint64_t seen = 0;
+  std::vector<std::string> missing;  ///< those that it makes but that were not seen: "shape=sliver when=at-1"
+};
+
+/// The combinations in queries first .. first + count - 1 of the family.
+struct Coverage {
+  Combinations pairs, triples;
+  std::vector<std::string> pairs_not_made;
+};
+
+Coverage coverage(std::uint64_t seed, std::uint64_t first, std::uint64_t count);
 
 }  // namespace nearmiss::crossed

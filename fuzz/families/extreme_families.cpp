@@ -48,10 +48,8 @@ Query offset(Random& random, Kind kind, double x) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
   move_to_origin(kind, contact, sampler.velocity());
-  Query query = meet(kind, contact, sampler.velocity());
-  const Vector far = power_of_ten(x) * sampler.direction();
-  for (std::size_t i = 0; i < 24; ++i) query.x[i] += far[static_cast<int>(i % 3)];
-  return finished(random, query);
+  const Query query = meet(kind, contact, sampler.velocity());
+  return finished(random, moved(query, power_of_ten(x) * sampler.direction()));
 }
 
 Query scale(Random& random, Kind kind, double x) {

@@ -67,12 +67,7 @@ Contact facing_contact(Random& random, Kind kind, Closest closest, double time, 
 }
 
 Query facing(Kind kind, const Contact& contact, const Vector& w, double gap) {
-  Query query = meet(kind, contact, contact.velocity(kind) + w);
-  for (int i = 0; i < split(kind); ++i) {
-    query.set_start(i, query.start(i) + gap * Vector::UnitZ());
-    query.set_end(i, query.end(i) + gap * Vector::UnitZ());
-  }
-  return query;
+  return with_first_moved(meet(kind, contact, contact.velocity(kind) + w), gap * Vector::UnitZ());
 }
 
 }  // namespace nearmiss

@@ -111,25 +111,36 @@ ChooseSeparation parse_family_separation(std::string_view text, std::string_view
   return [fixed](Random& /*random*/, const Query& /*query*/) { return fixed; };
 }
 
+namespace {
+
+/// The family with change(random, query) as the last step of making a query.
+template <class Change>
+Family with_last_step(Family family, const Change& change) {
+  const auto changed = [&](const auto& make) {
+    return [change, make](Random& random, Kind kind, auto... x) {
+      Query query = make(random, kind, x...);
+      change(random, query);
+      return query;
+    };
+  };
+  family.make = changed(family.make);
+  if (family.parameter) family.parameter->make = changed(family.parameter->make);
+  return family;
+}
+
+}  // namespace
+
 Family with_separation(const Family& family, std::string_view separation) {
   const std::string name = name_with_separation(family.name, separation);
   const std::string where = fmt::format("family '{}'", excerpt(name));
   if (family.has_separation)
     throw Error(fmt::format("{}: found a separation, expected none: the family has its own", where));
-  Family other = family;
+  const auto choose = parse_family_separation(separation, where);
+  Family other = with_last_step(
+      family, [choose](Random& random, Query& query) { query.separation = choose(random, query); });
   other.name = name;
   other.has_separation = true;
   other.planted = false;
-  const auto choose = parse_family_separation(separation, where);
-  const auto separated = [choose](const auto& make) {
-    return [choose, make](Random& random, Kind kind, auto... x) {
-      Query query = make(random, kind, x...);
-      query.separation = choose(random, query);
-      return query;
-    };
-  };
-  other.make = separated(family.make);
-  if (other.parameter) other.parameter->make = separated(family.parameter->make);
   return other;
 }
 
@@ -159,16 +170,7 @@ namespace {
 
 /// The family with repeat_vertices() as the last step of making a query.
 Family without_other_vertices(Family family) {
-  const auto without_others = [](const auto& make) {
-    return [make](Random& random, Kind kind, auto... x) {
-      Query query = make(random, kind, x...);
-      repeat_vertices(query);
-      return query;
-    };
-  };
-  family.make = without_others(family.make);
-  if (family.parameter) family.parameter->make = without_others(family.parameter->make);
-  return family;
+  return with_last_step(std::move(family), [](Random& /*random*/, Query& query) { repeat_vertices(query); });
 }
 
 /// The family whose queries are two vertices, or a vertex and an edge.

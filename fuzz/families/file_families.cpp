@@ -32,12 +32,6 @@ Query everyday(Random& random, Kind kind, double size, double speed) {
   return shuffled(random, meet(kind, contact, random.vector(speed)));
 }
 
-/// The query moved by the same vector at both times, as nearly as double allows.
-Query moved(Query query, const Vector& by) {
-  for (std::size_t i = 0; i < 24; ++i) query.x[i] += by[static_cast<int>(i % 3)];
-  return query;
-}
-
 /// A scene of size 10 whose coordinates are floats.
 Query floats(Random& random, Kind kind) {
   const double speed = power_of_ten(random.uniform(-3, 0));
@@ -140,7 +134,7 @@ Query distant(Random& random, Kind kind, double x) {
   Query query = everyday_of_size_1(random, kind);
   for (double& c : query.x) c = on_grid(c);
   const Vector direction = random.vector(1).unaryExpr(on_grid);
-  return moved(query, std::ldexp(1.0, static_cast<int>(x)) * direction);
+  return moved(query, power_of_two(x) * direction);
 }
 
 }  // namespace

@@ -25,10 +25,9 @@ Vector wide_vector(Random& random, int bits) {
 /// Coordinates are multiples of 1/16 below 2^48, so they have nearly all bits of a double.
 Query touching_at_rest(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
-  const auto rest = [](const Vector& v) { return Path{v, v}; };
-  contact.base = rest(wide_vector(random, 46));
-  contact.q = rest(wide_vector(random, 45));
-  contact.r = rest(wide_vector(random, 45));
+  contact.base = still(wide_vector(random, 46));
+  contact.q = still(wide_vector(random, 45));
+  contact.r = still(wide_vector(random, 45));
   if (random.one_in(2)) {
     contact.alpha = random.integer(0, 1);
     contact.beta = random.integer(0, !has_triangle(kind) || contact.alpha == 0 ? 1 : 0);
@@ -91,7 +90,7 @@ Query first_moment(Random& random, Kind kind, double x) {
   contact.time = 0;  // without the motion that follows, the touching points stay at the origin
   Query query = meet(kind, contact, Vector::Zero());
   for (int i = 0; i < split(kind); ++i) {
-    query.set_start(i, query.start(i) - std::ldexp(1.0, static_cast<int>(x)) * w);
+    query.set_start(i, query.start(i) - power_of_two(x) * w);
     query.set_end(i, query.end(i) + w);
   }
   const double scale = std::ldexp(1.0, random.integer(-20, 20));
@@ -142,7 +141,7 @@ Query touch_twice(Random& random, Kind kind) {
   const Vector c_start = draw();
   const Vector c_end = random.one_in(2) ? c_start : draw();
   const Path vertex{random.integer_vector(size), random.integer_vector(size)};
-  const Path rest{Vector::Zero(), Vector::Zero()};
+  const Path rest = still(Vector::Zero());
   const Path third{c_start, c_end};
 
   Query query{.kind = kind};

@@ -63,6 +63,7 @@ Moments some_moments(Random& random) {
 
 // --- coordinates ------------------------------------------------------------------------------------
 
+/// Moves some coordinates by a few ulps.
 Query by_ulps(Random& random, const Query& query) {
   const int ulps = random.one_in(4) ? 64 : 4;
   return nudged(random, query, random.integer(1, 4), ulps);
@@ -84,6 +85,7 @@ Query by_a_fraction(Random& random, const Query& query) {
   return result;
 }
 
+/// Multiplies some coordinates by powers of two, or moves them to the ends of their range.
 Query exponents(Random& random, const Query& query) {
   Query result = query;
   const std::array extremes{0.0, std::numeric_limits<double>::denorm_min(),
@@ -99,6 +101,7 @@ Query exponents(Random& random, const Query& query) {
   return result;
 }
 
+/// Some coordinates become others, or their negation.
 Query coordinate_copied(Random& random, const Query& query) {
   Query result = query;
   for (int count = random.integer(1, 3); count > 0; --count) {
@@ -132,10 +135,12 @@ Query joined_somehow(Random& random, const Query& query, const Place& place) {
   return joined(query, place, one_of(random, movable_points(query.kind, place)));
 }
 
+/// Moves a position so that the primitives touch at a random place.
 Query planted(Random& random, const Query& query) {
   return joined_somehow(random, query, random_place(random, query.kind));
 }
 
+/// Moves a position so that the primitives touch where they nearly do.
 Query restored(Random& random, const Query& query) {
   return joined_somehow(random, query, own_place(random, query));
 }
@@ -146,6 +151,7 @@ Place anywhere_in_planes(Random& random) {
   return {alpha, beta, random.uniform()};
 }
 
+/// Moves a position so that the vertices are in a plane at some time.
 Query coplanar_once(Random& random, const Query& query) {
   Place place = anywhere_in_planes(random);
   if (random.one_in(2)) place.time = random.integer(0, 16) / 16.0;
@@ -204,6 +210,7 @@ Vector aligned_velocity(Random& random, const Query& query) {
   }
 }
 
+/// Some vertices get an aligned velocity.
 Query velocity_aligned(Random& random, const Query& query) {
   const Vector velocity = aligned_velocity(random, query);
   const VertexRange vertices = some_vertices(random, query.kind);
@@ -218,6 +225,7 @@ Query velocity_aligned(Random& random, const Query& query) {
   return result;
 }
 
+/// A vertex becomes another one, at the start, at the end or at both.
 Query vertex_copied(Random& random, const Query& query) {
   const int from = random.integer(0, 3);
   const int to = (from + random.integer(1, 3)) % 4;
@@ -241,6 +249,7 @@ Query reversed(Random& random, const Query& query) {
 
 // --- the whole --------------------------------------------------------------------------------------
 
+/// Multiplies everything by a power of two.
 Query scaled(Random& random, const Query& query) {
   const int exponent = random.one_in(4) ? random.integer(-1000, 1000) : random.integer(-20, 20);
   Query result = query;
@@ -259,26 +268,12 @@ Query translated(Random& random, const Query& query) {
   return result;
 }
 
-constexpr std::array table{
-    Mutation{"ulps", "some coordinates by a few ulps", by_ulps},
-    Mutation{"fraction", "a position, or everything, by a fraction of a distance", by_a_fraction},
-    Mutation{"exponent", "some coordinates by powers of two, or to the ends of their range", exponents},
-    Mutation{"copy-coordinate", "some coordinates become others, or their negation", coordinate_copied},
-    Mutation{"round", "a position, or everything, to few bits", rounded},
-    Mutation{"plant", "a position so that the primitives touch at a random place", planted},
-    Mutation{"restore", "a position so that the primitives touch where they nearly do", restored},
-    Mutation{"coplanar", "a position so that the vertices are in a plane at some time", coplanar_once},
-    Mutation{"planar", "the vertices are in a plane at all times", coplanar_always},
-    Mutation{"shrink-edge", "a vertex comes nearer to another, or to the same place", edge_shrunk},
-    Mutation{"velocity", "zero, another's, along an edge, or in a plane", velocity_aligned},
-    Mutation{"copy-vertex", "a vertex becomes another, at the start, the end or both", vertex_copied},
-    Mutation{"reverse", "start and end change places", reversed},
-    Mutation{"scale", "everything by a power of two", scaled},
-    Mutation{"translate", "everything by an offset", translated},
-    Mutation{"reorder", "the vertices of each primitive in another order", shuffled},
-};
-
 using Apply = Query (*)(Random& random, const Query& query);
+
+constexpr std::array<Apply, 16> mutations{by_ulps,         by_a_fraction, exponents,        coordinate_copied,
+                                          rounded,         planted,       restored,         coplanar_once,
+                                          coplanar_always, edge_shrunk,   velocity_aligned, vertex_copied,
+                                          reversed,        scaled,        translated,       shuffled};
 
 /// The changed query if it is finite; else the given one.
 Query applied(Apply apply, Random& random, const Query& query) {
@@ -305,13 +300,11 @@ Query separation_changed(Random& random, const Query& query) {
 
 }  // namespace
 
-std::span<const Mutation> mutations() { return table; }
-
 Query mutated(Random& random, const Query& query) {
   Query result = query;
   do {
     for (int count = random.integer(1, 3); count > 0; --count)
-      result = applied(random.one_in(2) ? by_a_fraction : one_of(random, table).apply, random, result);
+      result = applied(random.one_in(2) ? by_a_fraction : one_of(random, mutations), random, result);
     if (random.one_in(2)) result = applied(restored, random, result);
     if (result.separation > 0 && random.one_in(4)) result = applied(separation_changed, random, result);
   } while (result == query);

@@ -10,8 +10,6 @@ namespace {
 
 using Vector = Vector3<double>;
 
-Path still(const Vector& at) { return {at, at}; }
-
 /// Primitives of about size 1 whose points at random weights, often on a border, are `gap` apart. Half of the gaps
 /// are along the normal.
 struct Draft {
@@ -33,8 +31,7 @@ struct Draft {
   [[nodiscard]] Query query(Random& random, Kind kind) const {
     Contact at = contact;
     at.base = still(random.vector(1));
-    Query query = meet(kind, at, Vector::Zero());
-    for (int i = 0; i < split(kind); ++i) query.set_start(i, query.start(i) + gap);
+    Query query = with_first_moved(meet(kind, at, Vector::Zero()), gap);
     for (int i = 0; i < 4; ++i) query.set_end(i, query.start(i));
     return shuffled(random, query);
   }
@@ -60,10 +57,8 @@ Query rest_units(Random& random, Kind kind, double x) {
 }
 
 Query rest_distant(Random& random, Kind kind, double x) {
-  Query query = rest(random, kind);
-  const Vector by = std::ldexp(1.0, static_cast<int>(x)) * random.vector(1);
-  for (std::size_t i = 0; i < 24; ++i) query.x[i] += by[static_cast<int>(i % 3)];
-  return query;
+  const Query query = rest(random, kind);
+  return moved(query, power_of_two(x) * random.vector(1));
 }
 
 /// The sides are turned until the angle between them has the tangent 2^x.

@@ -49,14 +49,10 @@ Query even_roots(Random& random, Kind kind, double x) {
   const double alpha_rate = alpha_sign(kind) * rates[0];
   const double beta_rate = rates[1];
   const Vector along = beta_rate * contact.r.at(contact.time) + alpha_rate * contact.q.at(contact.time);
-  Query query = meet(kind, contact, contact.velocity(kind) + along);
+  const Query query = meet(kind, contact, contact.velocity(kind) + along);
   const double side = random.one_in(4) ? -1 : 1;
   const Vector shift = side * h * h * (beta_rate * contact.r.velocity() + alpha_rate * contact.q.velocity());
-  for (int i = 0; i < split(kind); ++i) {
-    query.set_start(i, query.start(i) + shift);
-    query.set_end(i, query.end(i) + shift);
-  }
-  return finished(random, query);
+  return finished(random, with_first_moved(query, shift));
 }
 
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C

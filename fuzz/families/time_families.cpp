@@ -1,10 +1,10 @@
 // Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch,
 // an easily missed contact before an easy one, and slow motion. Contact is exact.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fuzz/families/facing.hpp"
-#include "fuzz/families/planned_roots.hpp"
 #include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
@@ -14,6 +14,64 @@ namespace {
 using Vector = Vector3<double>;
 
 // --- chosen roots ---------------------------------------------------------------------------------------
+
+/// A linear factor of F: `start` at t = 0, `end` at t = 1. Its root, if any, is t = start / (start - end).
+struct Factor {
+  double start, end;
+
+  static Factor vanishing_at(double time) { return {-time, 1 - time}; }
+  static Factor constant() { return {1, 1}; }
+};
+
+/// A point on the plane or the line of each primitive: its weights as in Contact are α / whole and β / whole.
+/// If whole is 0, there is no such point: at the root of the factor, sign α q = -β r, so the sides are
+/// parallel.
+struct Weights {
+  int whole, alpha, beta;
+
+  [[nodiscard]] bool are_inside(Kind kind) const {
+    if (alpha < 0 || beta < 0) return false;
+    return has_triangle(kind) ? alpha + beta <= whole : alpha <= whole && beta <= whole;
+  }
+  [[nodiscard]] Vector column(Kind kind) const {
+    return {1.0 * whole, -alpha_sign(kind) * alpha, -1.0 * beta};
+  }
+};
+
+struct PlannedRoot {
+  Factor factor;
+  Vector direction;  ///< in which the points with these weights pass each other
+  Weights weights;
+};
+
+double determinant(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
+
+/// Whether the directions, and the weights, are linearly independent. Otherwise F would be 0 at all times.
+bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
+  const auto& [a, b, c] = roots;
+  return determinant(a.direction, b.direction, c.direction) != 0 &&
+         determinant(a.weights.column(kind), b.weights.column(kind), c.weights.column(kind)) != 0;
+}
+
+/// The vertices at t = 0 or t = 1 in the query in which F is a multiple of the product of the factors. At the
+/// root of a factor, its two points coincide, so the primitives touch if the weights are inside.
+///
+/// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
+/// the factors on its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is
+/// det(M). Row i of adj(K) is the cross product of K's other two columns. All operations are exact if numbers
+/// have few bits.
+std::array<Vector, 4> vertices_with_roots(Kind kind, const Vector& base,
+                                          const std::array<PlannedRoot, 3>& roots, double Factor::*at) {
+  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector next = roots[(i + 1) % 3].weights.column(kind);
+    const Vector row = next.cross(roots[(i + 2) % 3].weights.column(kind));
+    M += (roots[i].factor.*at * roots[i].direction) * row.transpose();
+  }
+  const Vector x0 = base + M.col(0);
+  if (has_triangle(kind)) return {x0, base, base + M.col(1), base + M.col(2)};
+  return {x0, x0 + M.col(1), base, base + M.col(2)};
+}
 
 /// Weights of a point strictly inside the triangle, or inside both edges.
 Weights inside(Random& random, Kind kind) {
@@ -48,7 +106,14 @@ template <class Draw>
 Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& draw) {
   std::array<PlannedRoot, 3> roots = draw();
   while (!are_independent(kind, roots)) roots = draw();
-  return rescaled(random, with_roots(kind, base, roots));
+  const auto start = vertices_with_roots(kind, base.start, roots, &Factor::start);
+  const auto end = vertices_with_roots(kind, base.end, roots, &Factor::end);
+  Query query{.kind = kind};
+  for (int i = 0; i < 4; ++i) {
+    query.set_start(i, start[static_cast<std::size_t>(i)]);
+    query.set_end(i, end[static_cast<std::size_t>(i)]);
+  }
+  return rescaled(random, query);
 }
 
 /// Two or three roots of F whose neighbours are 1 to 3 times 2^x apart. At some of these roots, the points
@@ -137,8 +202,6 @@ struct Graze {
   Vector inward;
 };
 
-Path at_rest() { return {Vector::Zero(), Vector::Zero()}; }
-
 /// The sides q and r lie in the plane z = 0 at the contact, and leave it with velocities q' and r'. The
 /// weights change at rates α' and β', so that F = N (δ - (β' r' + sign α' q') (t - time)²), where N is the
 /// normal.
@@ -154,7 +217,7 @@ Graze graze_face(Random& random, Kind kind, double time) {
     if (curvature == 0 || q.cross(r).isZero()) continue;
     const int eighths = random.integer(1, 6);
     const int others = random.integer(1, has_triangle(kind) ? 7 - eighths : 7);
-    const Contact contact{.base = at_rest(),
+    const Contact contact{.base = still(Vector::Zero()),
                           .q = passing(q, q_velocity * Vector::UnitZ(), time),
                           .r = passing(r, r_velocity * Vector::UnitZ(), time),
                           .alpha = eighths / 8.0,
@@ -179,7 +242,7 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   const Path other{multiple.start + away * Vector::UnitY(), multiple.end + away * Vector::UnitY()};
   const double weight = random.integer(1, 7) / 8.0;
   const bool is_triangle = has_triangle(kind);
-  const Contact contact{.base = at_rest(),
+  const Contact contact{.base = still(Vector::Zero()),
                         .q = is_triangle ? edge : other,
                         .r = is_triangle ? other : edge,
                         .alpha = is_triangle ? weight : 0,
@@ -198,11 +261,7 @@ Query touch_once(Random& random, Kind kind, double x) {
   const Vector shift =
       touches ? Vector(Vector::Zero()) : Vector(random_sign(random) * power_of_two(x) * inward);
   move_to_origin(kind, contact, random.integer_vector(4) - contact.velocity(kind));
-  Query query = meet(kind, contact, contact.velocity(kind) + w);
-  for (int i = 0; i < split(kind); ++i) {
-    query.set_start(i, query.start(i) + shift);
-    query.set_end(i, query.end(i) + shift);
-  }
+  const Query query = with_first_moved(meet(kind, contact, contact.velocity(kind) + w), shift);
   return rescaled(random, turned(random, query));
 }
 

@@ -1,18 +1,180 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "corpus/query_text.hpp"
 #include "fuzz/meshes/formats.hpp"
-#include "fuzz/meshes/ply_header.hpp"
+#include "fuzz/meshes/lines.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+// --- the header, which lists the numbers in the file and their order --------------------------------------
+
+/// A type of numbers. A double can represent each of its values.
+struct NumberType {
+  std::string_view name, other_name;
+  std::size_t bytes;
+  long smallest, largest;  ///< range of an integer type; both 0 for a floating-point type
+
+  [[nodiscard]] bool is_integer() const { return smallest != largest; }
+};
+
+struct Property {
+  const NumberType* length;  ///< the type of a list's length; null if the property is not a list
+  const NumberType* type;
+  std::string name;
+};
+
+/// A list of items that have the same properties.
+struct Element {
+  std::string name;
+  std::uint64_t items;
+  std::vector<Property> properties;
+};
+
+enum class Encoding { text, little_endian, big_endian };
+
+struct Header {
+  Encoding encoding{};
+  std::vector<Element> elements;
+};
+
+constexpr std::array<NumberType, 8> types{{{"char", "int8", 1, INT8_MIN, INT8_MAX},
+                                           {"uchar", "uint8", 1, 0, UINT8_MAX},
+                                           {"short", "int16", 2, INT16_MIN, INT16_MAX},
+                                           {"ushort", "uint16", 2, 0, UINT16_MAX},
+                                           {"int", "int32", 4, INT32_MIN, INT32_MAX},
+                                           {"uint", "uint32", 4, 0, UINT32_MAX},
+                                           {"float", "float32", 4, 0, 0},
+                                           {"double", "float64", 8, 0, 0}}};
+
+const NumberType* parse_type(std::string_view word, const Lines& lines) {
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&](const NumberType& t) { return t.name == word || t.other_name == word; });
+  if (type == types.end()) throw lines.error(shown(word), "a type of numbers");
+  return &*type;
+}
+
+Encoding parse_encoding(std::string_view word, const Lines& lines) {
+  if (word == "ascii") return Encoding::text;
+  if (word == "binary_little_endian") return Encoding::little_endian;
+  if (word == "binary_big_endian") return Encoding::big_endian;
+  throw lines.error(shown(word), "ascii, binary_little_endian or binary_big_endian");
+}
+
+Element parse_element(const Lines& lines) {
+  const auto& words = lines.words();
+  if (words.size() != 3)
+    throw lines.error(fmt::format("{} words", words.size()), "element, a name and a number");
+  const auto items = parse_integer<std::uint64_t>(words[2]);
+  if (!items) throw lines.error(shown(words[2]), "how many there are");
+  return {std::string(words[1]), *items, {}};
+}
+
+Property parse_property(const Lines& lines) {
+  const auto& words = lines.words();
+  const bool is_list = words.size() > 1 && words[1] == "list";
+  if (words.size() != (is_list ? 5 : 3))
+    throw lines.error(fmt::format("{} words", words.size()), "property, a type and a name");
+  if (!is_list) return {nullptr, parse_type(words[1], lines), std::string(words[2])};
+  const NumberType* const length = parse_type(words[2], lines);
+  if (!length->is_integer()) throw lines.error(shown(words[2]), "a type of integers for a list's length");
+  return {length, parse_type(words[3], lines), std::string(words[4])};
+}
+
+/// Goes to the next line that is not a comment, and returns its first word.
+std::string_view next_keyword(Lines& lines, std::string_view expected) {
+  do {
+    if (!lines.next()) throw lines.error(shown({}), expected);
+  } while (lines.words()[0] == "comment" || lines.words()[0] == "obj_info");
+  return lines.words()[0];
+}
+
+/// The element or property with this name; null if there is none. Throws Error if there are several.
+template <class Named>
+const Named* find(const std::vector<Named>& all, std::string_view wanted, std::string_view name) {
+  const auto has_name = [&](const Named& each) { return each.name == wanted; };
+  if (std::count_if(all.begin(), all.end(), has_name) > 1)
+    throw Error(fmt::format("{}: found {} twice in the header, expected it once", name, wanted));
+  const auto found = std::find_if(all.begin(), all.end(), has_name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+const Property* find_coordinate(const Element& vertex, std::string_view coordinate, std::string_view name) {
+  const Property* const property = find(vertex.properties, coordinate, name);
+  if (!property || property->length || property->type->is_integer())
+    throw Error(fmt::format("{}: found {} {} of a vertex, expected float or double", name,
+                            property ? property->type->name : "no", coordinate));
+  return property;
+}
+
+const Property* find_face_vertices(const Element& face, std::string_view name) {
+  const Property* const one = find(face.properties, "vertex_index", name);
+  const Property* const many = find(face.properties, "vertex_indices", name);
+  if (one && many) throw Error(fmt::format("{}: found vertex_index and vertex_indices, expected one", name));
+  const Property* const list = one ? one : many;
+  if (!list || !list->length || (list->type->name != "int" && list->type->name != "uint"))
+    throw Error(fmt::format(
+        "{}: found no list of int or uint that is vertex_indices, expected the vertices of faces", name));
+  return list;
+}
+
+/// Reads all lines of the header. Throws an Error that names the line.
+Header parse_header(Lines& lines) {
+  if (next_keyword(lines, "ply") != "ply") throw lines.error(shown(lines.words()[0]), "ply");
+  if (next_keyword(lines, "format") != "format" || lines.words().size() < 2)
+    throw lines.error(shown(lines.words()[0]), "format and ascii, binary_little_endian or binary_big_endian");
+  Header header{parse_encoding(lines.words()[1], lines), {}};
+  for (;;) {
+    const std::string_view keyword = next_keyword(lines, "end_header");
+    if (keyword == "end_header") {
+      lines.skip_line();
+      return header;
+    }
+    if (keyword == "element") {
+      header.elements.push_back(parse_element(lines));
+    } else if (keyword == "property" && !header.elements.empty()) {
+      header.elements.back().properties.push_back(parse_property(lines));
+    } else {
+      throw lines.error(shown(keyword), "element, property of an element, or end_header");
+    }
+  }
+}
+
+/// The properties that a mesh needs, as pointers into the header.
+struct MeshProperties {
+  const Element* vertex;
+  std::array<const Property*, 3> coordinates;  ///< x, y and z of a vertex
+  const Property* face_vertices;               ///< list of the vertices of a face; null if there is no face
+};
+
+/// Finds these properties. Throws Error if one is missing, occurs twice or has a type that parse_ply does not
+/// accept, and for primitives that the mesh would lack.
+MeshProperties mesh_properties(const Header& header, std::string_view name) {
+  const Element* const vertex = find(header.elements, "vertex", name);
+  if (!vertex) throw Error(fmt::format("{}: found no element vertex, expected one", name));
+  MeshProperties wanted{vertex, {}, nullptr};
+  constexpr std::array coordinates{"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i) wanted.coordinates[i] = find_coordinate(*vertex, coordinates[i], name);
+  const Element* const face = find(header.elements, "face", name);
+  if (face && face->items > 0) wanted.face_vertices = find_face_vertices(*face, name);
+  for (const std::string_view primitives : {"edge", "halfedge", "tristrips"})
+    if (const Element* const element = find(header.elements, primitives, name); element && element->items > 0)
+      throw Error(
+          fmt::format("{}: found the element {}, expected no other faces or lines than the element face",
+                      name, primitives));
+  return wanted;
+}
 
 // --- numbers ----------------------------------------------------------------------------------------------
 
@@ -22,7 +184,7 @@ class TextNumbers {
   explicit TextNumbers(Lines& lines) : lines_(lines) {}
 
   /// The next number, which must be of this type; nothing at the end of the file.
-  std::optional<double> next(const ply::NumberType& type) {
+  std::optional<double> next(const NumberType& type) {
     const std::string_view word = lines_.next_word();
     if (word.empty()) return std::nullopt;
     if (type.is_integer()) return static_cast<double>(integer(word, type));
@@ -31,7 +193,7 @@ class TextNumbers {
   }
 
   /// Skips numbers of this type; false at the end of the file.
-  bool skip(const ply::NumberType& type, std::uint64_t count) {
+  bool skip(const NumberType& type, std::uint64_t count) {
     for (; count > 0; --count)
       if (!next(type)) return false;
     return true;
@@ -43,7 +205,7 @@ class TextNumbers {
   }
 
  private:
-  [[nodiscard]] long integer(std::string_view word, const ply::NumberType& type) const {
+  [[nodiscard]] long integer(std::string_view word, const NumberType& type) const {
     const auto value = parse_integer<long>(word);
     if (!value || *value < type.smallest || *value > type.largest)
       throw lines_.error(shown(word), fmt::format("an integer from {} to {}", type.smallest, type.largest));
@@ -56,16 +218,15 @@ class TextNumbers {
 /// The numbers after the header, as bytes.
 class BinaryNumbers {
  public:
-  BinaryNumbers(std::string_view bytes, ply::Encoding encoding, std::string_view name)
+  BinaryNumbers(std::string_view bytes, Encoding encoding, std::string_view name)
       : bytes_(bytes), encoding_(encoding), name_(name) {}
 
   /// The next number; nothing at the end of the file.
-  std::optional<double> next(const ply::NumberType& type) {
+  std::optional<double> next(const NumberType& type) {
     if (bytes_.size() < type.bytes) return std::nullopt;
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < type.bytes; ++i) {
-      const std::size_t from_most_significant =
-          encoding_ == ply::Encoding::big_endian ? i : type.bytes - 1 - i;
+      const std::size_t from_most_significant = encoding_ == Encoding::big_endian ? i : type.bytes - 1 - i;
       bits = bits << 8 | static_cast<unsigned char>(bytes_[from_most_significant]);
     }
     bytes_.remove_prefix(type.bytes);
@@ -75,7 +236,7 @@ class BinaryNumbers {
   }
 
   /// Skips numbers of this type; false at the end of the file.
-  bool skip(const ply::NumberType& type, std::uint64_t count) {
+  bool skip(const NumberType& type, std::uint64_t count) {
     if (count > bytes_.size() / type.bytes) return false;
     bytes_.remove_prefix(count * type.bytes);
     return true;
@@ -89,12 +250,12 @@ class BinaryNumbers {
 
  private:
   /// The two's complement value of an unsigned integer with the same bits.
-  static long signed_value(long value, const ply::NumberType& type) {
+  static long signed_value(long value, const NumberType& type) {
     return value <= type.largest ? value : value + 2 * type.smallest;
   }
 
   std::string_view bytes_;
-  ply::Encoding encoding_;
+  Encoding encoding_;
   std::string_view name_;
 };
 
@@ -145,11 +306,11 @@ Mesh to_mesh(PolygonSoup soup, std::string_view name) {
 template <class Numbers>
 class ItemReader {
  public:
-  ItemReader(const ply::MeshProperties& wanted, Numbers numbers, std::string_view name)
+  ItemReader(const MeshProperties& wanted, Numbers numbers, std::string_view name)
       : wanted_(wanted), numbers_(std::move(numbers)), name_(name) {}
 
-  PolygonSoup read(const std::vector<ply::Element>& elements) && {
-    for (const ply::Element& element : elements) {
+  PolygonSoup read(const std::vector<Element>& elements) && {
+    for (const Element& element : elements) {
       if (element.properties.empty() && element.items > 0)  // a file could claim any number of empty items
         throw Error(fmt::format("{}: found no property of {}, expected one", name_, element.name));
       for (std::uint64_t item = 1; item <= element.items; ++item) read_item(element, item);
@@ -159,8 +320,8 @@ class ItemReader {
   }
 
  private:
-  void read_item(const ply::Element& element, std::uint64_t item) {
-    for (const ply::Property& property : element.properties) {
+  void read_item(const Element& element, std::uint64_t item) {
+    for (const Property& property : element.properties) {
       const std::optional<double> length = property.length ? numbers_.next(*property.length) : 1;
       if (length && *length < 0)
         throw Error(fmt::format("{}: found a list of {} numbers in {} {}, expected 0 or more", name_, *length,
@@ -173,20 +334,20 @@ class ItemReader {
   }
 
   /// Reads the numbers of one property; false at the end of the file.
-  bool read_numbers(const ply::Property& property, std::uint64_t count) {
+  bool read_numbers(const Property& property, std::uint64_t count) {
     if (&property == wanted_.face_vertices) return read_face_vertices(*property.type, count);
     for (std::size_t i = 0; i < 3; ++i)
       if (&property == wanted_.coordinates[i]) return read_coordinate(*property.type, static_cast<int>(i));
     return numbers_.skip(*property.type, count);
   }
 
-  bool read_coordinate(const ply::NumberType& type, int i) {
+  bool read_coordinate(const NumberType& type, int i) {
     const std::optional<double> value = numbers_.next(type);
     if (value) point_[i] = *value;
     return value.has_value();
   }
 
-  bool read_face_vertices(const ply::NumberType& type, std::uint64_t count) {
+  bool read_face_vertices(const NumberType& type, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::optional<double> vertex = numbers_.next(type);
       if (!vertex) return false;
@@ -196,7 +357,7 @@ class ItemReader {
     return true;
   }
 
-  const ply::MeshProperties& wanted_;
+  const MeshProperties& wanted_;
   Numbers numbers_;
   std::string_view name_;
   PolygonSoup soup_;
@@ -207,9 +368,9 @@ class ItemReader {
 
 Mesh parse_ply(std::string_view text, const std::string& name) {
   Lines lines(text, name, Lines::Comments::none);
-  const ply::Header header = ply::parse_header(lines);
-  const ply::MeshProperties wanted = ply::mesh_properties(header, name);
-  if (header.encoding == ply::Encoding::text)
+  const Header header = parse_header(lines);
+  const MeshProperties wanted = mesh_properties(header, name);
+  if (header.encoding == Encoding::text)
     return to_mesh(ItemReader(wanted, TextNumbers(lines), name).read(header.elements), name);
   const BinaryNumbers numbers(lines.rest(), header.encoding, name);
   return to_mesh(ItemReader(wanted, numbers, name).read(header.elements), name);

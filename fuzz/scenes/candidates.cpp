@@ -1,8 +1,188 @@
 #include "fuzz/scenes/candidates.hpp"
 
-#include "fuzz/scenes/candidate_passer.hpp"
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "fuzz/scenes/cell_tree.hpp"
+#include "fuzz/stop.hpp"
+#include "oracle/filter/box.hpp"
 
 namespace nearmiss {
+
+namespace {
+
+/// Passes on pairs of primitives, and counts those that have a common vertex.
+template <class Sink>
+class CandidatePasser {
+ public:
+  CandidatePasser(const MovingMesh& mesh, Kind kind, const Sink& sink, const IsOver& is_over)
+      : mesh_(mesh), kind_(kind), sink_(sink), is_over_(is_over) {}
+
+  /// Passes on the pair of vertex i and triangle j, or of edges i and j. Throws Stopped if the search must
+  /// end.
+  void pass(std::size_t i, std::size_t j) {
+    constexpr std::uint64_t now_and_then = 1 << 16;
+    if (++passed_ % now_and_then == 0 && is_over_()) throw Stopped();
+    if (has_triangle(kind_))
+      pass_unless_shared(std::array{static_cast<int>(i)}, mesh_.triangles[j]);
+    else
+      pass_unless_shared(mesh_.edges[std::min(i, j)], mesh_.edges[std::max(i, j)]);
+  }
+
+  /// The number of pairs with a common vertex.
+  [[nodiscard]] std::uint64_t sharing() const { return sharing_; }
+
+ private:
+  template <std::size_t n, std::size_t m>
+  void pass_unless_shared(const std::array<int, n>& a, const std::array<int, m>& b) {
+    bool shared = false;
+    for (const int vertex : a)
+      for (const int other : b) shared |= vertex == other;
+    if (shared) {
+      ++sharing_;
+      return;
+    }
+    Candidate candidate{.kind = kind_};
+    std::copy(b.begin(), b.end(), std::copy(a.begin(), a.end(), candidate.vertices.begin()));
+    sink_(candidate);
+  }
+
+  const MovingMesh& mesh_;
+  Kind kind_;
+  const Sink& sink_;
+  const IsOver& is_over_;
+  std::uint64_t passed_ = 0;
+  std::uint64_t sharing_ = 0;
+};
+
+// --- by a hierarchy of boxes ----------------------------------------------------------------------------
+
+/// Consecutive rows (candidates.hpp) that are near each other, and the partners near them.
+class Block {
+ public:
+  /// Begins the block with row `first`. It ends before row `end`, after 16 rows, or before the box around its
+  /// rows would become larger than `most`. Returns the first row after the block.
+  std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
+    first_ = first;
+    bounds_ = boxes[first];
+    rows_.assign(1, bounds_);
+    for (std::size_t row = first + 1; row < std::min(end, first + most_rows); ++row) {
+      const CellBox box = boxes[row];
+      CellBox extended = bounds_;
+      extended.add(box);
+      if (extended.size() > most) break;
+      bounds_ = extended;
+      rows_.push_back(box);
+    }
+    return first_ + rows_.size();
+  }
+
+  /// Collects the partners near the block, in the order of their numbers.
+  void collect(const CellTree& tree, const PrimitiveBoxes& partners, std::int32_t least) {
+    numbers_.clear();
+    tree.find(bounds_, least, [&](std::int32_t number) { numbers_.push_back(number); });
+    std::sort(numbers_.begin(), numbers_.end());
+    near_.assign((numbers_.size() + CellBoxGroup::size - 1) / CellBoxGroup::size, {});
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      near_[i / CellBoxGroup::size].set(i % CellBoxGroup::size,
+                                        partners[static_cast<std::size_t>(numbers_[i])], numbers_[i]);
+  }
+
+  /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
+  /// If `after`, skips partners whose number is not larger than that of the row.
+  template <class Pass>
+  void compare(bool after, const Pass& pass) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const std::size_t row = first_ + i;
+      const std::int32_t least = after ? static_cast<std::int32_t>(row) + 1 : 0;
+      for (const CellBoxGroup& group : near_)
+        group.for_meeting(rows_[i], least, [&](std::size_t place) {
+          pass(row, static_cast<std::size_t>(group.number(place)));
+        });
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_rows = 16;
+
+  std::size_t first_ = 0;
+  CellBox bounds_{};
+  std::vector<CellBox> rows_;
+  std::vector<std::int32_t> numbers_;
+  std::vector<CellBoxGroup> near_;
+};
+
+// With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
+constexpr std::int64_t block_groups = 2;
+
+}  // namespace
+
+CandidateFinder::CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)
+    : mesh_(&mesh),
+      kind_(kind),
+      vertices_(swept_cells(mesh, jobs)),
+      tree_(partners(), jobs, is_over),
+      block_size_(block_groups * tree_.typical_group()) {}
+
+void CandidateFinder::move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
+  mesh_ = &mesh;
+  vertices_ = swept_cells(mesh, jobs);
+  tree_.move(partners(), jobs, is_over);
+  block_size_ = block_groups * tree_.typical_group();
+}
+
+std::size_t CandidateFinder::parts() const {
+  return (pair_rows(*mesh_, kind_) + rows_of_part() - 1) / rows_of_part();
+}
+
+std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
+                                    const IsOver& is_over) const {
+  const auto sink_meeting = [&](const Candidate& candidate) {
+    if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
+  };
+  // The passer counts primitives with a common vertex without the exact test, since their boxes meet.
+  CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
+  const bool edges = !has_triangle(kind_);
+  const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
+  Block block;
+  try {
+    for (std::size_t row = part * rows_of_part(); row < end && !is_over();) {
+      const std::size_t next = block.start(rows(), row, end, block_size_);
+      block.collect(tree_, partners(), edges ? static_cast<std::int32_t>(row) + 1 : 0);
+      block.compare(edges, [&](std::size_t i, std::size_t j) { passer.pass(i, j); });
+      row = next;
+    }
+  } catch (const Stopped&) {
+  }
+  return passer.sharing();
+}
+
+/// Parts are small enough that even a small mesh has work for all threads.
+std::size_t CandidateFinder::rows_of_part() const {
+  return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
+}
+
+PrimitiveBoxes CandidateFinder::rows() const {
+  return has_triangle(kind_) ? PrimitiveBoxes(vertices_) : PrimitiveBoxes(vertices_, mesh_->edges);
+}
+
+PrimitiveBoxes CandidateFinder::partners() const {
+  return has_triangle(kind_) ? PrimitiveBoxes(vertices_, mesh_->triangles) : rows();
+}
+
+void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over) {
+  try {
+    for (const Kind kind : kinds_of_meshes) {
+      const CandidateFinder finder(mesh, kind, 1, is_over);
+      for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
+        finder.find(part, sink, is_over);
+    }
+  } catch (const Stopped&) {
+  }
+}
+
+// --- all pairs ------------------------------------------------------------------------------------------
 
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind) {
   return has_triangle(kind) ? mesh.start.size() : mesh.edges.size();

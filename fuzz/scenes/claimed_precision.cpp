@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
+
+#include "ccd/wang/pair_bound.hpp"
 
 namespace nearmiss {
 
@@ -51,6 +54,18 @@ const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all
     if (each.claimed <= thickness && (best == nullptr || each.ns_per_query < best->ns_per_query))
       best = &each;
   return best;
+}
+
+double scene_bound(const Scene& scene) {
+  double largest = 0;
+  for_each_step(scene, never_over, [&](std::size_t, const MovingMesh& mesh) {
+    find_candidates(mesh, [&](const Candidate& candidate) {
+      largest = std::max(largest, pair_bound(make_query(mesh, candidate)));
+    });
+  });
+  const double unit = std::pow(10, std::floor(std::log10(largest)) - 3);
+  const double rounded = std::ceil(largest / unit) * unit;
+  return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
 }
 
 }  // namespace nearmiss

@@ -1,4 +1,5 @@
-// The precision that subjects claim for a scene, and the cheapest subject that is precise enough.
+// The precision that subjects claim for a scene, the cheapest subject that is precise enough, and one bound B
+// for all pairs of a scene.
 #pragma once
 
 #include <cstddef>
@@ -26,5 +27,9 @@ std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut le
 
 /// The cheapest subject whose claim is at most the thickness of contact; null if there is none.
 const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);
+
+/// The largest bound B (§5 of the paper) of all pairs whose boxes meet, over all steps, rounded up to four
+/// digits.
+double scene_bound(const Scene& scene);
 
 }  // namespace nearmiss

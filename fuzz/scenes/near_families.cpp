@@ -1,15 +1,44 @@
 #include "fuzz/scenes/near_families.hpp"
 
-#include <array>
-#include <map>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "ccd/query/error.hpp"
 #include "fuzz/families/contacts.hpp"
-#include "fuzz/scenes/pair_sample.hpp"
 
 namespace nearmiss {
+
+const Query& drawn(Random& random, const QueriesByKind& queries, Kind kind) {
+  const auto& all = queries.at(kind);
+  return all[static_cast<std::size_t>(random.integer(0, static_cast<int>(all.size()) - 1))];
+}
+
+void PairSample::add(const MovingMesh& motion, const Candidate& pair, std::uint64_t number_of_motion) {
+  const auto vertex = [&](std::size_t i) { return static_cast<std::uint64_t>(pair.vertices[i]); };
+  Random random(number_of_motion << 32 | vertex(0), vertex(1), vertex(2) << 32 | vertex(3));
+  const std::uint64_t number = random.bits();
+  auto& kept = kept_[pair.kind];
+  if (kept.size() == most_) {
+    if (number > kept.front().number) return;
+    std::pop_heap(kept.begin(), kept.end());
+    kept.pop_back();
+  }
+  kept.push_back({number, make_query(motion, pair)});
+  std::push_heap(kept.begin(), kept.end());
+}
+
+QueriesByKind PairSample::pairs() && {
+  QueriesByKind made;
+  for (auto& [kind, kept] : kept_) {
+    std::sort_heap(kept.begin(), kept.end());
+    for (const Kept& each : kept) made[kind].push_back(each.query);
+  }
+  return made;
+}
 
 namespace {
 
@@ -22,7 +51,7 @@ Query perturbed(Random& random, Query query, double size) {
 
 /// Translates the first primitive, by the same vector at both ends of the step, so that it touches the second
 /// one at the time and place of the aim.
-Query touching(Query query, const Aim& aim) {
+Query touching(const Query& query, const Aim& aim) {
   const double alpha = aim.alpha;
   const double beta = aim.beta;
   const auto at = [&](int vertex) { return Path{query.start(vertex), query.end(vertex)}.at(aim.time); };
@@ -30,16 +59,11 @@ Query touching(Query query, const Aim& aim) {
   const Vector first = triangle ? at(0) : Vector((1 - alpha) * at(0) + alpha * at(1));
   const Vector second = triangle ? Vector((1 - alpha - beta) * at(1) + alpha * at(2) + beta * at(3))
                                  : Vector((1 - beta) * at(2) + beta * at(3));
-  const Vector shift = second - first;
-  for (int i = 0; i < split(query.kind); ++i) {
-    query.set_start(i, query.start(i) + shift);
-    query.set_end(i, query.end(i) + shift);
-  }
-  return query;
+  return with_first_moved(query, second - first);
 }
 
-}  // namespace
-
+/// The query unchanged, or changed in one of the ways of near_families(). Perturbations are of `size` times
+/// its extent.
 Query changed(Random& random, const Query& given, double size) {
   Query query = given;
   if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));
@@ -56,34 +80,51 @@ Query changed(Random& random, const Query& given, double size) {
   return is_finite(query) ? query : given;
 }
 
-namespace {
-
-/// The family of queries of vertices, or of meshes, which all have a separation or none.
-Family near_family(PairsByKind given, bool of_meshes, bool has_separation) {
-  const auto pairs = std::make_shared<const PairsByKind>(std::move(given));
-  const auto make = [pairs](Random& random, Kind kind, double x) {
-    return changed(random, drawn(random, *pairs, kind), power_of_ten(x));
+Family family_near(std::string name, std::string about, std::string size, QueriesByKind given) {
+  const auto queries = std::make_shared<const QueriesByKind>(std::move(given));
+  const auto make = [queries](Random& random, Kind kind, double x) {
+    return changed(random, drawn(random, *queries, kind), power_of_ten(x));
   };
-  Family family =
-      with_parameter(std::string(of_meshes ? "near" : "v-near") + (has_separation ? "-within" : ""),
-                     "queries of files (--near), as they are, perturbed, and moved into contact",
-                     {"perturbation / size of the primitives = 10^x", -16, -1, false, make});
-  family.has_separation = has_separation;
-  family.kinds = {pairs->begin()->first, pairs->rbegin()->first};
-  if (pairs->size() == 1) family.only = pairs->begin()->first;
-  return family;
+  return with_parameter(std::move(name), std::move(about),
+                        {fmt::format("perturbation / size of the {} = 10^x", size), -16, -1, false, make});
 }
 
 }  // namespace
 
 std::vector<Family> near_families(std::span<const Query> queries) {
-  std::map<std::pair<bool, bool>, PairsByKind> groups;
+  std::map<std::pair<bool, bool>, QueriesByKind>
+      groups;  // by whether they are of vertices, and have separations
   for (const Query& each : queries)
     groups[{!is_of_meshes(each.kind), each.separation > 0}][each.kind].push_back(each);
   std::vector<Family> families;
-  for (auto& [group, pairs] : groups)
-    families.push_back(near_family(std::move(pairs), !group.first, group.second));
+  for (const auto& [group, of_kinds] : groups) {
+    const auto& [of_vertices, has_separation] = group;
+    Family& family = families.emplace_back(family_near(
+        std::string(of_vertices ? "v-near" : "near") + (has_separation ? "-within" : ""),
+        "queries of files (--near), as they are, perturbed, and moved into contact", "primitives", of_kinds));
+    family.has_separation = has_separation;
+    family.kinds = {of_kinds.begin()->first, of_kinds.rbegin()->first};
+    if (of_kinds.size() == 1) family.only = of_kinds.begin()->first;
+  }
   return families;
+}
+
+Family mesh_family(const Scene& scene, const Stop& stop, std::size_t most) {
+  PairSample sample(most);
+  const auto is_over = [&] { return stop.is_due(); };
+  for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
+    find_candidates(
+        mesh, [&](const Candidate& each) { sample.add(mesh, each, step); }, is_over);
+  });
+  stop.check();
+  QueriesByKind pairs = std::move(sample).pairs();
+  for (const Kind kind : kinds_of_meshes)
+    if (!pairs.contains(kind))
+      throw Error(fmt::format("found no {} pair in the mesh whose swept boxes meet, expected some",
+                              short_name(kind)));
+  return family_near("mesh",
+                     "pairs of a moving mesh (--mesh), as they are, perturbed, and moved into contact",
+                     "pair", std::move(pairs));
 }
 
 }  // namespace nearmiss

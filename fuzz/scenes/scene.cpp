@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <memory>
-#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -77,19 +77,10 @@ std::string folder_name(const fs::path& folder) {
 
 /// For each point, the first point in the same place.
 std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& points) {
-  const auto in_order = [&](std::size_t a, std::size_t b) {
-    for (int i = 0; i < 3; ++i)
-      if (points[a][i] != points[b][i]) return points[a][i] < points[b][i];
-    return a < b;
-  };
-  std::vector<std::size_t> sorted(points.size());
-  std::iota(sorted.begin(), sorted.end(), 0);
-  std::sort(sorted.begin(), sorted.end(), in_order);
-  std::vector<std::size_t> first(points.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const bool again = i > 0 && points[sorted[i]] == points[sorted[i - 1]];
-    first[sorted[i]] = again ? first[sorted[i - 1]] : sorted[i];
-  }
+  std::map<std::array<double, 3>, std::size_t> places;  // 0 and -0 are equal here
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    first.push_back(places.try_emplace({points[i][0], points[i][1], points[i][2]}, i).first->second);
   return first;
 }
 

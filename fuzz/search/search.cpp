@@ -2,19 +2,63 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <iterator>
+#include <functional>
+#include <memory>
 #include <span>
 
 #include "ccd/wang/elementary.hpp"
-#include "fuzz/search/searched.hpp"
+#include "fuzz/search/maximiser.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/family.hpp"
+#include "reports/statistics/family_name.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+/// The subject of some searches.
+class Searched {
+ public:
+  Searched(const Subject& subject, const Stop& stop, ChooseSeparation separation)
+      : subject_(subject), stop_(stop), separation_(std::move(separation)) {}
+
+  [[nodiscard]] const Subject& operator*() const { return subject_; }
+  [[nodiscard]] const Subject* operator->() const { return &subject_; }
+
+  /// Draws the separation of one search. It is 0, and takes no random number, if the search is for contact.
+  [[nodiscard]] double separation(Random& random, Kind kind) const {
+    if (!separation_) return 0;
+    const SearchPoint typical = draw_search_point(random, usually_smallest);
+    return separation_(random, query_of(kind, typical, 0));
+  }
+
+  /// The objective of a query: `value` of the subject's answer. It is `unwanted` if the query is not finite
+  /// or breaks the subject's contract, or if the subject is not asked any more. It is `if_slow` if the answer
+  /// exceeds the time limit. Throws Stopped.
+  template <class Value, class IfSlow>
+  double objective(const Query& query, const Value& value, const IfSlow& if_slow) const {
+    constexpr int most_slow_searches = 3;
+    stop_.check();
+    if (!is_finite(query) || slow_searches_ >= most_slow_searches) return unwanted;
+    const Verdict answer = subject_.decide(query);
+    if (answer.fault == Fault::contract) return unwanted;
+    return answer.fault == Fault::time ? if_slow() : value(answer);
+  }
+
+  /// Counts a search that the time limit ended. After a few of these, the subject is not asked any more.
+  void count_slow_search() const { ++slow_searches_; }
+
+ private:
+  const Subject& subject_;
+  const Stop& stop_;
+  ChooseSeparation separation_;
+  mutable std::atomic<int> slow_searches_ = 0;
+};
+
+// --- misses and far false positives ---------------------------------------------------------------------
 
 /// The largest distance of a subject's false positives: the bound that the subject claims, or wang's if it
 /// claims none.
@@ -59,13 +103,23 @@ struct Mixture {
   }
 };
 
+/// A point whose primitives meet: on a grid on which this is exact, or within h up to rounding errors.
+SearchPoint meeting(const SearchPoint& point, bool exactly, double h) {
+  return exactly ? on_grid(point) : with_gap_within(point, h);
+}
+
+SearchPoint draw_meeting(Random& random, double smallest, double h) {
+  SearchPoint m = draw_search_point(random, smallest);
+  if (h > 0) m.gap = draw_gap(random, h);
+  return m;
+}
+
 Query search_miss(const Searched& subject, Random& random, Kind kind) {
   const double h = subject.separation(random, kind);
   const Mixture mixture(random, h);
   const bool exactly = random.one_in(2) && h == 0;
-  const auto placed = [&](const SearchPoint& m) { return exactly ? on_grid(m) : with_gap_within(m, h); };
   const auto objective = [&](const SearchPoint& anywhere) {
-    const SearchPoint m = placed(anywhere);
+    const SearchPoint m = meeting(anywhere, exactly, h);
     const Query query = query_of(kind, m, h);
     const auto value = [&](const Verdict& answer) {
       if (!(answer.hit && exactly) && !collides(query)) return unwanted;
@@ -76,12 +130,9 @@ Query search_miss(const Searched& subject, Random& random, Kind kind) {
     return subject.objective(query, value, [&] { return ended_by(subject); });
   };
   const double smallest = exactly ? usually_smallest : smallest_for(*subject, random, kind);
-  const auto draw = [&] {
-    SearchPoint m = draw_search_point(random, smallest);
-    if (h > 0) m.gap = draw_gap(random, h);
-    return m;
-  };
-  return query_of(kind, placed(Maximiser(random, h == 0, smallest, objective).run(draw)), h);
+  const SearchPoint best =
+      Maximiser(random, h == 0, smallest, objective).run([&] { return draw_meeting(random, smallest, h); });
+  return query_of(kind, meeting(best, exactly, h), h);
 }
 
 Query search_far(const Searched& subject, Random& random, Kind kind) {
@@ -116,6 +167,93 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
   return query_of(kind, Maximiser(random, false, smallest, objective, /*moves_vertices=*/true).run(draw), h);
 }
 
+// --- late times, and the earliest ones ------------------------------------------------------------------
+
+/// A time of impact: that of a subject, and the exact earliest time t*.
+struct GivenTime {
+  double time;
+  EarliestTime& earliest;
+
+  /// time - t*, with the accuracy `rough_time`, or `least` if the difference is small.
+  [[nodiscard]] double difference() const {
+    Enclosure known = earliest.enclosure(rough_time);
+    if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);
+    return time - (known.lo / 2 + known.hi / 2);
+  }
+
+  static constexpr double least = 0x1p-50;
+};
+
+/// A late time has a higher value than any other time: the later it is, the higher. For all other times, the
+/// value is the higher the smaller (t* - time) / t* is.
+double lateness(const GivenTime& given) {
+  constexpr double late = 200;
+  const double least = GivenTime::least;
+  const double after = given.difference();
+  if (given.earliest.makes_late(given.time)) return late + log2_of(std::max(after, least));
+  const double t = std::max(given.time - after, least);
+  return -log2_of(std::min(std::max(-after, least) / t, 1.0));
+}
+
+double earliness(const GivenTime& given) { return -given.difference(); }
+
+/// The subject's answers in one search.
+struct Answers {
+  int slow = 0;        ///< queries over the time limit
+  bool found = false;  ///< whether an answer had a time that could be judged
+
+  static constexpr int most_slow = 20;
+};
+
+template <double (*objective_of)(const GivenTime&)>
+Query search_time(const Searched& subject, Random& random, Kind kind) {
+  const double h = subject.separation(random, kind);
+  const bool exactly = random.one_in(2) && h == 0;
+  Answers answers;
+  const auto pass_over = [&] {
+    if (++answers.slow == Answers::most_slow && !answers.found) subject.count_slow_search();
+    return unwanted;
+  };
+  const auto objective = [&](const SearchPoint& m) {
+    if (answers.slow == Answers::most_slow) return unwanted;
+    const Query query = query_of(kind, meeting(m, exactly, h), h);
+    const auto value = [&](const Verdict& answer) {
+      if (answer.fault != Fault::none || !answer.hit || std::isnan(answer.time)) return unwanted;
+      auto earliest = earliest_time(subject->rounded(query));
+      if (!earliest) return unwanted;
+      answers.found = true;
+      return objective_of({answer.time, *earliest});
+    };
+    return subject.objective(query, value, pass_over);
+  };
+  const SearchPoint best = Maximiser(random, h == 0, usually_smallest, objective).run([&] {
+    return draw_meeting(random, usually_smallest, h);
+  });
+  return query_of(kind, meeting(best, exactly, h), h);
+}
+
+// --- families -------------------------------------------------------------------------------------------
+
+/// The family of a search's results. Its name consists of the prefix and the subject's name.
+///
+/// A query of directed search takes about as long as a few thousand others. The subjects' times do not count,
+/// because batches are small, and the search leaves the caches warm only for the subject that it searches.
+Family search_family(std::string_view prefix, std::string_view about,
+                     Query (*search_one)(const Searched&, Random&, Kind), const Subject& subject,
+                     const Stop& stop, std::string_view separation) {
+  const std::string name = std::string(prefix) + subject.name();
+  ChooseSeparation choose;
+  if (!separation.empty()) choose = parse_family_separation(separation, name);
+  const auto searched = std::make_shared<Searched>(subject, stop, choose);
+  return {.name = separation.empty() ? name : name_with_separation(name, separation),
+          .about = std::string(about),
+          .make = [searched, search_one](Random& random,
+                                         Kind kind) { return search_one(*searched, random, kind); },
+          .block_cases = 1,
+          .timed = false,
+          .has_separation = !separation.empty()};
+}
+
 }  // namespace
 
 Family miss_search(const Subject& subject, const Stop& stop, std::string_view separation) {
@@ -126,6 +264,16 @@ Family miss_search(const Subject& subject, const Stop& stop, std::string_view se
 Family far_search(const Subject& subject, const Stop& stop, std::string_view separation) {
   return search_family(far_search_family, "far false positives, by directed search", search_far, subject,
                        stop, separation);
+}
+
+Family late_search(const Subject& subject, const Stop& stop, std::string_view separation) {
+  return search_family(late_search_family, "late times, by directed search", search_time<lateness>, subject,
+                       stop, separation);
+}
+
+Family early_search(const Subject& subject, const Stop& stop, std::string_view separation) {
+  return search_family(early_search_family, "early times, by directed search", search_time<earliness>,
+                       subject, stop, separation);
 }
 
 Family among_vertices(Family search) {

@@ -7,11 +7,7 @@
 
 namespace nearmiss {
 
-namespace {
-
 using Vector = Vector3<double>;
-
-}  // namespace
 
 double search_log_uniform(Random& random, double lo, double hi) {
   return exp2_of(random.uniform(log2_of(lo), log2_of(hi)));
@@ -77,9 +73,8 @@ SearchPoint with_gap_within(SearchPoint point, double h) {
 
 Contact contact_of(Kind kind, const SearchPoint& point) {
   const auto clamped = [](double x) { return std::clamp(x, 0.0, 1.0); };
-  Contact contact{
-      {Vector::Zero(), Vector::Zero()}, point.q, point.r, clamped(point.place[0]), clamped(point.place[1]),
-      clamped(point.place[2])};
+  Contact contact{still(Vector::Zero()),  point.q, point.r, clamped(point.place[0]), clamped(point.place[1]),
+                  clamped(point.place[2])};
   if (has_triangle(kind)) contact.beta = std::min(contact.beta, 1 - contact.alpha);
   if (vertices(kind) < 4) contact.beta = 0;
   if (vertices(kind) < 3) contact.alpha = 0;
@@ -87,11 +82,7 @@ Contact contact_of(Kind kind, const SearchPoint& point) {
 }
 
 Query query_of(Kind kind, const SearchPoint& point, double h) {
-  Query query = meet(kind, contact_of(kind, point), point.w);
-  for (int i = 0; i < split(kind); ++i) {
-    query.set_start(i, query.start(i) + point.gap);
-    query.set_end(i, query.end(i) + point.gap);
-  }
+  Query query = with_first_moved(meet(kind, contact_of(kind, point), point.w), point.gap);
   for (std::size_t i = 0; i < query.x.size(); ++i) query.x[i] += point.moved[i];
   query.separation = h;
   repeat_vertices(query);

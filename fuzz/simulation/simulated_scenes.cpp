@@ -67,11 +67,6 @@ Held corners_of_first_sheet(const Mesh& mesh) {
   return held;
 }
 
-struct Entry {
-  BuiltInScene scene;
-  Held (*held)(const Mesh& mesh);
-};
-
 /// A built-in scene, from its first frame on.
 std::function<Scene(int size)> built_in(const std::string& name) {
   return [name](int size) { return built_in_scene(fmt::format("{}@{}", name, size)); };
@@ -79,30 +74,18 @@ std::function<Scene(int size)> built_in(const std::string& name) {
 
 constexpr int largest = 20'000;  // whose matrix takes less than a second
 
-const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all{
-      {{"knot", "a tube with an overhand knot, which is pulled tight by its ends", 1200, 300, largest,
-        built_in("knot")},
-       ends_of_tube},
-      {{"cloths", "a cloth falls, vertex on vertex, on an equal one that is held by its corners", 800, 16,
-        largest, two_sheets},
-       corners_of_first_sheet},
-      {{"spikes", "a cloth falls on a square of spikes", 1200, 300, largest, built_in("spikes")},
-       other_bodies},
-      {{"hair", "a bundle of hair is twisted by its ends: lines only", 600, 100, largest, built_in("hair")},
-       ends_of_lines}};
-  return all;
-}
-
 }  // namespace
 
 const std::vector<BuiltInScene>& simulated_scenes() {
-  static const std::vector<BuiltInScene> scenes = [] {
-    std::vector<BuiltInScene> all;
-    for (const Entry& each : entries()) all.push_back(each.scene);
-    return all;
-  }();
-  return scenes;
+  static const std::vector<BuiltInScene> all{
+      {"knot", "a tube with an overhand knot, which is pulled tight by its ends", 1200, 300, largest,
+       built_in("knot"), ends_of_tube},
+      {"cloths", "a cloth falls, vertex on vertex, on an equal one that is held by its corners", 800, 16,
+       largest, two_sheets, corners_of_first_sheet},
+      {"spikes", "a cloth falls on a square of spikes", 1200, 300, largest, built_in("spikes"), other_bodies},
+      {"hair", "a bundle of hair is twisted by its ends: lines only", 600, 100, largest, built_in("hair"),
+       ends_of_lines}};
+  return all;
 }
 
 SimulatedScene simulated_scene(const std::string& text) {
@@ -112,7 +95,7 @@ SimulatedScene simulated_scene(const std::string& text) {
         fmt::format("{}: found no scene of that name that can be simulated (see nearmiss simulate --list)",
                     excerpt(text)));
   SimulatedScene made{.scene = make_scene(text, *scene), .held = {}};
-  made.held = entries()[static_cast<std::size_t>(scene - simulated_scenes().data())].held(made.scene.mesh);
+  made.held = scene->held(made.scene.mesh);
   return made;
 }
 

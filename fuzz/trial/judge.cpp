@@ -13,8 +13,6 @@ namespace nearmiss {
 Judge::Judge(const Subject& subject)
     : subject_(subject), wang_(subject.claims_bound() ? nullptr : make_subject("wang")) {}
 
-double Judge::unit(const Query& query) const { return ask_unit(query).bound; }
-
 BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ : subject_).ask_bound(query); }
 
 namespace {

@@ -28,11 +28,8 @@ class Judge {
   explicit Judge(const Subject& subject);
 
   /// The distance with which a false positive is compared, in the query's unit of length: the bound that the
-  /// subject claims, or wang's bound for the same pair if the subject claims none. NaN if the subject fails
-  /// to give its bound.
-  [[nodiscard]] double unit(const Query& query) const;
-
-  /// The unit, or why the subject fails to give it.
+  /// subject claims, or wang's bound for the same pair if the subject claims none; or why the subject fails
+  /// to give it.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
   /// Compares an answer with the truth about the query as the subject rounds it. If the smallest distance is

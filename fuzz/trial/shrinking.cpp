@@ -20,7 +20,9 @@ Shrinking::Shrinking(const Subjects& subjects, int jobs, const Stop& stop, bool 
     : shrinker_(pointers_to(subjects), stop, limits_in_campaign),
       jobs_(jobs),
       stop_(stop),
-      enabled_(enabled) {}
+      enabled_(enabled) {
+  threads_.reserve(static_cast<std::size_t>(jobs));
+}
 
 Shrinking::~Shrinking() {
   {
@@ -28,7 +30,7 @@ Shrinking::~Shrinking() {
     ends_ = true;
   }
   has_changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  for (std::thread& each : threads_) each.join();
 }
 
 void Shrinking::sift(TrialResult& result) {
@@ -49,7 +51,7 @@ void Shrinking::add(const Finding& finding, std::size_t nth) {
     waiting_.emplace(Priority{finding.query_class, nth, number}, Task{number, finding});
   }
   has_changed_.notify_all();
-  if (!thread_.joinable()) thread_ = start_thread([this] { work(); });  // else tried again later
+  if (threads_.empty()) start();  // if the system has no thread left, tried again later
 }
 
 std::map<std::size_t, Finding> Shrinking::take() {
@@ -63,16 +65,16 @@ std::size_t Shrinking::left() const {
   return waiting_.size() + under_way_;
 }
 
-std::optional<Shrinking::Task> Shrinking::next() {
-  const std::lock_guard lock(mutex_);
-  if (waiting_.empty() || ends_ || stop_.is_due(Stop::grace)) return std::nullopt;
-  Task task = std::move(waiting_.begin()->second);
-  waiting_.erase(waiting_.begin());
-  ++under_way_;
-  return task;
+bool Shrinking::start() {
+  std::unique_lock lock(mutex_);
+  std::thread thread = start_thread([this] { work(); });
+  if (!thread.joinable()) return false;
+  threads_.push_back(std::move(thread));
+  ++working_;
+  return true;
 }
 
-void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
+void Shrinking::shrink(Task& task) {
   // For a query over the time limit, every step would take as long as that limit. Only `nearmiss shrink`
   // shrinks such findings.
   const bool is_slow = failure_of(signature_of(task.finding)) == FailureKind::slow;
@@ -80,7 +82,7 @@ void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
     if (is_slow)
       task.finding.is_shrunk = true;
     else
-      shrinker_.shrink(task.finding, rest);
+      shrinker_.shrink(task.finding, [&] { rest(); });
     task.finding.certificate = certificate_of(task.finding);
     const std::lock_guard lock(mutex_);
     --under_way_;
@@ -94,40 +96,31 @@ void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
 }
 
 void Shrinking::work() {
+  const auto is_over = [&] { return ends_ || stop_.is_due(Stop::grace); };
+  std::unique_lock lock(mutex_);
   for (;;) {
-    {
-      std::unique_lock lock(mutex_);
-      has_changed_.wait(lock, [&] { return !waiting_.empty() || ends_ || is_hurried_; });
-      if (ends_) return;
-      if (is_hurried_) break;
-      busy_since_ = Clock::now();
-    }
-    if (auto task = next()) {
-      shrink(*task, [&] { rest(); });
-      busy_ += Clock::now() - busy_since_;
-    } else {  // the time is over
-      std::unique_lock lock(mutex_);
-      has_changed_.wait(lock, [&] { return ends_ || is_hurried_; });
-    }
+    has_changed_.wait(lock, [&] { return !waiting_.empty() || ends_ || is_hurried_; });
+    if (waiting_.empty() || is_over()) break;
+    Task task = std::move(waiting_.begin()->second);
+    waiting_.erase(waiting_.begin());
+    ++under_way_;
+    busy_since_ = Clock::now();
+    lock.unlock();
+    shrink(task);
+    lock.lock();
+    busy_ += Clock::now() - busy_since_;
   }
-  work_hurriedly();
-}
-
-void Shrinking::work_hurriedly() {
-  while (auto task = next()) shrink(*task);
-  const std::lock_guard lock(mutex_);
-  --hurrying_;
+  --working_;
   has_changed_.notify_all();
 }
 
 void Shrinking::rest() {
+  std::unique_lock lock(mutex_);
   busy_ += Clock::now() - std::exchange(busy_since_, Clock::now());
   const auto must_wait = [&] {
     return std::chrono::duration<double>(busy_) > share * jobs_ * (Clock::now() - start_);
   };
-  std::unique_lock lock(mutex_);
-  while (must_wait() && !is_hurried_) {
-    if (ends_) throw Stopped();
+  while (!ends_ && !is_hurried_ && must_wait()) {
     lock.unlock();
     stop_.check(Stop::grace);
     lock.lock();
@@ -138,44 +131,24 @@ void Shrinking::rest() {
 }
 
 void Shrinking::finish(const std::function<void()>& report) {
-  std::vector<std::thread> others;
-  others.reserve(static_cast<std::size_t>(jobs_));
-  const auto end = [&] {
-    for (std::thread& each : others)
-      if (each.joinable()) each.join();
-    if (thread_.joinable()) thread_.join();
-  };
   std::unique_lock lock(mutex_);
   is_hurried_ = true;
-  hurrying_ = thread_.joinable() ? 1 : 0;
+  lock.unlock();
   has_changed_.notify_all();
-  while (hurrying_ < jobs_) {
-    others.push_back(start_thread([this] { work_hurriedly(); }));
-    if (!others.back().joinable()) break;
-    ++hurrying_;
+  while (threads_.size() < static_cast<std::size_t>(jobs_) && start()) {
   }
-  if (hurrying_ == 0) {  // the system has no thread left
-    ++hurrying_;
+  if (threads_.empty()) {  // the system has no thread left
+    ++working_;
+    work();
+  }
+  lock.lock();
+  while (working_ != 0) {
+    has_changed_.wait_for(lock, std::chrono::milliseconds(100));
     lock.unlock();
-    work_hurriedly();
+    report();
     lock.lock();
   }
-  try {
-    while (hurrying_ != 0) {
-      has_changed_.wait_for(lock, std::chrono::milliseconds(100));
-      lock.unlock();
-      report();
-      lock.lock();
-    }
-  } catch (...) {
-    if (!lock.owns_lock()) lock.lock();
-    ends_ = true;
-    lock.unlock();
-    end();
-    throw;
-  }
   lock.unlock();
-  end();
   report();
 }
 

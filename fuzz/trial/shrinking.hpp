@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <tuple>
 #include <vector>
@@ -62,12 +61,12 @@ class Shrinking {
     Finding finding;
   };
 
+  /// Starts a thread that works; returns false if the system has no thread left.
+  bool start();
+  /// Shrinks what waits, and waits for more unless all queries have been asked.
   void work();
-  void work_hurriedly();
-  /// The next task; nothing if there is none.
-  std::optional<Task> next();
-  void shrink(Task& task, const FindingShrinker::Rest& rest = {});
-  /// Waits until the thread has worked for no more than its share of the time.
+  void shrink(Task& task);
+  /// While there are queries to ask, waits until the thread has worked no more than its share of the time.
   void rest();
 
   FindingShrinker shrinker_;
@@ -84,13 +83,13 @@ class Shrinking {
   std::map<std::size_t, Finding> shrunk_;
   std::exception_ptr failure_;
   bool is_hurried_ = false;  // whether all queries have been asked
-  int hurrying_ = 0;         // threads that shrink the rest
+  int working_ = 0;          // threads in work()
   bool ends_ = false;
 
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point busy_since_ = start_;  // of the thread
+  Clock::time_point busy_since_ = start_;  // of the only thread, while there are queries to ask
   Clock::duration busy_{};                 // before that
-  std::thread thread_;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace nearmiss

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/fuzz/family_queries.hpp"
@@ -40,21 +38,6 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
     EXPECT_EQ(approach.lower, 0);
     EXPECT_LT(approach.upper, 0x1p-40);
   }
-}
-
-TEST(DistanceInUnits, LiesInOneBin) {
-  const auto decade = [](double hi) { return hi < 1e-16 ? 0 : std::pow(10, std::floor(std::log10(hi))); };
-  int resolved = 0;
-  for (const Query& query : first_queries("end-contact", 400, seed)) {
-    if (collides(query)) continue;
-    const Enclosure distance = minimum_distance(query);
-    const Enclosure ratio = distance_in_units(query, 0x1p-9, decade);
-    EXPECT_GE(ratio.lo, decade(ratio.hi));
-    EXPECT_LE(ratio.lo * 0x1p-9, distance.hi);
-    EXPECT_GE(ratio.hi * 0x1p-9, distance.lo);
-    resolved += ratio.lo > 0 ? 1 : 0;
-  }
-  EXPECT_GT(resolved, 50);
 }
 
 /// A query for which double intervals once gave a distance of 4.85e-08 of its bound.

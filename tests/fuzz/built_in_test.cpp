@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <numeric>
 
 #include "ccd/query/error.hpp"
-#include "fuzz/scenes/built_in/formulas.hpp"
 #include "fuzz/scenes/built_in/shapes.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "oracle/oracle.hpp"
@@ -56,6 +53,7 @@ TEST_P(EveryScene, HasTheBitsThatItAlwaysHad) {
 
 TEST_P(EveryScene, HasTheSameStepsOneByOneAndAllInARow) {
   const Scene scene = of_size(600);
+  EXPECT_EQ(scene.points(0), scene.mesh.points);
   std::size_t visited = 0;
   for_each_step(
       scene, [&] { return visited == 4; },
@@ -69,26 +67,8 @@ TEST_P(EveryScene, HasTheSameStepsOneByOneAndAllInARow) {
   EXPECT_EQ(visited, 4);
 }
 
-TEST_P(EveryScene, IsAsSmallAsItCouldAlwaysBe) {
-  const std::map<std::string, std::size_t> recorded{{"spikes", 65},   {"sheets", 80}, {"points", 164},
-                                                    {"knot", 156},    {"mat", 70},    {"hair", 117},
-                                                    {"tumbling", 52}, {"flying", 52}, {"resting", 126}};
-  EXPECT_EQ(of_size(0).mesh.points.size(),
-            recorded.contains(GetParam().name) ? recorded.at(GetParam().name) : 0);
-}
-
-TEST_P(EveryScene, FramesAreMadeInAnyOrder) {
-  const Scene scene = of_size(300);
-  EXPECT_GE(scene.frames, 10);
-  EXPECT_LE(scene.frames, 40);
-  const PointList last = scene.points(scene.frames - 1);
-  EXPECT_EQ(scene.points(0), scene.mesh.points);
-  EXPECT_EQ(scene.points(scene.frames - 1), last);
-  EXPECT_NE(scene.points(1), scene.mesh.points);
-}
-
 TEST_P(EveryScene, IsAboutAsLargeAsAsked) {
-  for (const int size : {0, 250, 460, 640, 1000, 10000, 33333}) {
+  for (const int size : {0, 460, 640, 10000}) {
     const Scene scene = of_size(size);
     const double asked = std::max(size, GetParam().smallest);
     const double triangles = static_cast<double>(scene.mesh.triangles.size());
@@ -142,7 +122,7 @@ TEST_P(EveryScene, HasCollisionsButMostCandidatesHaveNone) {
 
 // The edges have a length of about 1.
 TEST_P(EveryScene, AStepIsOfTheOrderOfAnEdgeInAllSizes) {
-  for (const int size : {300, 5000, 60000}) {
+  for (const int size : {300, 20000}) {
     const Scene scene = of_size(size);
     for (const std::size_t step : {std::size_t{0}, scene.steps() / 2, scene.steps() - 1}) {
       const MovingMesh mesh = moving_mesh(scene, step);
@@ -198,17 +178,6 @@ TEST(Resting, MostPairsAreAtRest) {
   EXPECT_GT(found[PairFate::at_rest], 5 * (found[PairFate::asked] + found[PairFate::in_translation]));
 }
 
-TEST(Tumbling, BodiesAreRigid) {
-  const Scene scene = built_in_scene("tumbling@1000");
-  const MovingMesh mesh = moving_mesh(scene, 7);
-  for (const auto& [a, b] : mesh.edges) {
-    const auto length_in = [a = a, b = b](const PointList& points) {
-      return (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(b)]).norm();
-    };
-    EXPECT_NEAR(length_in(mesh.start), length_in(mesh.end), 1e-13);
-  }
-}
-
 TEST(BuiltInScenes, AreNamedAsTheyAreAskedFor) {
   EXPECT_TRUE(is_built_in_scene("knot"));
   EXPECT_TRUE(is_built_in_scene("knot@4000"));
@@ -232,82 +201,6 @@ TEST(BuiltInScenes, RefuseBadSizes) {
   for (const char* word :
        {"", "x", "1e3", "1000.5", "1000 ", " 1000", "+1000", "1000@1000", "99999999999999999999"})
     expect_refused(std::string("spikes@") + word, std::string("'") + word + "'");
-}
-
-TEST(Formulas, CosineAndSineAreCorrectTo4e16) {
-  for (int i = -4000; i <= 4000; ++i) {
-    const double turns = i / 997.0;
-    const CosSin found = cos_sin(turns);
-    const auto angle = 2 * std::numbers::pi_v<long double> * static_cast<long double>(turns);
-    ASSERT_NEAR(found.cos, static_cast<double>(std::cos(angle)), 4e-16) << turns;
-    ASSERT_NEAR(found.sin, static_cast<double>(std::sin(angle)), 4e-16) << turns;
-  }
-  for (const double turns : {-1.0, 0.0, 5.0}) {
-    EXPECT_EQ(cos_sin(turns).cos, 1);
-    EXPECT_EQ(cos_sin(turns + 0.25).sin, 1);
-    EXPECT_EQ(cos_sin(turns + 0.5).cos, -1);
-    EXPECT_EQ(cos_sin(turns + 0.75).sin, -1);
-    EXPECT_EQ(cos_sin(turns).sin, 0);
-  }
-}
-
-TEST(Formulas, ARotationTurnsAboutItsAxis) {
-  const Vector3<double> p(0.1, 0.2, 0.3);
-  EXPECT_EQ(Rotation({0, 0, 1}, 0)(p), p);
-  EXPECT_EQ(Rotation({0, 0, 1}, 0.25)(p), Vector3<double>(-0.2, 0.1, 0.3));
-  EXPECT_EQ(Rotation({1, 0, 0}, 0.25)(p), Vector3<double>(0.1, -0.3, 0.2));
-  const Vector3<double> axis(2 / 3.0, -2 / 3.0, 1 / 3.0);
-  EXPECT_LT((Rotation(axis, 0.3)(axis) - axis).norm(), 1e-15);
-  EXPECT_LT((Rotation(axis, 1 / 3.0)(Rotation(axis, 2 / 3.0)(p)) - p).norm(), 1e-15);
-}
-
-TEST(Formulas, TheSmoothMaximumHasNoKink) {
-  EXPECT_EQ(smooth_max(1, 2, 0.5), 2);
-  EXPECT_EQ(smooth_max(2, 1, 0.5), 2);
-  EXPECT_EQ(smooth_max(1, 1, 0.5), 1.125);
-  EXPECT_NEAR(smooth_max(1, 1 + 1e-6, 0.5) - smooth_max(1, 1, 0.5), 0.5e-6, 1e-11);
-}
-
-/// Whether a surface is closed and its triangles are oriented consistently, so that each edge occurs once in
-/// each direction.
-bool is_closed(const Mesh& mesh) {
-  std::map<std::array<int, 2>, int> edges;
-  for (const auto& [a, b, c] : mesh.triangles)
-    for (const std::array<int, 2> edge : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
-      ++edges[edge];
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& each) {
-    return each.second == 1 && edges.contains({each.first[1], each.first[0]});
-  });
-}
-
-/// The volume inside a closed surface.
-double volume(const Mesh& mesh) {
-  const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
-  return std::accumulate(mesh.triangles.begin(), mesh.triangles.end(), 0.0, [&](double sum, const auto& t) {
-    return sum + at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6;
-  });
-}
-
-TEST(Shapes, BoxesAndBallsAreClosed) {
-  const Mesh a_box = box({4, 2, 3});
-  EXPECT_EQ(a_box.triangles.size(), 4 * (8 + 6 + 12));
-  EXPECT_TRUE(is_closed(a_box));
-  EXPECT_NEAR(volume(a_box), 24, 1e-12);
-  const Mesh a_ball = ball(6);
-  EXPECT_EQ(a_ball.triangles.size(), 12 * 36);
-  EXPECT_TRUE(is_closed(a_ball));
-  EXPECT_NEAR(volume(a_ball), 4 / 3.0 * std::numbers::pi * std::pow(6 * 0.64, 3), 10);
-}
-
-TEST(Shapes, SurfacesHaveTwoTrianglesASquare) {
-  Mesh open;
-  add_surface(open, 0, 3, 4);
-  EXPECT_EQ(open.triangles.size(), 12);
-  Mesh closed;
-  add_surface(closed, 7, 3, 4, true);
-  EXPECT_EQ(closed.triangles.size(), 16);
-  for (const auto& triangle : closed.triangles)
-    for (const int vertex : triangle) EXPECT_TRUE(vertex >= 7 && vertex < 19);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 
 #include "fuzz/families/crossed.hpp"
@@ -68,7 +67,7 @@ std::uint64_t queries(const Statistics& statistics, const std::string& subject, 
   return sum;
 }
 
-TEST(Campaign, DividesTheCasesAmongTheFamilies) {
+TEST(Campaign, DividesTheCasesAmongTheFamiliesAndWangMissesNoneOfThem) {
   const Ran all = run(plan_of(4000, 2));
   std::uint64_t in_a_round = 0;
   for (const Family& family : families()) in_a_round += family.block_cases;
@@ -81,6 +80,11 @@ TEST(Campaign, DividesTheCasesAmongTheFamilies) {
     sum += own;
   }
   EXPECT_EQ(sum, 4000);
+  for (const auto& [key, counts] : all.statistics.counts) {
+    EXPECT_EQ(counts.false_negatives, 0) << key.family;
+    EXPECT_EQ(counts.refuted_bounds, 0) << key.family;
+  }
+  EXPECT_EQ(all.statistics.mismatches_with_recorded_truth, 0);
 }
 
 TEST(Campaign, ComparesAllMethodsIfAFamilyAsksForIt) {
@@ -91,25 +95,18 @@ TEST(Campaign, ComparesAllMethodsIfAFamilyAsksForIt) {
     EXPECT_EQ(counts.compared, key.second == "uniform" ? 0 : counts.queries) << key.second;
 }
 
-TEST(Campaign, WangMissesNothingAndStaysWithinItsBound) {
-  const Ran all = run(plan_of(4000, 2));
-  for (const auto& [key, counts] : all.statistics.counts) {
-    EXPECT_EQ(counts.false_negatives, 0) << key.family;
-    EXPECT_EQ(counts.refuted_bounds, 0) << key.family;
-  }
-  EXPECT_EQ(all.statistics.mismatches_with_recorded_truth, 0);
-}
-
 TEST(Campaign, DoesNotDependOnTheNumberOfThreads) {
-  const Ran one = run(plan_of(4000, 1), true);
-  const Ran three = run(plan_of(4000, 3), true);
+  const Ran one = run(plan_of(2000, 1), true);
+  const Ran three = run(plan_of(2000, 3), true);
   EXPECT_EQ(one.statistics, three.statistics);
   EXPECT_TRUE(one.findings == three.findings);
   EXPECT_FALSE(one.findings.empty());  // basic misses
 }
 
 TEST(Campaign, CountsEveryFailureAndKeepsAFewOfEachSignature) {
-  const Ran all = run(plan_of(4000, 2), true);
+  CampaignPlan plan = plan_of(4000, 2);
+  plan.shrink = false;
+  const Ran all = run(plan, true);
   std::uint64_t sum = 0;
   for (const auto& [signature, times] : all.statistics.seen) sum += times;
   EXPECT_EQ(sum, all.statistics.false_negatives());
@@ -125,7 +122,8 @@ TEST(Campaign, CountsEveryFailureAndKeepsAFewOfEachSignature) {
 }
 
 TEST(Campaign, ShardsAddUpToTheWhole) {
-  CampaignPlan plan = plan_of(9000, 2, {"planted", "degenerate", "aspect@8"});
+  CampaignPlan plan = plan_of(6000, 2, {"planted", "degenerate", "aspect@8"});
+  plan.shrink = false;
   const Ran whole = run(plan, true);
   Statistics sum;
   plan.shards = 3;
@@ -143,16 +141,16 @@ std::unique_ptr<Subject> stopping(std::atomic<bool>& stop, std::uint64_t queries
 }
 
 TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
-  CampaignPlan plan = plan_of(9000, 2, {"planted", "degenerate", "aspect@8"});
+  CampaignPlan plan = plan_of(3000, 2, {"planted", "degenerate", "aspect@8"});
   std::atomic<bool> ignored{false};
   const auto never = [&] { return stopping(ignored, std::uint64_t{1} << 62); };
   const Ran whole = run(plan, true, Stop::never(), never());
-  for (const std::uint64_t queries : {1U, 100U, 777U, 2500U, 6000U}) {
+  for (const std::uint64_t queries : {1U, 777U, 2000U}) {
     plan.before = {};
     plan.findings_before = {};
     std::atomic<bool> requested{false};
     const Ran first = run(plan, true, Stop(requested), stopping(requested, queries));
-    EXPECT_LT(first.statistics.oracle_total().queries, 9000U);
+    EXPECT_LT(first.statistics.oracle_total().queries, 3000U);
     plan.before = first.statistics;
     plan.findings_before = first.findings;
     const Ran next = run(plan, true, Stop::never(), never());
@@ -166,20 +164,19 @@ TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
 TEST(Campaign, AProvenanceMakesItsQueryAgain) {
   CampaignPlan plan = plan_of(600, 2, {"aspect@8", "stiff", "planted-ulp"});
   plan.seed = 3;
-  std::set<std::string> seen;
-  for (const Finding& finding : run(plan, true).findings) {
-    const auto index = finding.provenance.rfind(':');
-    const std::string family = finding.provenance.substr(0, finding.provenance.find(':'));
-    EXPECT_EQ(make_query(find_family(family), 3, std::stoull(finding.provenance.substr(index + 1))),
-              finding.query)
-        << finding.provenance;
-    seen.insert(family);
+  plan.shrink = false;
+  const std::vector<Finding> findings = run(plan, true).findings;
+  EXPECT_GT(findings.size(), 10);
+  for (const Finding& finding : findings) {
+    const std::string& text = finding.provenance;  // FAMILY:SEED:INDEX
+    const Family family = find_family(text.substr(0, text.find(':')));
+    EXPECT_EQ(make_query(family, 3, std::stoull(text.substr(text.rfind(':') + 1))), finding.query) << text;
   }
-  EXPECT_EQ(seen.size(), 3);
 }
 
 TEST(Campaign, CountsAnswersByTheFactorsOfCrossed) {
-  const CampaignPlan plan = plan_of(2000, 2, {"crossed"});
+  CampaignPlan plan = plan_of(1500, 2, {"crossed"});
+  plan.shrink = false;
   const Statistics statistics = run(plan, true).statistics;
   const auto basic = make_subject("basic");
   std::map<std::string, FactorCounts> expected;
@@ -206,11 +203,6 @@ TEST(Campaign, StopsWhenTheTimeIsOver) {
   const Ran timed = run(plan_of(0, 2), false, stop);
   EXPECT_GT(queries(timed.statistics, "wang", "uniform"), 0);
   EXPECT_GE(timed.saves, 1);
-}
-
-TEST(Campaign, StopsOnRequest) {
-  const std::atomic<bool> requested{true};
-  EXPECT_TRUE(run(plan_of(0, 2), true, Stop(requested)).statistics.counts.empty());
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
 
 // Many boxes only touch, or are exactly the separation apart.
 TEST(Candidates, FindsTheSameAsBruteForceWithIntegerCoordinates) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     EXPECT_GT(
         expect_brute_force(random_mesh(seed, 60, 80), {1, 2, 0.3, std::numeric_limits<double>::denorm_min()}),
@@ -82,22 +82,16 @@ TEST(Candidates, FindsTheSameAsBruteForceWithIntegerCoordinates) {
   }
 }
 
-TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
-  for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    const MovingMesh mesh = random_mesh(seed, 600, 900);
-    for (const Kind kind : kinds_of_meshes) ASSERT_GT(CandidateFinder(mesh, kind, 1, never_over).parts(), 3);
-    EXPECT_TRUE(found_candidates(mesh) == candidates_by_brute_force(mesh)) << "seed " << seed;
-  }
-}
-
-TEST(Candidates, PairsWithACommonVertexAreCounted) {
+TEST(Candidates, InManyPartsPairsAreFoundOnceAndThoseWithACommonVertexAreCounted) {
   const MovingMesh mesh = random_mesh(1, 600, 900);
+  EXPECT_TRUE(found_candidates(mesh) == candidates_by_brute_force(mesh));
   const CandidateSink ignore = [](const Candidate& /*candidate*/) {};
   for (const Kind kind : kinds_of_meshes) {
     std::uint64_t expected = 0;
     for (std::size_t row = 0; row < pair_rows(mesh, kind); ++row)
       expected += for_pairs_of_row(mesh, kind, row, ignore, never_over);
     const CandidateFinder finder(mesh, kind, 1, never_over);
+    ASSERT_GT(finder.parts(), 3);
     std::uint64_t sharing = 0;
     for (std::size_t part = 0; part < finder.parts(); ++part)
       sharing += finder.find(part, ignore, never_over);
@@ -181,7 +175,7 @@ TEST(Candidates, FindsTheSameAsBruteForceWithCoordinatesOfAllSizesAtOnce) {
 // separation rounds, and cells are smaller than an ulp.
 TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   const double ulp = 0x1p-53;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const MovingMesh mesh = any_mesh(seed, 60, [ulp](Random& random) -> Vector3<double> {
       return Vector3<double>(1, 1, 1) + ulp * random.integer_vector(40);
     });
@@ -194,7 +188,7 @@ TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
 TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
   std::size_t found = 0;
   Random random(1, 0, 0);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const double vertex = random.uniform(0.5, 2);
     const double triangle = random.uniform(-0.1, 0.3);
     const double separation = vertex - triangle;
@@ -207,15 +201,7 @@ TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
     ASSERT_EQ(found_candidates(mesh), expected) << i;
     found += expected.size();
   }
-  EXPECT_GT(found, 3000);
-}
-
-TEST(Candidates, AFarPointHidesNothing) {
-  for (const double far : {1e9, 1e20, 1e300}) {
-    MovingMesh mesh = any_mesh(1, 40, [](Random& random) { return random.integer_vector(6); });
-    mesh.end[7][1] = far;
-    EXPECT_GT(expect_brute_force(mesh, {0.5, 1, far}), 100);
-  }
+  EXPECT_GT(found, 1000);
 }
 
 TEST(Candidates, FindsAllPairsOfEqualBoxes) {
@@ -230,9 +216,9 @@ TEST(Candidates, FindsAllPairsOfEqualBoxes) {
 // A group holds four boxes, so these meshes have one group, two groups, a group of groups, and so on.
 TEST(Candidates, FindsTheSameAsBruteForceInMeshesOfFewPrimitives) {
   std::size_t found = 0;
-  for (int n = 1; n <= 70; ++n)
+  for (int n = 1; n <= 40; ++n)
     found += expect_brute_force(any_mesh(3, n, [](Random& random) { return random.integer_vector(4); }));
-  EXPECT_GT(found, 10000);
+  EXPECT_GT(found, 2000);
   EXPECT_EQ(expect_brute_force(make_moving_mesh({}, {})), 0);
   const Points corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(expect_brute_force(make_moving_mesh({corners, {{0, 1, 2}}, {}}, corners)), 0);
@@ -258,7 +244,7 @@ void displace(Points& points, Random& random, double way) {
 TEST(Candidates, AMovedFinderFindsTheSameAsANewOne) {
   for (const Kind kind : kinds_of_meshes)
     for (const int jobs : {1, 3}) {
-      MovingMesh mesh = tetrahedra(1, 800);
+      MovingMesh mesh = tetrahedra(1, 400);
       CandidateFinder finder(mesh, kind, jobs, never_over);
       Random random(1, 0, 0);
       for (int step = 0; step < 6; ++step) {
@@ -271,7 +257,7 @@ TEST(Candidates, AMovedFinderFindsTheSameAsANewOne) {
         mesh.separation = step % 2 == 0 ? 0 : 0.25;
         finder.move(mesh, jobs, never_over);
         const auto found = all_of(finder);
-        EXPECT_GT(found.size(), 500) << step;
+        EXPECT_GT(found.size(), 200) << step;
         EXPECT_TRUE(found == all_of(CandidateFinder(mesh, kind, 1, never_over))) << step;
       }
     }

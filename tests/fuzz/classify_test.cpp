@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <vector>
 
@@ -45,14 +44,6 @@ TEST(Classify, CoordinatesAreExtremeAbove1e30OrIfAllAreBelow1eMinus30) {
   EXPECT_TRUE(is_degenerate(scaled(query, 0)));
 }
 
-TEST(Classify, SubnormalCoordinatesAmongOthersAreOrdinary) {
-  Query query = falling_vertex(0.25, 0.25, 1, -1);
-  query.x[3] = least;
-  query.x[16] = -1e-310;
-  query.x[17] = 1e-300;
-  EXPECT_TRUE(is_ordinary(query));
-}
-
 /// An edge of length 1 + 2^-60 above a second edge, which is 1e8 times as long, minus 2^-60 times `change`.
 /// Neither length is a double.
 Query long_edge(double change) {
@@ -60,6 +51,14 @@ Query long_edge(double change) {
   const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);
   const Vector up(0, 0, 1e3);
   return make_query(Kind::edge_edge, {a + up, b + up, c, d}, {a - up, b - up, c, d});
+}
+
+TEST(Classify, SubnormalCoordinatesAmongOthersAreOrdinary) {
+  Query query = falling_vertex(0.25, 0.25, 1, -1);
+  query.x[3] = least;
+  query.x[16] = -1e-310;
+  query.x[17] = 1e-300;
+  EXPECT_TRUE(is_ordinary(query));
 }
 
 TEST(Classify, AnEdgeIsExtremeIfItIsMoreThan1e8TimesLongerThanAnother) {
@@ -118,14 +117,6 @@ TEST(Classify, NearlyParallelEdgesAreDegenerate) {
   EXPECT_TRUE(is_degenerate(falling_past({1, 0, 0})));
   EXPECT_TRUE(is_degenerate(falling_past({-1, 0, 1e-6})));
   EXPECT_TRUE(is_ordinary(falling_past({1, 0, 1e-5})));
-}
-
-TEST(Classify, ATriangleWithoutAreaIsDegenerate) {
-  Query query = falling_vertex(2, 2, 1, -1);
-  query.set_start(3, {2, 1e-7, 0});
-  EXPECT_TRUE(is_degenerate(query));
-  query.set_start(3, {2, 1e-5, 0});
-  EXPECT_TRUE(is_ordinary(query));
 }
 
 TEST(Classify, ADistanceOfAlmostNothingIsDegenerate) {
@@ -241,7 +232,7 @@ std::vector<std::array<int, 4>> orders(Kind kind) {
 
 TEST(Classify, DependsNeitherOnTheOrderOfVerticesNorOnThePowerOfTwoInTheUnit) {
   for (const Family& family : all_families())
-    for (const Query& query : testing::first_queries(family.name, 20)) {
+    for (const Query& query : testing::first_queries(family.name, 10)) {
       const QueryClass expected = classify(query);
       EXPECT_NE(expected, QueryClass::unclassified);
       for (const auto& order : orders(query.kind))
@@ -262,20 +253,17 @@ TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
         std::ranges::any_of(families_at_rest(), [&](const Family& rest) { return rest.name == each.name; });
     const Family family = is_at_rest ? each : as_asked(each);
     std::array<int, 4> of_class{};
-    for (const Query& query : testing::first_queries(family.name, 400, 5))
+    for (const Query& query : testing::first_queries(family.name, 200, 5))
       ++of_class[static_cast<std::size_t>(classify(query))];
     const auto [ordinary, degenerate, extreme, unclassified] = of_class;
-    std::cout << family.name << ": " << extreme << " of 400 are extreme, " << degenerate << " degenerate\n";
-    const QueryClass deserved = extreme >= 40      ? QueryClass::extreme
-                                : degenerate >= 40 ? QueryClass::degenerate
+    const QueryClass deserved = extreme >= 20      ? QueryClass::extreme
+                                : degenerate >= 20 ? QueryClass::degenerate
                                                    : QueryClass::ordinary;
     EXPECT_EQ(name(class_of(family.name)), name(deserved))
         << family.name << ": " << extreme << " extreme, " << degenerate << " degenerate";
     EXPECT_EQ(unclassified, 0) << family.name;
   }
 }
-
-TEST(FamilyClass, OfAMeshIsOrdinary) { EXPECT_EQ(class_of("mesh"), QueryClass::ordinary); }
 
 }  // namespace
 }  // namespace nearmiss

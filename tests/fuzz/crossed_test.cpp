@@ -9,7 +9,6 @@
 #include <string>
 
 #include "fuzz/families/contacts.hpp"
-#include "fuzz/families/coverage.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/root_count.hpp"
@@ -21,6 +20,17 @@ using testing::at_rest;
 
 constexpr std::uint64_t seed = 5;
 
+/// Whether queries with these levels touch exactly, by construction, at the time that the levels give.
+bool touches(const Levels& levels) {
+  return levels.when() != When::outside && levels.where() != Where::outside;
+}
+
+std::string to_text(const Levels& levels) {
+  std::string all;
+  for (const std::string& each : to_texts(levels)) all += " " + each;
+  return all;
+}
+
 /// Calls check(levels, query, index) for queries of both kinds.
 template <class Check>
 void for_each_query(std::uint64_t count, const Check& check) {
@@ -29,28 +39,18 @@ void for_each_query(std::uint64_t count, const Check& check) {
     check(levels_of(seed, i), nearmiss::make_query(family, seed, i), i);
 }
 
-TEST(Crossed, TheFactorsAreRecoveredFromSeedAndIndex) {
-  const Family family = find_family("crossed");
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    Random random = random_of(family, seed, i);
-    const Levels levels = draw_levels(random);
-    EXPECT_EQ(levels, levels_of(seed, i));
-    EXPECT_EQ(make_query(random, kind_of(family, i), levels), nearmiss::make_query(family, seed, i));
-  }
-}
-
 TEST(Crossed, TouchesWhereItsFactorsSaySo) {
   int touching = 0;
-  for_each_query(20000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+  for_each_query(8000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
     if (!touches(levels)) return;
     ++touching;
-    EXPECT_TRUE(collides(query)) << index << ' ' << to_text(levels);
+    EXPECT_TRUE(collides(query)) << index << to_text(levels);
   });
-  EXPECT_GT(touching, 10000);
+  EXPECT_GT(touching, 4000);
 }
 
 TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
-  for_each_query(5000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+  for_each_query(3000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
     if (!touches(levels)) return;
     if (levels.when() == When::at_0) {
       EXPECT_TRUE(collides_exactly(at_rest(query, 0))) << index << to_text(levels);
@@ -88,11 +88,11 @@ TEST(Crossed, FHasTheRootsOfItsFactor) {
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;
-  for_each_query(8000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+  for_each_query(4000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
     if (levels.when() != When::inside || levels.where() == Where::outside) return;
     ++counted;
     const testing::RootCount roots = testing::count_roots(query);
-    const std::string where = std::to_string(index) + " " + to_text(levels);
+    const std::string where = std::to_string(index) + to_text(levels);
     EXPECT_EQ(roots.planar, levels.roots() == Roots::all) << where;
     EXPECT_GE(roots.with_multiplicity - (roots.distinct - 1),
               at_contact.contains(levels.roots()) ? at_contact.at(levels.roots()) : 1)
@@ -102,44 +102,22 @@ TEST(Crossed, FHasTheRootsOfItsFactor) {
       EXPECT_EQ(sign_changes(query), simple.at(levels.roots())) << where;
     }
   });
-  EXPECT_GT(counted, 500);
+  EXPECT_GT(counted, 250);
 }
 
-TEST(Crossed, RestAndPointsAreWhatTheyAreCalled) {
-  for_each_query(20000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
-    if (levels.motion() == Motion::rest) {
-      for (int i = 1; i < 4; ++i)
-        EXPECT_EQ(query.end(i) - query.start(i), query.end(0) - query.start(0)) << index;
-    }
-    const auto edges = testing::edges(query, 0);
-    if (levels.when() != When::at_0) return;
-    const auto is_zero = [](const auto& edge) { return edge.isZero(); };
-    EXPECT_TRUE(levels.shape() != Shape::zero_edge || std::any_of(edges.begin(), edges.end(), is_zero))
-        << index;
-    EXPECT_TRUE(levels.shape() != Shape::point || std::all_of(edges.begin(), edges.end(), is_zero)) << index;
-  });
-}
-
-TEST(Crossed, AllPairsOccurIn100000Queries) {
-  const Coverage found = coverage(1, 0, 100000);
-  EXPECT_EQ(found.pairs.seen, found.pairs.made);
-  EXPECT_TRUE(found.pairs.missing.empty()) << found.pairs.missing.front();
-  EXPECT_EQ(found.triples.seen + found.triples.missing.size(), found.triples.made);
-  EXPECT_GT(found.triples.made, 4000);
-}
-
-TEST(Crossed, FewQueriesMissCombinations) {
-  const Coverage found = coverage(1, 0, 1);
-  EXPECT_EQ(found.pairs.seen, 21);
-  EXPECT_EQ(found.triples.seen, 35);
-  EXPECT_EQ(found.pairs.missing.size(), found.pairs.made - 21);
-}
-
-TEST(Crossed, PairsThatAreNotMadeAreListed) {
-  const auto not_made = coverage(1, 0, 1).pairs_not_made;
+TEST(Crossed, ManyQueriesHaveAllPairsAndOneHasFewCombinations) {
+  const Coverage many = coverage(1, 0, 20000);
+  EXPECT_EQ(many.pairs.seen, many.pairs.made);
+  EXPECT_TRUE(many.pairs.missing.empty());
+  EXPECT_EQ(many.triples.seen + many.triples.missing.size(), many.triples.made);
+  EXPECT_GT(many.triples.made, 4000);
+  const Coverage one = coverage(1, 0, 1);
+  EXPECT_EQ(one.pairs.seen, 21);
+  EXPECT_EQ(one.triples.seen, 35);
+  EXPECT_EQ(one.pairs.missing.size(), one.pairs.made - 21);
   for (const char* pair :
        {"motion=rest when=at-1", "shape=point where=inside", "motion=translation roots=two"})
-    EXPECT_EQ(std::count(not_made.begin(), not_made.end(), pair), 1) << pair;
+    EXPECT_EQ(std::count(one.pairs_not_made.begin(), one.pairs_not_made.end(), pair), 1) << pair;
 }
 
 }  // namespace

@@ -79,33 +79,6 @@ inline std::vector<Query> first_queries(std::string_view name, std::uint64_t cou
   return queries;
 }
 
-inline double largest_coordinate(const Query& query) {
-  double largest = 0;
-  for (const double c : query.x) largest = std::max(largest, std::abs(c));
-  return largest;
-}
-
-/// The edges at t = 0 or t = 1: the triangle's three edges, or both edges.
-inline std::vector<Vector3<double>> edges(const Query& query, int time) {
-  const auto x = [&](int i) { return time == 0 ? query.start(i) : query.end(i); };
-  if (query.kind == Kind::edge_edge) return {x(1) - x(0), x(3) - x(2)};
-  return {x(2) - x(1), x(3) - x(1), x(3) - x(2)};
-}
-
-/// The longest of the edges at t = 0 or t = 1.
-inline double longest_edge(const Query& query, int time) {
-  double longest = 0;
-  for (const auto& edge : edges(query, time)) longest = std::max(longest, edge.norm());
-  return longest;
-}
-
-/// The shortest of the edges at t = 0 or t = 1.
-inline double shortest_edge(const Query& query, int time) {
-  double shortest = longest_edge(query, time);
-  for (const auto& edge : edges(query, time)) shortest = std::min(shortest, edge.norm());
-  return shortest;
-}
-
 /// The primitives at rest, in their positions at a time. Positions are rounded except at t = 0 and t = 1.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {

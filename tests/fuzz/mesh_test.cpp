@@ -17,13 +17,6 @@ TEST(Bodies, AreWhatTrianglesAndLinesJoin) {
   EXPECT_THAT(found.of_point, ElementsAre(0, 1, 2, 0, 1, 3, 3, 1, 1));
 }
 
-TEST(Bodies, ALongStripIsOne) {
-  constexpr int points = 1'000'000;
-  Mesh mesh{std::vector<Vector3<double>>(points, Vector3<double>(0, 0, 0)), {}, {}};
-  for (int i = points - 1; i > 0; --i) mesh.lines.push_back({i, i - 1});
-  EXPECT_EQ(bodies(mesh).count, 1);
-}
-
 TEST(MovingMesh, HasEveryEdgeOnce) {
   const std::vector<Vector3<double>> points(4, Vector3<double>(0, 0, 0));
   const MovingMesh mesh =

@@ -1,283 +1,153 @@
-// Mutations are pure functions, make finite numbers, and change what their names say.
+// Mutations are pure functions, make finite numbers, and keep near collisions. Also tests the places at which
+// they restore contact, and libFuzzer's inputs.
 #include "fuzz/families/mutation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <iostream>
 #include <limits>
-#include <set>
-#include <string>
-#include <string_view>
 
-#include "ccd/wang/cubic.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/families/place.hpp"
+#include "fuzz/libfuzzer/query_bytes.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/bit_hash.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
-#include "tests/root_count.hpp"
 
 namespace nearmiss {
 namespace {
 
-using testing::first_queries;
-using testing::largest_coordinate;
-
-const Mutation& mutation(std::string_view name) {
-  const auto all = mutations();
-  return *std::find_if(all.begin(), all.end(), [&](const Mutation& each) { return each.name == name; });
-}
-
-using BeforeAndAfter = std::function<bool(const Query& before, const Query& after)>;
-
-/// The number of queries, among 1000 of a family, for which `holds` accepts the query and its mutation.
-int count_of_1000(std::string_view name, std::string_view family, const BeforeAndAfter& holds) {
-  int count = 0;
-  std::uint64_t number = 0;
-  for (const Query& before : first_queries(family, 1000)) {
-    Random random(2, 0, number++);
-    count += holds(before, mutation(name).apply(random, before)) ? 1 : 0;
+TEST(Mutated, IsAnotherFiniteQueryHoweverLongTheChain) {
+  for (std::uint64_t chain = 0; chain < 10'000; ++chain) {
+    const Family& family = families()[chain % families().size()];
+    const double h = std::array{0.0, std::numeric_limits<double>::denorm_min(), 0.375,
+                                std::numeric_limits<double>::max()}[chain % 4];
+    Query query = with_separation(make_query(family, 5, chain), h);
+    for (std::uint64_t step = 0; step < 8; ++step) {
+      Random random(6, chain, step);
+      const Query next = mutated(random, query);
+      ASSERT_TRUE(is_finite(next)) << chain << ", " << step;
+      ASSERT_NE(next, query) << chain << ", " << step;
+      ASSERT_TRUE(std::isfinite(next.separation) && next.separation >= 0) << chain << ", " << step;
+      ASSERT_TRUE(h > 0 || next.separation == 0) << chain << ", " << step;
+      query = next;
+    }
   }
-  std::cout << name << ", " << family << ": " << count << " of 1000\n";
-  return count;
 }
 
-/// Applies a mutation to queries of a family. The check must hold for all changed queries, and at least half
-/// must change.
-void expect_of(std::string_view name, std::string_view family, const BeforeAndAfter& holds) {
-  int number = 0;
-  const int changed = count_of_1000(name, family, [&](const Query& before, const Query& after) {
-    EXPECT_TRUE(after == before || holds(before, after)) << name << ", " << family << ", " << number;
-    ++number;
-    return after != before;
-  });
-  EXPECT_GE(changed, 500) << name << ", " << family;
-}
-
-/// The positions that differ, 0 .. 3 at t = 0 and 4 .. 7 at t = 1.
-std::set<int> changed_positions(const Query& before, const Query& after) {
-  std::set<int> changed;
-  for (std::size_t i = 0; i < 24; ++i)
-    if (before.x[i] != after.x[i]) changed.insert(static_cast<int>(i / 3));
-  return changed;
-}
-
-std::set<int> changed_vertices(const Query& before, const Query& after) {
-  std::set<int> vertices;
-  for (const int position : changed_positions(before, after)) vertices.insert(position % 4);
-  return vertices;
-}
-
-double velocity_difference(const Query& query, int i, const Vector3<double>& velocity) {
-  return (query.end(i) - query.start(i) - velocity).norm();
-}
-
-TEST(Mutation, UlpsAreFew) {
-  expect_of("ulps", "uniform", [](const Query& before, const Query& after) {
-    for (std::size_t i = 0; i < 24; ++i)
-      if (std::abs(after.x[i] - before.x[i]) > 256 * 0x1p-52 * largest_coordinate(before)) return false;
-    return true;
-  });
-}
-
-TEST(Mutation, AFractionIsOfTheDistanceBetweenTwoPositions) {
-  bool one = false;
-  bool all = false;
-  expect_of("fraction", "uniform", [&](const Query& before, const Query& after) {
-    for (std::size_t i = 0; i < 24; ++i)
-      if (std::abs(after.x[i] - before.x[i]) > 5.2) return false;  // positions are in [-1, 2]^3
-    one |= changed_positions(before, after).size() == 1;
-    all |= changed_positions(before, after).size() == 8;
-    return true;
-  });
-  EXPECT_TRUE(one && all);
-}
-
-TEST(Mutation, ExponentsChangeAloneOrGoToAnEndOfTheirRange) {
-  const auto digits = [](double c) {
-    int exponent = 0;
-    return std::abs(std::frexp(c, &exponent));
-  };
-  const std::set<double> ends{0.0, 0.5, digits(std::numeric_limits<double>::max())};
-  expect_of("exponent", "uniform", [&](const Query& before, const Query& after) {
-    int changed = 0;
-    for (std::size_t i = 0; i < 24; ++i) {
-      if (digits(after.x[i]) != digits(before.x[i]) && ends.count(digits(after.x[i])) == 0) return false;
-      changed += after.x[i] != before.x[i] ? 1 : 0;
-    }
-    return changed <= 3;
-  });
-}
-
-TEST(Mutation, ACopiedCoordinateIsAnotherOrItsNegation) {
-  expect_of("copy-coordinate", "uniform", [](const Query& before, const Query& after) {
-    std::set<double> magnitudes;
-    for (const double c : before.x) magnitudes.insert(std::abs(c));
-    return std::all_of(after.x.begin(), after.x.end(),
-                       [&](double c) { return magnitudes.count(std::abs(c)) == 1; });
-  });
-}
-
-TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
-  expect_of("round", "uniform", [](const Query& before, const Query& after) {
-    for (std::size_t i = 0; i < 24; ++i) {
-      const double units = std::ldexp(after.x[i], 30);  // the largest coordinate is in [1/2, 2]
-      const bool multiple = units == std::nearbyint(units);
-      if (after.x[i] != before.x[i] && (!multiple || std::abs(after.x[i] - before.x[i]) > 1)) return false;
-    }
-    return true;
-  });
-}
-
-// Contact is also planted next to borders and next to ends of the step; there, rounding undoes half of it.
-TEST(Mutation, PlantAndRestoreMakeCollisionsByMovingOnePosition) {
-  for (const char* name : {"plant", "restore"})
-    for (const char* family : {"uniform", "uniform-slow", "sliver"}) {
-      expect_of(name, family, [](const Query& before, const Query& after) {
-        return changed_positions(before, after).size() == 1;
-      });
-      const auto collide = [](const Query&, const Query& after) { return collides(after); };
-      EXPECT_GE(count_of_1000(name, family, collide), 500) << name << ", " << family;
-    }
-}
-
-TEST(Mutation, RestoreKeepsACollisionWhereItIs) {
+TEST(Mutated, KeepsToCollisions) {
   int collisions = 0;
-  const int kept = count_of_1000("restore", "uniform", [&](const Query& before, const Query& after) {
-    if (!earliest_time(before)) return false;
-    ++collisions;
-    double moved = 0;
-    for (std::size_t i = 0; i < 24; ++i) moved = std::max(moved, std::abs(after.x[i] - before.x[i]));
-    return moved < 1e-9;
-  });
-  EXPECT_GE(collisions, 50);
-  EXPECT_GE(kept, collisions / 2);  // the others are at another root of F
-}
-
-template <Kind kind>
-bool has_root_of(const Query& query) {
-  return solve_cubic(coplanarity(make_pair<kind, double>(query)), 0.0).count > 0;
-}
-bool has_root(const Query& query) {
-  return query.kind == Kind::vertex_triangle ? has_root_of<Kind::vertex_triangle>(query)
-                                             : has_root_of<Kind::edge_edge>(query);
-}
-
-TEST(Mutation, CoplanarMakesARootOfFByMovingOnePosition) {
-  int without = 0;
-  const int made = count_of_1000("coplanar", "uniform-slow", [&](const Query& before, const Query& after) {
-    if (has_root(before)) return false;
-    EXPECT_EQ(changed_positions(before, after).size(), 1);
-    ++without;
-    return has_root(after);
-  });
-  EXPECT_GE(without, 500);
-  EXPECT_GE(made, without * 3 / 4);  // rounding may remove a root at an end of the step
-}
-
-TEST(Mutation, PlanarMakesFZeroIdentically) {
-  // After rounding, F is zero only where all vertices are in a plane perpendicular to an axis.
-  const auto planar = [](const Query&, const Query& after) { return testing::count_roots(after).planar; };
-  for (const char* family : {"uniform", "small-integer"})
-    EXPECT_GE(count_of_1000("planar", family, planar), 350) << family;
-}
-
-TEST(Mutation, AShrunkEdgeIsShorter) {
-  bool to_one_point = false;
-  expect_of("shrink-edge", "uniform", [&](const Query& before, const Query& after) {
-    const auto vertices = changed_vertices(before, after);
-    if (vertices.size() != 1) return false;
-    const int moved = *vertices.begin();
-    const auto length = [&](const Query& query, int to) {
-      return (query.start(moved) - query.start(to)).norm() + (query.end(moved) - query.end(to)).norm();
-    };
-    bool shorter = false;
-    for (int to = 0; to < 4; ++to) {
-      shorter |= to != moved && length(after, to) < length(before, to);
-      to_one_point |= to != moved && after.start(to) == after.start(moved);
+  constexpr int chains = 200;
+  constexpr int steps = 10;
+  for (std::uint64_t chain = 0; chain < chains; ++chain) {
+    Query query = make_query(find_family("uniform"), 7, chain);
+    for (std::uint64_t step = 0; step < steps; ++step) {
+      Random random(7, chain, step);
+      query = mutated(random, query);
+      collisions += collides(query) ? 1 : 0;
     }
-    return shorter;
-  });
-  EXPECT_TRUE(to_one_point);
+  }
+  EXPECT_GE(collisions, chains * steps / 2);
 }
 
-TEST(Mutation, VelocitiesAreZeroAnothersOrAlongEdges) {
-  std::array<int, 3> sorts{};
-  expect_of("velocity", "small-integer", [&](const Query& before, const Query& after) {
-    const auto vertices = changed_vertices(before, after);
-    const int first = *vertices.begin();
-    const Vector3<double> velocity = after.end(first) - after.start(first);
-    for (const int i : vertices)
-      if (velocity_difference(after, i, velocity) > 1e-12) return false;
-    if (velocity.isZero()) return ++sorts[0] > 0;
-    for (int i = 0; i < 4; ++i)
-      if (velocity_difference(before, i, velocity) < 1e-12) return ++sorts[1] > 0;
-    for (int i = 0; i < 4; ++i) {
-      const Vector3<double> a = before.start((i + 1) % 4) - before.start(i);
-      const Vector3<double> b = before.start((i + 2) % 4) - before.start(i);
-      if (std::abs(velocity.dot(a.cross(b))) < 1e-9) return ++sorts[2] > 0;
+// A provenance of a search or of libFuzzer names a seed, which must always give the same query.
+TEST(Mutated, IsWhatItAlwaysWas) {
+  testing::BitHash hash;
+  testing::BitHash of_separations;
+  const auto queries = testing::first_queries("uniform", 1000);
+  for (std::uint64_t i = 0; i < queries.size(); ++i) {
+    Random random(2, 0, i);
+    hash.add_all(mutated(random, queries[i]).x);
+    hash.add_all(crossed(random, queries[i], queries[(i + 2) % queries.size()]).x);
+    const Query apart = mutated(random, with_separation(queries[i], 0.375));
+    of_separations.add(apart.separation);
+    of_separations.add(crossed(random, apart, queries[i]).separation);
+  }
+  EXPECT_EQ(hash.value(), 0x6eb9a92da015cf1d) << std::hex << hash.value();
+  EXPECT_EQ(of_separations.value(), 0x39d0aa99704c5c4b) << std::hex << of_separations.value();
+}
+
+// --- places ---------------------------------------------------------------------------------------------
+
+/// The vector between the two points of a place, with more bits than a double.
+std::array<long double, 3> gap(const Query& query, const Place& place) {
+  const long double alpha = place.alpha;
+  const long double beta = place.beta;
+  const long double time = place.time;
+  std::array<long double, 4> weights{1, alpha + beta - 1, -alpha, -beta};
+  if (query.kind == Kind::edge_edge) weights = {1 - alpha, alpha, beta - 1, -beta};
+  std::array<long double, 3> sum{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      sum[k] += weights[i] * ((1 - time) * query.x[3 * i + k] + time * query.x[12 + 3 * i + k]);
+  return sum;
+}
+
+bool is_zero(const std::array<long double, 3>& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+TEST(Place, JoinedPointsAreOneWhereDoublesAllowIt) {
+  const Place place{.alpha = 0.25, .beta = 0.25, .time = 0.5};  // all shares are powers of two
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const Query query = make_query(find_family("small-integer"), 1, 2 * i);
+    for (const int point : movable_points(query.kind, place)) {
+      const Query touching = joined(query, place, point);
+      ASSERT_TRUE(is_zero(gap(touching, place))) << i << ", " << point;
+      ASSERT_TRUE(collides(touching)) << i << ", " << point;
     }
-    return false;
-  });
-  for (const int count : sorts) EXPECT_GT(count, 50);
+  }
 }
 
-TEST(Mutation, ACopiedVertexIsAnother) {
-  expect_of("copy-vertex", "uniform", [](const Query& before, const Query& after) {
-    const auto positions = changed_positions(before, after);
-    if (changed_vertices(before, after).size() != 1) return false;
-    return std::all_of(positions.begin(), positions.end(), [&](int to) {
-      for (int from = 0; from < 4; ++from) {
-        if (to < 4 ? after.start(to) == before.start(from) : after.end(to - 4) == before.end(from))
-          return true;
-      }
-      return false;
-    });
-  });
+TEST(Place, ItsOwnIsWhereThePrimitivesTouch) {
+  Random random(3, 0, 0);
+  const Place falling = own_place(random, testing::falling_vertex(0.25, 0.5, 1, -3));
+  EXPECT_EQ(falling.time, 0.25);
+  EXPECT_EQ(falling.alpha, 0.25);
+  EXPECT_EQ(falling.beta, 0.5);
+  const Place crossing = own_place(random, testing::falling_edge(1, -1));
+  EXPECT_EQ(crossing.time, 0.5);
+  EXPECT_EQ(crossing.alpha, 0.5);
+  EXPECT_EQ(crossing.beta, 0.5);
 }
 
-TEST(Mutation, ReverseExchangesStartAndEnd) {
-  bool all = false;
-  expect_of("reverse", "uniform", [&](const Query& before, const Query& after) {
-    const auto vertices = changed_vertices(before, after);
-    all |= vertices.size() == 4;
-    return std::all_of(vertices.begin(), vertices.end(), [&](int i) {
-      return after.start(i) == before.end(i) && after.end(i) == before.start(i);
-    });
-  });
-  EXPECT_TRUE(all);
+// --- libFuzzer's inputs ---------------------------------------------------------------------------------
+
+Query some_query(double separation) {
+  return with_separation(make_query(find_family("uniform"), 8, 0), separation);
 }
 
-TEST(Mutation, ScaleIsByOnePowerOfTwo) {
-  expect_of("scale", "small-integer", [](const Query& before, const Query& after) {
-    int exponent = 0;
-    const double factor = largest_coordinate(after) / largest_coordinate(before);
-    return std::frexp(factor, &exponent) == 0.5 && after == testing::scaled(before, factor);
-  });
-}
+using Bytes = std::array<std::uint8_t, libfuzzer::query_bytes>;
 
-TEST(Mutation, TranslateKeepsThePrimitives) {
-  bool to_the_origin = false;
-  expect_of("translate", "small-integer", [&](const Query& before, const Query& after) {
-    for (int i = 0; i < 4; ++i) {
-      to_the_origin |= after.start(i).isZero() && !before.start(i).isZero();
-      const auto offset = [&](const Query& query) { return query.end(i) - query.start(0); };
-      // offsets are up to 2^43, where an ulp is 2^-9
-      if ((offset(after) - offset(before)).norm() > 0.01) return false;
+TEST(QueryBytes, AreReadBack) {
+  for (const double separation : {0.0, 0.1, std::numeric_limits<double>::denorm_min()}) {
+    for (const Kind kind : kinds) {
+      Query query = some_query(separation);
+      query.kind = kind;
+      repeat_vertices(query);
+      Bytes bytes{};
+      const std::size_t size = libfuzzer::to_bytes(query, bytes.data());
+      EXPECT_EQ(size, separation == 0 ? libfuzzer::contact_bytes : libfuzzer::query_bytes);
+      EXPECT_EQ(libfuzzer::from_bytes(bytes.data(), size), query);
     }
-    return true;
-  });
-  EXPECT_TRUE(to_the_origin);
+  }
 }
 
-TEST(Mutation, ReorderKeepsTheTruth) {
-  expect_of("reorder", "grazing", [](const Query& before, const Query& after) {
-    return collides(after) == collides(before) &&
-           std::is_permutation(after.x.begin(), after.x.end(), before.x.begin());
-  });
+TEST(QueryBytes, AreRefusedIfTheyAreNoQuery) {
+  Bytes bytes{};
+  for (const std::size_t size : {std::size_t{0}, libfuzzer::contact_bytes - 1, libfuzzer::contact_bytes + 1})
+    EXPECT_FALSE(libfuzzer::from_bytes(bytes.data(), size)) << size;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double separation : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    libfuzzer::to_bytes(some_query(separation), bytes.data());
+    EXPECT_FALSE(libfuzzer::from_bytes(bytes.data(), bytes.size())) << separation;
+  }
+  Query query = some_query(0.5);
+  query.x[23] = infinity;
+  libfuzzer::to_bytes(query, bytes.data());
+  EXPECT_FALSE(libfuzzer::from_bytes(bytes.data(), bytes.size()));
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 // The pairs that a plan leaves out do not collide, or are decided by an exact test.
 #include "fuzz/scenes/plan.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 
@@ -73,82 +71,6 @@ TEST(Plan, PartsGiveTheSameAloneAndInAnyOrder) {
   EXPECT_GT(together.size(), 1000);
   EXPECT_TRUE(alone == together);
   for (const Kind kind : kinds_of_meshes) EXPECT_EQ(sum.at(kind).pairs, all.at(kind).pairs);
-}
-
-TEST(Plan, PairsAreAskedInFullBatches) {
-  const MovingMesh mesh = grids(12);
-  const Plan plan(mesh, LeaveOut::boxes);
-  std::size_t most = 0;
-  for (std::size_t part = 0; part < plan.parts(); ++part) {
-    std::vector<std::size_t> batches;
-    std::size_t asked = 0;
-    const auto ask = [&](const AskedPairs& pairs) {
-      EXPECT_EQ(pairs.queries.size(), pairs.candidates.size());
-      batches.push_back(pairs.queries.size());
-    };
-    for (const auto& [kind, funnel] : plan.follow(part, ask, {}, never_over))
-      asked += funnel[PairFate::asked];
-    most = std::max(most, asked);
-    std::vector<std::size_t> expected(asked / 1000, 1000);
-    if (asked % 1000 != 0) expected.push_back(asked % 1000);
-    EXPECT_EQ(batches, expected) << "part " << part;
-  }
-  EXPECT_GT(most, 1000);
-}
-
-TEST(Plan, NothingIsAskedWhereAllIsDecided) {
-  const MovingMesh falling = make_moving_mesh({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}}, {{0, 1, 2}}, {}},
-                                              {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}});
-  int asked = 0;
-  int decided = 0;
-  follow_plan(
-      Plan(falling, LeaveOut::all), [&](const AskedPairs&) { ++asked; },
-      [&](const Candidate& candidate, const Query&, PairFate fate, bool collides) {
-        ++decided;
-        EXPECT_EQ(candidate, (Candidate{Kind::vertex_triangle, {3, 0, 1, 2}}));
-        EXPECT_EQ(fate, PairFate::in_translation);
-        EXPECT_TRUE(collides);
-      },
-      never_over);
-  EXPECT_EQ(asked, 0);
-  EXPECT_EQ(decided, 1);
-}
-
-TEST(Plan, StopsBeforeTheEndOfAPart) {
-  const MovingMesh mesh = grids(12);
-  const Plan plan(mesh, LeaveOut::boxes);
-  bool stopped = false;
-  const std::uint64_t first_part = plan.follow(
-                                           0, [](const AskedPairs&) {}, {}, never_over)
-                                       .begin()
-                                       ->second.all();
-  const Funnels found = follow_plan(
-      plan, [&](const AskedPairs&) { stopped = true; }, {}, [&] { return stopped; });
-  ASSERT_EQ(found.size(), 1);
-  EXPECT_GE(found.begin()->second[PairFate::asked], 1000);
-  EXPECT_LT(found.begin()->second.all(), first_part);
-}
-
-TEST(Plan, HairHasNoTrianglesAndPointsHaveNoEdges) {
-  const MovingMesh hair =
-      make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 1, 1}}, {}, {{0, 1}, {2, 3}}},
-                       {{0, 0, 2}, {1, 0, 2}, {0, 0, 1}, {1, 1, 1}});
-  const Funnels of_hair = follow(hair, LeaveOut::all).funnels;
-  EXPECT_EQ(of_hair.at(Kind::vertex_triangle).all(), 0);
-  EXPECT_EQ(of_hair.at(Kind::edge_edge).all(), 1);
-  const MovingMesh points = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}}, {}, {}}, {{0, 0, 2}, {1, 0, 2}});
-  for (const auto& [kind, funnel] : follow(points, LeaveOut::all).funnels) EXPECT_EQ(funnel.all(), 0);
-}
-
-TEST(Plan, IsVerified) {
-  const MovingMesh mesh = tetrahedra(1);
-  const Verification verification = verify_plan(mesh, {}, 2, [](double) { return true; });
-  EXPECT_TRUE(verification.fine());
-  EXPECT_EQ(verification.wrong, 0);
-  std::uint64_t left_out = 0;
-  for (const auto& [kind, funnel] : follow(mesh, LeaveOut::all).funnels)
-    left_out += funnel.all() - funnel[PairFate::share_vertex] - funnel[PairFate::asked];
-  EXPECT_EQ(verification.left_out, left_out);
 }
 
 }  // namespace

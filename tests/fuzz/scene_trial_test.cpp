@@ -23,7 +23,7 @@ Held hold(const MovingMesh& mesh, int jobs) {
   const Subjects subjects = testing::subjects_named({"basic", "wang", "defect:lambda2*0.1"});
   Held held;
   const Scene scene = scene_of(mesh);
-  Trials trials(subjects, {.one_in = 16}, jobs, Stop::never(), true,
+  Trials trials(subjects, {.one_in = 256}, jobs, Stop::never(), false,
                 [&](TrialResult&& result) { held.result.merge(std::move(result)); });
   SceneTrial trial(scene, LeaveOut::all, trials);
   double done = 0;
@@ -39,7 +39,7 @@ Held hold(const MovingMesh& mesh, int jobs) {
 }
 
 TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
-  const MovingMesh mesh = grids(12);
+  const MovingMesh mesh = grids(10);
   const std::size_t parts = Plan(mesh, LeaveOut::all).parts();
   ASSERT_GT(parts, 4);
   const Held one = hold(mesh, 1);
@@ -52,7 +52,7 @@ TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
 }
 
 TEST(SceneTrial, CountsWhatThePlanLeaves) {
-  const MovingMesh mesh = grids(12);
+  const MovingMesh mesh = grids(8);
   const Held held = hold(mesh, 2);
   const PlanOutcome expected = follow(mesh, LeaveOut::all);
   std::uint64_t collisions = 0;

@@ -28,9 +28,8 @@ TEST(MissSearch, FindsDefects) {
   EXPECT_TRUE(finds_miss("defect:vv", 20));
   EXPECT_TRUE(finds_miss("defect:D2*0.1", 20));
   EXPECT_TRUE(finds_miss("defect:ve-zero", 20));
+  EXPECT_TRUE(finds_miss("basic", 20));  // which tells nothing of the tolerance that it needs
 }
-
-TEST(MissSearch, FindsThemWhereTheSubjectTellsNothing) { EXPECT_TRUE(finds_miss("basic", 20)); }
 
 TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
   const auto wang = make_subject("wang");
@@ -44,25 +43,21 @@ TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
   EXPECT_GT(most, 0.2);
 }
 
-class LargeSeparations : public ::testing::TestWithParam<const char*> {};
-TEST_P(LargeSeparations, AreThoseOfFiniteQueries) {
+TEST(Searches, GiveFiniteQueriesWithTheLargestSeparation) {
   const auto advance = make_subject("advance");
-  for (const Family& family : searches(*advance, Stop::never(), GetParam()))
-    for (std::uint64_t i = 0; i < 2; ++i)
-      EXPECT_TRUE(is_finite(search(family, i))) << family.name << ':' << i;
+  for (const Family& family : searches(*advance, Stop::never(), "1.7976931348623157e308"))
+    EXPECT_TRUE(is_finite(search(family, 0))) << family.name;
 }
-INSTANTIATE_TEST_SUITE_P(Searches, LargeSeparations, ::testing::Values("1e308", "1.7976931348623157e308"));
 
 /// A search continues from what it has found, so a difference of one bit leads to other queries.
 TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
   testing::BitHash hash;
   for (const char* name : {"wang", "basic", "wang-tight:p24", "defect:vv"}) {
     const auto subject = make_any_subject(name);
-    for (std::uint64_t i = 0; i < 4; ++i)
-      for (const auto& family : {miss_search(*subject), far_search(*subject)})
-        hash.add_all(search(family, i).x);
+    for (const auto& family : {miss_search(*subject), far_search(*subject)})
+      hash.add_all(search(family, 0).x);
   }
-  EXPECT_EQ(hash.value(), 0xbde8d2f62b9b68cd) << std::hex << hash.value();
+  EXPECT_EQ(hash.value(), 0x95311bd1d2b1733a) << std::hex << hash.value();
 }
 
 TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
@@ -75,28 +70,24 @@ TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
   EXPECT_THROW(search(miss_search(subject), 0), Error);
 }
 
-/// The largest distance of a false positive that some searches find, divided by the subject's claim.
-double farthest(const Subject& subject, std::uint64_t searches) {
+/// Expects that one of the first searches finds a false positive at more than this part of the subject's
+/// claim, and that none refutes the claim.
+void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   double ratio = 0;
-  for (std::uint64_t i = 0; i < searches; ++i) {
+  for (std::uint64_t i = 0; i < searches && ratio <= wanted; ++i) {
     const Query query = search(far_search(subject), i);
     if (!subject.decide(query).hit || collides(query)) continue;
     EXPECT_FALSE(distance_exceeds(query, subject.distance_bound(query)));
     ratio = std::max(ratio, minimum_distance(query).lo / subject.distance_bound(query));
   }
-  return ratio;
+  EXPECT_GT(ratio, wanted);
 }
 
-TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) { EXPECT_GT(farthest(*make_subject("wang"), 20), 0.9); }
-
-// In float the bound is 0.76 B, so that many planes of the culling nearly separate far false positives.
-TEST(FarSearch, ComesNearTheBoundPastPlaneCulling) {
-  EXPECT_GT(farthest(*make_any_subject("wang:float"), 40), 0.8);
-}
-
-// For a fine scalar, the search must make primitives as small as the bound.
-TEST(FarSearch, ComesNearTheBoundOfAFineScalarToo) {
-  EXPECT_GT(farthest(*make_any_subject("wang-tight:p112"), 10), 0.9);
+// In float the bound is 0.76 B, so that many planes of the culling nearly separate far false positives. For a
+// fine scalar, the search must make primitives as small as the bound.
+TEST(FarSearch, ComesNearTheBoundPastPlaneCullingAndInFineScalars) {
+  expect_far(*make_any_subject("wang:float"), 0.8, 40);
+  expect_far(*make_any_subject("wang-tight:p112"), 0.9, 10);
 }
 
 TEST(FarSearch, RefutesBoundsThatDoNotHold) {

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <limits>
 #include <optional>
 #include <span>
@@ -17,17 +16,14 @@
 
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/judge.hpp"
-#include "fuzz/trial/neighbourhoods.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "reports/campaign/complexity.hpp"
 #include "tests/bit_hash.hpp"
 #include "tests/fuzz/made_up_subjects.hpp"
-#include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
 
-using testing::falling_vertex;
 using testing::MadeUpSubject;
 using testing::WatchedSubject;
 
@@ -66,20 +62,12 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
   std::vector<int> distinct;
   testing::BitHash hash;
   for (const Finding& finding : missed) {
-    const auto start = std::chrono::steady_clock::now();
     const Query shrunk = shrunk_query(finding, basic.get());
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    const Complexity before = complexity(finding.query);
     const Complexity after = complexity(shrunk);
-    std::cout << finding.provenance << " " << finding.signature << ": " << before.distinct
-              << " distinct numbers of " << before.bits << " bits -> " << after.distinct << " of "
-              << after.bits << ", " << time.count() << " ms\n";
-
     EXPECT_EQ(Judge(*basic).failure(shrunk), (Failure{finding.what, finding.signature}))
         << finding.provenance;
     EXPECT_EQ(shrunk.kind, finding.query.kind);
-    EXPECT_FALSE(before < after);
-    EXPECT_EQ(shrunk_query(finding, basic.get()), shrunk) << finding.provenance;  // deterministic
+    EXPECT_FALSE(complexity(finding.query) < after);
     Finding again = finding;
     again.query = shrunk;
     EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // already the simplest
@@ -135,7 +123,7 @@ TEST(Shrink, ALateTimeStaysLate) {
   const Judge judge(half);
   int late = 0;
   for (const char* family : {"uniform", "planted", "uniform~0.1", "uniform~1e-3"})
-    for (std::uint64_t i = 0; i < 60; ++i) {
+    for (std::uint64_t i = 0; i < 10; ++i) {
       const Query query = make_query(find_family(family), 1, i);
       const auto failure = judge.failure(query);
       if (!failure) continue;
@@ -147,35 +135,7 @@ TEST(Shrink, ALateTimeStaysLate) {
       EXPECT_EQ(complexity(shrunk).awkward, 0) << failure->signature;
       ++late;
     }
-  EXPECT_GT(late, 40);
-}
-
-TEST(Shrink, ChangesEqualNumbersTogether) {
-  Query query{.kind = Kind::edge_edge};
-  for (const std::size_t i : {std::size_t{1}, std::size_t{9}, std::size_t{17}}) query.x[i] = 0.7;
-  query.x[9] = -0.7;
-  const Query shrunk = shrunk_while(
-      query, [](const Query& q) { return q.x[1] != 0 && q.x[1] == -q.x[9] && q.x[1] == q.x[17]; });
-  EXPECT_EQ(complexity(shrunk).distinct, 1);
-  EXPECT_EQ(complexity(shrunk).bits, 1);
-  EXPECT_EQ(std::abs(shrunk.x[1]), 1);
-}
-
-TEST(Shrink, JoinsTheMotionsOfAnyTwoVertices) {
-  const Query query = make_query(find_family("uniform"), 1, 0);
-  const auto motion = [](const Query& q, int vertex) { return std::pair(q.start(vertex), q.end(vertex)); };
-  for (int to = 0; to < 4; ++to)
-    for (int from = 0; from < 4; ++from) {
-      const Query joined = shrunk_while(query, [&](const Query& q) {
-        const bool others_stay = [&] {
-          for (int v = 0; v < 4; ++v)
-            if (v != to && motion(q, v) != motion(query, v)) return false;
-          return true;
-        }();
-        return others_stay && (motion(q, to) == motion(query, to) || motion(q, to) == motion(query, from));
-      });
-      EXPECT_EQ(motion(joined, to), motion(query, from)) << from << " to " << to;
-    }
+  EXPECT_GT(late, 4);
 }
 
 TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
@@ -251,11 +211,6 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   EXPECT_LE(std::count_if(calls.begin(), calls.end(), is_slow), searches);
 }
 
-TEST(Shrink, LeavesAloneWhatDoesNotFail) {
-  const Query query = make_query(find_family("uniform"), 1, 0);
-  EXPECT_EQ(shrunk_while(query, [](const Query&) { return false; }), query);
-}
-
 TEST(Shrink, AsksOnlyAboutFiniteQueriesAndNotForEver) {
   Query query{.kind = Kind::vertex_triangle};
   for (std::size_t i = 0; i < 24; ++i)
@@ -268,44 +223,6 @@ TEST(Shrink, AsksOnlyAboutFiniteQueriesAndNotForEver) {
   });
   EXPECT_GT(asked, 100);
   EXPECT_LT(asked, 200000);
-}
-
-TEST(Neighbourhoods, MovedAxesKeepTheSeparation) {
-  Numbers x;
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + static_cast<double>(i) / 8;
-  const auto move_axes = neighbourhoods(Kind::edge_edge).at(2);
-  for (const Alternatives& alternatives : move_axes(x))
-    for (const Change& change : alternatives) {
-      Numbers changed = x;
-      change(changed);
-      EXPECT_EQ(changed.back(), x.back());
-    }
-}
-
-TEST(Complexity, CountsWhatThereIsToSay) {
-  EXPECT_EQ(complexity(Query{}), Complexity{});
-  EXPECT_EQ(complexity(with_separation(Query{}, 99)).awkward, 1);
-  EXPECT_EQ(complexity(with_separation(Query{}, 100)).awkward, 2);
-  const Complexity falling = complexity(falling_vertex(0.25, 0.375, 1, -1));
-  // The vertex moves only in z, from 1 to -1, and two coordinates of the triangle are 1.
-  EXPECT_EQ(
-      falling,
-      (Complexity{
-          .awkward = 3, .numbers = 6, .moving = 1, .distinct = 3, .bits = 4, .exponents = 4, .negative = 1}));
-  EXPECT_EQ(complexity(with_separation(falling_vertex(0.25, 0.375, 1, -1), 12)),
-            (Complexity{.awkward = 3 + 1,
-                        .numbers = 6 + 1,
-                        .moving = 1,
-                        .distinct = 3 + 1,
-                        .bits = 4 + 2,
-                        .exponents = 4 + 3,
-                        .negative = 1}));
-  Query third{};
-  third.x[0] = 1.0 / 3;
-  third.x[12] = std::numeric_limits<double>::denorm_min();
-  EXPECT_EQ(complexity(third).numbers, 2);
-  EXPECT_EQ(complexity(third).bits, 54);
-  EXPECT_EQ(complexity(third).exponents, 2 + 1074);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ using testing::one;
 /// The collisions of a family that a subject misses.
 std::vector<Finding> missed(const Subjects& subjects) {
   std::vector<Query> queries;
-  for (std::uint64_t i = 1; i < 1000; i += 2) queries.push_back(make_query(find_family("planted-ulp"), 1, i));
+  for (std::uint64_t i = 1; i < 500; i += 2) queries.push_back(make_query(find_family("planted-ulp"), 1, i));
   return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
@@ -142,7 +142,7 @@ class Patient final : public ForwardingSubject {
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};
-  plan.cases = 20'000;
+  plan.cases = 8'000;
   plan.jobs = 2;
   const auto basic = make_subject("basic");
   const Subjects subjects = one(std::make_unique<Patient>(*basic, plan.cases));

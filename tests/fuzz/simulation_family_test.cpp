@@ -8,7 +8,6 @@
 #include <set>
 
 #include "fuzz/scenes/scene_trial.hpp"
-#include "fuzz/simulation/simulation_name.hpp"
 #include "tests/bit_hash.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/refused.hpp"

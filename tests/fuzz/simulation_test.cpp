@@ -23,27 +23,11 @@ using ::testing::Not;
 using ::testing::SizeIs;
 
 constexpr double step_time = 0.005;
-constexpr Material at_rest{.gravity = 0, .drag = 0};
 
 /// Two points with a spring between them, of which the first is held if `held`.
 Cloth two_points(bool held, const Material& material) {
   const Mesh mesh{.points = {{0, 0, 0}, {0, 0, -1}}, .triangles = {}, .lines = {{0, 1}}};
   return Cloth(mesh, {held, false}, material, step_time);
-}
-
-TEST(Cloth, FallsAsGravitySays) {
-  const PointVectors start{{0, 0, 0}, {0, 0, -1}};
-  const PointVectors still(2, Vector3<double>(0, 0, 0));
-  const PointVectors end = two_points(false, {}).advance(start, still, start);
-  for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_NEAR(end[i][2], start[i][2] - 9.81 * step_time * step_time, 1e-12);
-}
-
-TEST(Cloth, AtRestItKeepsItsMotion) {
-  const PointVectors start{{0, 0, 0}, {0, 0, -1}};
-  const PointVectors end = two_points(false, at_rest).advance(start, {{1, 2, 3}, {1, 2, 3}}, start);
-  for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_LT((end[i] - start[i] - step_time * Vector3<double>(1, 2, 3)).norm(), 1e-12);
 }
 
 /// Implicit integration only takes energy, however stiff the spring is and however long the step.
@@ -118,16 +102,6 @@ TEST(Response, StopsAnApproach) {
     for (std::size_t i = 0; i < 4; ++i) motion += falling.end[i] - falling.start[i];
     EXPECT_LT((motion - Vector3<double>(0.05, 0, -0.01)).norm(), 1e-12) << "momentum is kept";
   }
-}
-
-TEST(Response, HeldPointsStay) {
-  Falling falling;
-  const PointVectors before = falling.end;
-  Response({false, true, true, true}, {}).stop_approach(falling.pair, 0.5, falling.start, falling.end);
-  EXPECT_NEAR(falling.end[0][2], 0.005, 1e-12);
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(falling.end[i], before[i]);
-  // Friction takes 0.3 of the impulse from the sliding.
-  EXPECT_NEAR(falling.end[0][0], 0.25 - 0.3 * 0.01, 1e-12);
 }
 
 TEST(Response, RepelsWhatIsNearerThanTheThickness) {
@@ -220,12 +194,6 @@ TEST(Simulation, WithAnExactCcdNothingTangles) {
   EXPECT_GT(sum.rounds, 40);
 }
 
-TEST(Simulation, WithACcdThatMissesTheClothsTangle) {
-  const SimulatedStep sum = total(simulate("bullet", "cloths@200", 40));
-  EXPECT_GT(sum.false_negatives, 0);
-  EXPECT_GT(sum.tangled, 0);
-}
-
 /// Without a miss and with no pair left unresolved, nothing new can be tangled.
 TEST(Simulation, OnlyMissesTangle) {
   std::uint64_t most_tangled = 0;
@@ -243,14 +211,14 @@ TEST(Simulation, OnlyMissesTangle) {
 }
 
 TEST(Simulation, IsTheSameWithAnyNumberOfThreadsAndLanes) {
-  const Simulated one = simulate("wang", "cloths@400", 25);
+  const Simulated one = simulate("wang", "cloths@200", 25);
   ASSERT_GT(total(one).collisions, 0);
-  for (const Simulated& other :
-       {simulate("wang", "cloths@400", 25, 3), simulate("wang-scalar", "cloths@400", 25)}) {
+  const Simulated three = simulate("wang", "cloths@200", 25, 3);
+  for (const Simulated& other : {three, simulate("wang-scalar", "cloths@200", 25)}) {
     EXPECT_EQ(one.end, other.end);
     EXPECT_EQ(one.steps, other.steps);
   }
-  EXPECT_EQ(one.statistics.counts, simulate("wang", "cloths@400", 25, 3).statistics.counts);
+  EXPECT_EQ(one.statistics.counts, three.statistics.counts);
 }
 
 TEST(Simulation, HeldPointsMoveAsTheFramesSay) {

@@ -4,16 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <iostream>
 #include <map>
-#include <set>
 #include <span>
 
 #include "fuzz/families/classify.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/random.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/oracle.hpp"
@@ -21,68 +17,6 @@
 
 namespace nearmiss {
 namespace {
-
-using Coordinates = std::array<double, 24>;
-
-/// A copy of a query with its vertices (v) and axes (k) permuted, the signs of some axes changed (a bit for
-/// each axis), and perhaps with time reversed.
-Coordinates copied(const Query& query, const std::array<std::size_t, 4>& v,
-                   const std::array<std::size_t, 3>& k, std::size_t signs, bool back) {
-  Coordinates x;
-  for (std::size_t time = 0; time < 2; ++time)
-    for (std::size_t vertex = 0; vertex < 4; ++vertex)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double c = query.x[12 * (back ? 1 - time : time) + 3 * v[vertex] + k[axis]];
-        x[12 * time + 3 * vertex + axis] = (signs >> axis & 1U) != 0 ? 0 - c : c;
-      }
-  return x;
-}
-
-/// All copies of a query that have the same primitives.
-std::set<Coordinates> copies(const Query& query) {
-  std::set<Coordinates> all;
-  std::array<std::size_t, 4> v{0, 1, 2, 3};
-  do {
-    const bool same = query.kind == Kind::edge_edge ? v[0] + v[1] == 1 || v[0] + v[1] == 5 : v[0] == 0;
-    if (!same) continue;
-    std::array<std::size_t, 3> k{0, 1, 2};
-    do
-      for (std::size_t signs = 0; signs < 8; ++signs)
-        for (const bool back : {false, true}) all.insert(copied(query, v, k, signs, back));
-    while (std::next_permutation(k.begin(), k.end()));
-  } while (std::next_permutation(v.begin(), v.end()));
-  return all;
-}
-
-/// A random query with at most three nonzero numbers.
-Query random_small(Kind kind, std::uint64_t index) {
-  constexpr std::array values{1, -1, 2};
-  Random random(7, static_cast<std::uint64_t>(kind), index);
-  Query query{.kind = kind};
-  for (int i = 0; i < 3; ++i) {
-    const auto path = static_cast<std::size_t>(random.integer(0, 11));
-    const bool rests = random.one_in(2);
-    const double value = values[static_cast<std::size_t>(random.integer(0, 2))];
-    query.x[path + (random.one_in(2) ? 12 : 0)] = value;
-    if (rests) query.x[path] = query.x[path + 12] = value;
-  }
-  return query;
-}
-
-TEST(SmallQueries, HaveOneOfAllSymmetricCopies) {
-  for (const Kind kind : kinds_of_meshes) {
-    std::multiset<Coordinates> listed;
-    for (const SmallQuery& each : small_queries(kind))
-      if (each.complexity.numbers <= 3) listed.insert(each.query.x);
-    for (std::uint64_t i = 0; i < 300; ++i) {
-      const Query query = random_small(kind, i);
-      if (complexity(query).numbers > 3) continue;
-      std::size_t found = 0;
-      for (const Coordinates& copy : copies(query)) found += listed.count(copy);
-      EXPECT_EQ(found, 1) << short_name(kind) << " " << i;
-    }
-  }
-}
 
 /// Expects that a list is sorted, and that exact arithmetic gives the same answer to every query of a sample.
 void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t one_in) {
@@ -100,9 +34,9 @@ void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t 
 TEST(SmallQueries, AreSortedAndDecided) {
   for (const Kind kind : kinds_of_meshes) {
     const auto& list = small_queries(kind);
-    std::cout << short_name(kind) << ": " << list.size() << " queries\n";
+    EXPECT_EQ(list.size(), kind == Kind::vertex_triangle ? 5995 : 5372);  // one of all symmetric copies
     EXPECT_EQ(list.front().query, Query{.kind = kind});
-    expect_sorted_and_decided(list, 17);
+    expect_sorted_and_decided(list, 61);
     for (const SmallQuery& each : list) {
       EXPECT_EQ(each.query.kind, kind);
       EXPECT_EQ(each.complexity.awkward, 0);
@@ -117,8 +51,7 @@ TEST(SmallQueries, AreSortedAndDecided) {
 TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
   for (const Kind kind : kinds_of_meshes) {
     const auto& list = small_queries(kind, true);
-    std::cout << short_name(kind) << ": " << list.size() << " queries with a separation\n";
-    expect_sorted_and_decided(list, 61);
+    expect_sorted_and_decided(list, 301);
     std::map<double, std::size_t> seen;
     for (const SmallQuery& each : list) ++seen[each.query.separation];
     ASSERT_EQ(seen.size(), 4);
@@ -171,14 +104,10 @@ TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
   EXPECT_EQ(asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);  // batches with 63 faults, and the query itself
 }
 
-TEST(SmallQueries, AreLeftAfterARequest) {
-  EXPECT_THROW(SmallFailures(blind, Kind::edge_edge, false, [] { throw Stopped(); }), Stopped);
-}
-
 TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
   const Judge judge(blind);
   for (const Kind kind : kinds_of_meshes)
-    for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 100; i += 2) {
+    for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 24; i += 2) {
       const Query query = make_query(find_family("planted"), 1, i);
       const auto failure = judge.failure(query);
       if (!failure || failure->what != Finding::What::false_negative) continue;

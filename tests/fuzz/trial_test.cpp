@@ -48,36 +48,6 @@ TEST(Trial, RunTimesCountOnlyIfTheBatchSaysSo) {
   EXPECT_EQ(counts.times, SubjectTimes());
 }
 
-TEST(Trial, AnEmptyBatchGivesNothing) {
-  const TrialResult result = hold_trial(one(make_subject("wang")), Batch{.family = "empty"});
-  EXPECT_EQ(counts_of(result).queries, 0);
-  EXPECT_TRUE(result.findings.empty());
-}
-
-TEST(Trial, ASubjectThatNeverReportsMisses) {
-  const auto result = hold_trial(one(told("never", false)), batch());
-  EXPECT_EQ(counts_of(result).false_negatives, 1);
-  ASSERT_EQ(result.findings.size(), 1);
-  EXPECT_EQ(result.findings[0].what, Finding::What::false_negative);
-  EXPECT_EQ(result.findings[0].provenance, "0");
-}
-
-TEST(Trial, AFalsePositiveIsMeasuredByTheClaimedBound) {
-  const auto result = hold_trial(one(told("always", true, 4)), batch());
-  EXPECT_EQ(counts_of(result).false_positives, 1);
-  EXPECT_NEAR(counts_of(result).max_ratio(), 0.25, 1e-3);
-  EXPECT_EQ(counts_of(result).refuted_bounds, 0);
-}
-
-TEST(Trial, AWrongRecordedTruthIsAFinding) {
-  Batch wrong = batch();
-  wrong.truths = {true, true};
-  const auto result = hold_trial({}, wrong);
-  EXPECT_EQ(result.statistics.mismatches_with_recorded_truth, 1);
-  ASSERT_EQ(result.findings.size(), 1);
-  EXPECT_EQ(result.findings[0].provenance, "1");
-}
-
 TEST(Trial, CertifiesRecordedTruthsOnDemand) {
   Batch recorded = batch();
   const auto certified = [&](bool demanded) {
@@ -170,12 +140,12 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
 
 // Queries of other seeds have the same numbers, and are at the same places of batches.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
-  for (const std::size_t wrong : {0, 1, 2, 12}) {
+  const Family family = find_family("uniform-slow");
+  for (const std::size_t wrong : {0, 12}) {
     std::uint64_t noticed = 0;
-    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    for (std::uint64_t seed = 0; seed < 1500; ++seed) {
       std::vector<Query> queries;
-      for (std::uint64_t i = 0; i < 16; ++i)
-        queries.push_back(make_query(find_family("uniform-slow"), seed, 2 * i));
+      for (std::uint64_t i = 0; i < 16; ++i) queries.push_back(make_query(family, seed, 2 * i));
       std::size_t place = 0;
       const auto of_place = [&](const Query&) {
         const bool hit = place++ != warm_up_queries + wrong;
@@ -214,10 +184,10 @@ TEST(Trial, ComparesTheMethodsOfTheOracleAsAsked) {
   };
   const auto some_of = [](const char* family) {
     std::vector<Query> queries;
-    for (std::uint64_t i = 0; i < 10000; i += 2) queries.push_back(make_query(find_family(family), 1, i));
+    for (std::uint64_t i = 0; i < 3000; i += 2) queries.push_back(make_query(find_family(family), 1, i));
     return batch_of(family, queries);
   };
-  const OracleCounts few = counts(some_of("uniform"), {.one_in = 100});
+  const OracleCounts few = counts(some_of("uniform"), {.one_in = 30});
   EXPECT_GT(few.compared, 25);
   EXPECT_LT(few.compared, 100);
   EXPECT_EQ(counts(batch(), {.one_in = 1}).compared, 2);
@@ -227,12 +197,12 @@ TEST(Trial, ComparesTheMethodsOfTheOracleAsAsked) {
   EXPECT_EQ(far.near_bounds, 0);
   EXPECT_EQ(far.compared, 0);
   const OracleCounts near = counts(some_of("planted-ulp"), {.one_in = next_to_none, .near_bounds = true});
-  EXPECT_GT(near.near_bounds, 100);
+  EXPECT_GT(near.near_bounds, 30);
   constexpr auto undecided = static_cast<std::size_t>(FilterStage::undecided);
   EXPECT_GE(near.compared, near.near_bounds);
   EXPECT_LT(near.compared, near.near_bounds + near.by_stage[undecided]);
   const OracleCounts hard = counts(some_of("planted-ulp"), {.one_in = 8});
-  EXPECT_GT(hard.by_stage[undecided], 100);
+  EXPECT_GT(hard.by_stage[undecided], 30);
   EXPECT_GE(hard.compared, hard.by_stage[undecided]);
   EXPECT_EQ(counts(some_of("planted-ulp"), {}).near_bounds, 0);  // not asked for
 }

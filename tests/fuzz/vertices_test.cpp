@@ -183,14 +183,6 @@ TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
   }
 }
 
-TEST(TolerancesOfVertices, APairWithoutSizeIsReported) {
-  for (const Kind kind : {Kind::vertex_vertex, Kind::vertex_edge})
-    for (const char* name : {"wang", "wang-tight"}) {
-      EXPECT_TRUE(make_subject(name)->decide(Query{.kind = kind}).hit) << name;
-      EXPECT_GE(make_subject(name)->distance_bound(Query{.kind = kind}), 0) << name;
-    }
-}
-
 /// Which KKT cases of Algorithm 2 have a candidate at which a vertex is near an edge (case 5: an end of the
 /// edge).
 std::array<bool, 5> cases_that_accept(const Query& query) {
@@ -229,11 +221,12 @@ TEST(TheCasesOfAlgorithm2, FindSomeCollisionsAloneExceptTheThird) {
 
 TEST(ClosestApproach, MissesHardlyAnythingAwayFromH) {
   const auto basic = make_subject("basic");
+  const Family family = as_asked(find_family("v-uniform"));
   for (const Kind kind : kinds_of_vertices) {
     int collisions = 0;
     int wrong = 0;
-    for (std::uint64_t i = 0; i < 4000; ++i) {
-      const Query query = make_query(as_asked(find_family("v-uniform")), 1, i);
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+      const Query query = make_query(family, 1, i);
       if (query.kind != kind) continue;
       const Verdict verdict = basic->decide(query);
       const bool collides = nearmiss::collides(query);
@@ -243,19 +236,20 @@ TEST(ClosestApproach, MissesHardlyAnythingAwayFromH) {
         EXPECT_NEAR(verdict.time, earliest_time(query)->enclosure().lo, 1e-6) << i;
       }
     }
-    EXPECT_GT(collisions, 100);
+    EXPECT_GT(collisions, 50);
     EXPECT_EQ(wrong, 0);
   }
 }
 
 TEST(ClosestApproach, MissesWhatComesToWithinHExactly) {
   const auto basic = make_subject("basic");
+  const Family family = find_family("v-near-separation@-54");
   int missed = 0;
-  for (std::uint64_t i = 0; i < 1000; ++i) {
-    const Query query = make_query(find_family("v-near-separation@-54"), 1, i);
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const Query query = make_query(family, 1, i);
     missed += collides(query) && !basic->decide(query).hit ? 1 : 0;
   }
-  EXPECT_GT(missed, 50);
+  EXPECT_GT(missed, 15);
 }
 
 TEST(DefectsOfVerticesAndEdges, AreFoundByFamiliesOfTheirOwn) {
@@ -272,7 +266,7 @@ TEST(DefectsOfVerticesAndEdges, AreFoundByFamiliesOfTheirOwn) {
   EXPECT_GT(misses("defect:ve-minimum", "v-minimum", 200), 10);
   EXPECT_GT(misses("defect:ve-zero", "v-near-separation", 500), 5);
   EXPECT_GT(misses("defect:S*0.5", "v-near-separation", 500), 0);
-  EXPECT_GT(misses("defect:rho*100", "v-drifting@-17", 10000), 0);
+  EXPECT_GT(misses("defect:rho*100", "v-drifting@-17", 5000), 0);
   EXPECT_EQ(misses("defect:S*1", "v-minimum", 200), 0);
 }
 

@@ -12,70 +12,31 @@
 namespace nearmiss {
 namespace {
 
-TEST(WithSeparation, ANumberIsTheSeparationOfEveryQuery) {
-  for (const char* family : {"uniform", "aspect", "aspect@8"})
+TEST(WithSeparation, OnlyTheSeparationChanges) {
+  for (const char* family : {"uniform", "aspect", "aspect@8", "one-point", "crossed"})
     for (std::uint64_t i = 0; i < 100; ++i) {
       const Query query = make_query(find_family(family), 3, i);
       EXPECT_EQ(query.separation, 0);
       EXPECT_EQ(make_query(find_family(std::string(family) + "~0.125"), 3, i), with_separation(query, 0.125));
+      EXPECT_EQ(make_query(find_family(std::string(family) + "~drawn"), 3, i).x, query.x);
     }
 }
 
-TEST(WithSeparation, DrawnLeavesTheCoordinatesAsTheyAre) {
-  for (const char* family : {"uniform", "aspect", "aspect@8", "one-point", "crossed"})
-    for (std::uint64_t i = 0; i < 100; ++i) {
-      const Query query = make_query(find_family(std::string(family) + "~drawn"), 3, i);
-      EXPECT_EQ(query.x, make_query(find_family(family), 3, i).x);
-      EXPECT_GT(query.separation, 0);
-    }
-}
-
-TEST(WithSeparation, DrawnIsAPureFunctionOfSeedAndIndex) {
-  const Family family = find_family("uniform~drawn");
-  const Query query = make_query(family, 1, 1000);
-  for (std::uint64_t i = 0; i < 10; ++i) (void)make_query(family, 1, i);
-  EXPECT_EQ(make_query(family, 1, 1000), query);
-  EXPECT_EQ(make_query(find_family("uniform~drawn"), 1, 1000), query);
-  EXPECT_NE(make_query(family, 1, 1002).separation, query.separation);
-}
-
-TEST(WithSeparation, DrawnIsFromAMillionthOfTheExtentToAllOfIt) {
+TEST(WithSeparation, DrawnIsFromAMillionthOfTheExtentToAllOfItAndOftenAPowerOfTwo) {
   int powers_of_two = 0;
-  int small = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Query query = make_query(find_family("stiff~drawn"), 5, i);
     const double ratio = query.separation / extent(query);
     EXPECT_LE(0.5e-6, ratio);  // not 1e-6, because some are rounded down to a power of two
     EXPECT_LE(ratio, 1);
-    int exponent = 0;
-    powers_of_two += std::frexp(query.separation, &exponent) == 0.5 ? 1 : 0;
-    small += ratio < 1e-3 ? 1 : 0;
+    powers_of_two += std::ldexp(1, std::ilogb(query.separation)) == query.separation ? 1 : 0;
   }
   EXPECT_GT(powers_of_two, 60);
-  EXPECT_LT(powers_of_two, 140);
-  EXPECT_GT(small, 150);
-  EXPECT_LT(small, 250);
-}
-
-TEST(WithSeparation, ItIsPositiveForPrimitivesWithoutExtentAndInRangeForHugeOnes) {
   for (const char* family : {"one-point~drawn", "overflow~drawn", "scale@-1074~drawn", "scale@1023~drawn"})
     for (std::uint64_t i = 0; i < 200; ++i) {
       const double h = make_query(find_family(family), 1, i).separation;
       EXPECT_TRUE(0 < h && std::isfinite(h)) << family << ' ' << i;
     }
-}
-
-TEST(WithSeparation, NoFamilyIsPlanted) {
-  EXPECT_TRUE(find_family("planted").planted);
-  EXPECT_FALSE(find_family("planted~drawn").planted);
-  EXPECT_FALSE(find_family("planted").has_separation);
-  EXPECT_TRUE(find_family("planted~drawn").has_separation);
-}
-
-TEST(WithSeparation, NamesAreReadBack) {
-  for (const char* name :
-       {"uniform~drawn", "uniform~0.5", "aspect@8~drawn", "aspect@8~0x1p-3", "scale@-3~1e-9"})
-    EXPECT_EQ(find_family(name).name, name);
 }
 
 TEST(WithSeparation, ASweepNamesTheValueBeforeTheSeparation) {

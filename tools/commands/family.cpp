@@ -8,7 +8,6 @@
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/classify.hpp"
-#include "fuzz/families/coverage.hpp"
 #include "fuzz/families/crossed.hpp"
 #include "fuzz/simulation/simulation_family.hpp"
 #include "fuzz/subjects/contracted.hpp"

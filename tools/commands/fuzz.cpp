@@ -15,7 +15,7 @@
 #include "ccd/query/printable.hpp"
 #include "ccd/subjects/plugin.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/simulation/simulation_name.hpp"
+#include "fuzz/simulation/simulation_family.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/statistics/family_class.hpp"

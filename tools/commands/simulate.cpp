@@ -8,7 +8,7 @@
 
 #include "ccd/query/error.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
-#include "fuzz/simulation/simulation_name.hpp"
+#include "fuzz/simulation/simulation_family.hpp"
 #include "reports/campaign/finding_case.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"

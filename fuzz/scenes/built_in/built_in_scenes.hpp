@@ -25,6 +25,8 @@ struct BuiltInScene {
   /// Makes the scene of a size in this range, without a name. The size is the approximate number of
   /// triangles, or of lines or points if the scene consists of these.
   std::function<Scene(int size)> make;
+  /// Which points move as the frames say while physics moves all others, if the scene can be simulated.
+  std::vector<bool> (*held)(const Mesh& mesh) = nullptr;
 };
 
 /// All built-in scenes, in the order in which they are listed.
