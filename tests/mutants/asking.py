@@ -15,7 +15,6 @@ class Answer:
 
     noticed_by: str = ''  # the first test that failed, or ''
     how: str = ''  # 'failed', 'crashed' or 'too slow'
-    found: str = ''  # the query whose answer is not proved, and the number of queries
     cpu: float = 0
     wall: float = 0
     asked: int = 0  # number of tests
@@ -92,10 +91,10 @@ def is_confirmed(number, step):
     return again.code != 0 and (without is None or without.code == 0)
 
 
-def ask(number, steps, folder, answer, budget=BUDGET):
+def ask(number, steps, folder, answer):
     """Runs the tests with the mutant of this number, or with the built-in mutant if the number
     is 0, and adds the result to `answer`."""
-    kept, left = affordable(steps, budget)
+    kept, left = affordable(steps, BUDGET)
     answer.unasked += left
     for batch in batches(kept, folder):
         for group in batch:
@@ -111,8 +110,6 @@ def ask(number, steps, folder, answer, budget=BUDGET):
                 failed = next((step for step in group if step.test == test), group[0])
                 if how != 'failed' or is_confirmed(number, failed):
                     answer.noticed_by, answer.how = failed.name, how
-                    said = re.search('^found (.+)$', ended.output, re.MULTILINE)
-                    answer.found = said[1] if said else ''
                     return
                 answer.unsteady.append(failed.name)
                 group = [step for step in group if step is not failed]

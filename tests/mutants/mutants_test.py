@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Tests that the operators make the right edits, that a seed always gives the same draw, and that
-the lists of named edits and of equivalent mutants are checked against the sources."""
+the list of equivalent mutants is checked against the sources."""
 
 import json
 import tempfile
@@ -8,12 +8,10 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 
-import named
 from compiling import Mutants, blamed
 from draw import draw
 from equivalents import complaints, entries
 from mutation import applied
-from named_survey import contradictions
 from schemata import by_itself, with_switches
 from sites import mutants_of
 from sources import Compiled, read
@@ -169,70 +167,6 @@ class Draw(unittest.TestCase):
 
     def test_mutants_have_names_of_their_own(self):
         self.assertEqual(len({each.name for each in SITES}), len(SITES))
-
-
-NAMED = '''
-== comparisons ==
-
-# a comment
-late in slips.cpp: the condition and the arguments are wrong
-- !late &&
-+ late ||
-and in slips.cpp (2 of 2)
-- double a,
-- double b
-+ double b, double a
-= for the test
-'''
-
-
-class Named(unittest.TestCase):
-    def setUp(self):
-        (self.edit,) = named.entries(NAMED, 'fixture')
-
-    def test_an_edit_changes_all_of_its_places(self):
-        swapped = TEXT.replace('earliest(double a, double b)', 'earliest(double b, double a)')
-        expected = swapped.replace('!late &&', 'late ||')
-        self.assertEqual(self.edit.applied(FILE, TEXT), expected)
-
-    def test_an_edit_has_the_group_and_the_reason_of_the_list(self):
-        self.assertEqual((self.edit.operator, self.edit.reason), ('comparisons', 'for the test'))
-
-    def test_an_edit_that_fits_is_fine(self):
-        self.assertEqual(list(named.complaints([self.edit], HERE)), [])
-
-    def test_a_text_that_occurs_more_often_is_refused(self):
-        (edit,) = named.entries(NAMED.replace('!late &&', 'double a,'), 'fixture')
-        found = list(named.complaints([edit], HERE))
-        self.assertEqual(found, [f"late: 'double a,' occurs 2 times in {FILE}, expected 1"])
-
-    def test_a_title_stands_in_a_list_once(self):
-        found = list(named.complaints([self.edit, self.edit], HERE))
-        self.assertEqual(found, ['late: stands in the list twice'])
-
-    def test_a_line_in_another_form_is_refused(self):
-        with self.assertRaises(ValueError):
-            named.entries(NAMED.replace('# a', 'a'), 'fixture')
-
-    def test_another_edit_has_another_name(self):
-        (other,) = named.entries(NAMED.replace('late ||', '!'), 'fixture')
-        self.assertNotEqual(self.edit.name, other.name)
-
-    def test_a_reason_is_contradicted_by_a_test_that_notices_the_edit(self):
-        unexplained = replace(self.edit, reason='')
-        noticed = {'verdict': 'noticed', 'noticed_by': 'oracle.A'}
-        survived = {'verdict': 'survived', 'noticed_by': ''}
-        equivalent = {'verdict': 'equivalent', 'noticed_by': ''}
-        fine = [(unexplained, noticed), (self.edit, equivalent)]
-        wrong = [(self.edit, noticed), (unexplained, survived)]
-        self.assertEqual(
-            contradictions(fine + wrong),
-            [
-                'late: noticed by oracle.A in spite of its reason: for the test',
-                'late: noticed by no test, and has no reason:'
-                ' the condition and the arguments are wrong',
-            ],
-        )
 
 
 class CompileCommands(unittest.TestCase):

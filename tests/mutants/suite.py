@@ -45,7 +45,6 @@ def commands():
     """The commands of the groups of tests that are not GoogleTests."""
     recount = COPY / 'tests/recount/recount_test.py'
     return {
-        'judge_answers': [BUILD / 'tests/judge/judge_answers'],
         'recount': ['/usr/bin/python3', '-B', recount, BUILD / 'nearmiss'],
     }
 
@@ -77,24 +76,24 @@ def tests_of(group):
     return names
 
 
-def steps_of(group, queries=3000):
-    """The steps of a group. `queries` is the number that judge_answers asks."""
+def steps_of(group):
+    """The steps of a group."""
     if group in EXECUTABLES:
         return [Step(group, test) for test in tests_of(group)]
-    return [Step(group, str(queries) if group == 'judge_answers' else '')]
+    return [Step(group, '')]
 
 
 def all_steps():
     return [step for group in [*EXECUTABLES, *commands()] for step in steps_of(group)]
 
 
-def measured(step, most_seconds):
+def measured(step):
     """The step with its time without a mutant, the mutants it reaches, and whether it passes."""
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()
         env = {'NEARMISS_MUTANTS_REACHED': marks.name}
-        ended = run_tests(step.group, [step.test], env, most_seconds)
+        ended = run_tests(step.group, [step.test], env, MOST_SECONDS)
         marks.seek(0)
         reached = tuple(number for number, byte in enumerate(marks.read()) if byte)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
@@ -106,13 +105,13 @@ def state():
     """A hash of the tests' executables, as far as they are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
-    files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_answers']
+    files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker']
     for file in filter(Path.exists, files + sorted((BUILD / 'plugins').glob('*'))):
         digest.update(file.read_bytes())
     return digest.hexdigest()
 
 
-def baseline(steps, jobs, say, most_seconds=MOST_SECONDS):
+def baseline(steps, jobs, say):
     """Measures the steps once for each build, or the rest of them if an earlier call was
     stopped. Says which steps are left out."""
     built = state()
@@ -120,7 +119,7 @@ def baseline(steps, jobs, say, most_seconds=MOST_SECONDS):
     known = kept.get('steps', {}) if kept.get('built') == built else {}
     todo = [step for step in steps if step.name not in known]
     with ThreadPoolExecutor(jobs) as pool:
-        done = pool.map(lambda step: measured(step, most_seconds), todo)
+        done = pool.map(measured, todo)
         for count, step in enumerate(done, 1):
             known[step.name] = asdict(step)
             if count % 50 == 0 or step.cpu > 5 or count == len(todo):

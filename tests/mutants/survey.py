@@ -37,10 +37,9 @@ class Survey:
     def show(self, mutation, result):
         """Prints a line of progress."""
         by = f' by {result["noticed_by"]}, {result["cpu"]:.1f} s' if result['noticed_by'] else ''
-        found = f': {result["found"]}' if result.get('found') else ''
         with self.printing:
             self.done += 1
-            text = f'{mutation.where} {mutation.operator}: {result["verdict"]}{by}{found}'
+            text = f'{mutation.where} {mutation.operator}: {result["verdict"]}{by}'
             say(f'[{self.done}] {text}')
 
 

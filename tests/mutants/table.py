@@ -81,11 +81,6 @@ def costs(results):
         lines.append(
             f'noticed after {median(seconds):.2f} s of one core in the median, {seconds[-1]:.0f} s at most'
         )
-    queries = sorted(int(each['found'].split()[-1]) for each in noticed if each.get('found'))
-    if queries:
-        lines.append(
-            f'by missing proofs after {median(queries):.0f} queries in the median, {queries[-1]} at most'
-        )
     survived = [result['cpu'] for _, result in results if result['verdict'] == 'survived']
     if survived:
         lines.append(
@@ -102,11 +97,8 @@ def costs(results):
     return '\n'.join(lines) + '\n\n' + columns([['test', 'asked for', 'noticed'], *idle])
 
 
-def table(results, wrong=()):
-    """The whole table, from pairs of a mutant and its result. `wrong` are the lines about named
-    edits that contradict their list."""
+def table(results):
+    """The whole table, from pairs of a mutant and its result."""
     left = [one(*each) for each in results if each[1]['verdict'] in ('survived', 'unreached')]
     parts = [scores(results), costs(results), 'Not noticed:', *left]
-    if wrong:
-        parts.append('\n'.join(['Not as the list says:', *wrong]))
     return '\n\n'.join(parts) + '\n'

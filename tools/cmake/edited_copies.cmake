@@ -1,6 +1,6 @@
 # Copies headers so that a program can switch named edits, such as planted defects, on and off while it runs.
 #
-# A list of edits has this form, which tests/mutants/named.py reads, too:
+# A list of edits has this form:
 #
 #   == GROUP ==
 #
