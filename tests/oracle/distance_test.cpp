@@ -28,11 +28,13 @@ void expect_encloses(const Query& query, double distance) {
   EXPECT_TRUE(distance_exceeds(query, std::nextafter(distance, 0)));
 }
 
-TEST(Distance, VertexAboveATriangleAtRest) { expect_encloses(falling_vertex(0.25, 0.25, 3, 3), 3); }
-TEST(Distance, VertexStopsAboveTheTriangle) { expect_encloses(falling_vertex(0.25, 0.25, 3, 2), 2); }
-TEST(Distance, VertexPassesAnEdge) { expect_encloses(falling_vertex(-0.5, 0.5, 1, -1), 0.5); }
-TEST(Distance, VertexPassesAVertex) { expect_encloses(falling_vertex(-3, -4, 1, -1), 5); }
-TEST(Distance, EdgesStopApart) { expect_encloses(falling_edge(2, 0.5), 0.5); }
+TEST(Distance, IsThatOfTheClosestFeatures) {
+  expect_encloses(falling_vertex(0.25, 0.25, 3, 3), 3);
+  expect_encloses(falling_vertex(0.25, 0.25, 3, 2), 2);
+  expect_encloses(falling_vertex(-0.5, 0.5, 1, -1), 0.5);  // from an edge
+  expect_encloses(falling_vertex(-3, -4, 1, -1), 5);       // from a vertex
+  expect_encloses(falling_edge(2, 0.5), 0.5);
+}
 
 TEST(Distance, SlidingAtConstantDistance) {
   const Query query =
@@ -115,11 +117,11 @@ TEST(Distance, ItsRatioToABoundIsKnownWhereItOverflows) {
 }
 
 TEST(ComesWithin, AgreesWithEnclosures) {
-  for (std::size_t i = 0; i < 400; ++i) {
+  for (std::size_t i = 0; i < 200; ++i) {
     Random random(7, 0, i);
     const Kind kind = testing::kind_of_case(i);
     const Query query =
-        i < 200 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
+        i < 100 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
     SCOPED_TRACE(testing::repeat(i, query));
     // Primitives with coordinates of few bits come this near only if they meet.
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
@@ -130,47 +132,6 @@ TEST(ComesWithin, AgreesWithEnclosures) {
     if (d.lo > 0) {
       EXPECT_FALSE(comes_within(query, d.lo * (1 - 1e-15)));
     }
-  }
-}
-
-/// The smallest distance over a grid of times and of points of the primitives. This distance is an upper
-/// bound.
-double sampled_distance(const Query& query) {
-  double smallest = std::numeric_limits<double>::infinity();
-  constexpr int n = 16;
-  for (int it = 0; it <= n; ++it) {
-    const double t = it / static_cast<double>(n);
-    std::array<Vector, 4> x;
-    for (int i = 0; i < 4; ++i)
-      x[static_cast<std::size_t>(i)] = (1 - t) * Vector(query.start(i)) + t * Vector(query.end(i));
-    for (int iu = 0; iu <= n; ++iu) {
-      for (int iv = 0; iv <= n; ++iv) {
-        const double u = iu / static_cast<double>(n);
-        const double v = iv / static_cast<double>(n);
-        if (query.kind == Kind::vertex_triangle) {
-          if (iu + iv > n) continue;
-          smallest = std::min(smallest, (x[0] - ((1 - u - v) * x[1] + u * x[2] + v * x[3])).norm());
-        } else {
-          smallest = std::min(smallest, ((1 - u) * x[0] + u * x[1] - (1 - v) * x[2] - v * x[3]).norm());
-        }
-      }
-    }
-  }
-  return smallest;
-}
-
-TEST(Distance, IsBelowEverySampleAndNotFarBelow) {
-  for (std::size_t i = 0; i < 300; ++i) {
-    Random random(8, 0, i);
-    Query query{.kind = testing::kind_of_case(i)};
-    for (double& c : query.x) c = random.uniform();
-    SCOPED_TRACE(testing::repeat(i, query));
-    const double sample = sampled_distance(query);
-    const Enclosure d = minimum_distance(query);
-    ASSERT_LE(d.lo, sample * (1 + 1e-12));
-    // No point moves farther than 2 in 1/32 of the time, or is farther than 2/16 from a sampled point.
-    ASSERT_GE(d.hi, sample - 0.3);
-    ASSERT_LE(d.hi - d.lo, 1e-3 * d.hi);
   }
 }
 

@@ -27,7 +27,7 @@ TEST(Number, DividesWhatItCanWithoutRemainder) {
     }
     return x;
   };
-  for (std::uint64_t i = 0; i < 100000; ++i) {
+  for (std::uint64_t i = 0; i < 20000; ++i) {
     Random random(2, 0, i);
     const Number a = number(random);
     const Number b = number(random);
@@ -92,18 +92,6 @@ TEST(Root, PartsCloseRoots) {
   }
 }
 
-TEST(OnInterval, GuessesWhereAClusterIs) {
-  const auto guess = [](const Polynomial& p) { return OnInterval(p, 0, 1).guess_cluster(11); };
-  const auto squared = [](double constant, double slope) {
-    return polynomial({constant, slope}) * polynomial({constant, slope});
-  };
-  EXPECT_EQ(guess(squared(-3, 4)), Number(0.75));
-  EXPECT_EQ(guess(squared(-1, 0x1p300)), Number(0));
-  EXPECT_EQ(guess(squared(-5, 4)), std::nullopt);                     // 5/4
-  EXPECT_EQ(guess(squared(1, 8)), std::nullopt);                      // -1/8
-  EXPECT_EQ(guess(polynomial({2, -2, 1, -100, 120})), std::nullopt);  // f'² = f f'' at 0
-}
-
 TEST(Root, PartsClustersOfRoots) {
   for (const int exponent : {-40, -400, -1000}) {
     const Number gap(std::ldexp(1.0, exponent));
@@ -141,16 +129,6 @@ TEST(Root, ARationalRootIsFoundInAWideInterval) {
     }
 }
 
-TEST(Root, BecomesAsNarrowAsOneLikes) {
-  auto roots = roots_in_step(polynomial({-0.5, 0, 1}));
-  ASSERT_EQ(roots.size(), 1);
-  Number least = 1;
-  for (int i = 0; i < 30; ++i) least = least * Number(0x1p-100);
-  while (roots[0].hi() - roots[0].lo() > least) roots[0].refine();
-  EXPECT_LT(roots[0].lo() * roots[0].lo(), Number(0.5));
-  EXPECT_GT(roots[0].hi() * roots[0].hi(), Number(0.5));
-}
-
 // If the polynomial bends much, its chord is a bad guess of the root; then the interval is cut in the middle.
 TEST(Root, RefiningAtLeastHalvesTheInterval) {
   for (std::uint64_t i = 0; i < 100; ++i) {
@@ -181,16 +159,6 @@ TEST(Root, SeesThatAMultipleOfItsPolynomialIsZero) {
   auto roots = roots_in_step(p);
   EXPECT_EQ(roots.at(0).sign_of(p * polynomial({-3})), 0);
   EXPECT_FALSE(are_proportional(p, polynomial({-0.5, 0x1p-1000, 1})));
-}
-
-TEST(Root, ComparisonNarrowsOnlyTheWiderInterval) {
-  auto narrow = roots_in_step(polynomial({-0.5, 0, 1})).at(0);
-  for (int i = 0; i < 3; ++i) narrow.refine();
-  const Number width = narrow.hi() - narrow.lo();
-  auto wide = roots_in_step(polynomial({-0.3, 0, 1})).at(0);
-  EXPECT_TRUE(wide.is_below(narrow));
-  EXPECT_FALSE(narrow.is_below(wide));
-  EXPECT_EQ(narrow.hi() - narrow.lo(), width);
 }
 
 // --- beside CGAL ------------------------------------------------------------------------------------------
@@ -246,7 +214,7 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
   const AlgebraicKernel kernel;
   std::size_t found = 0;
   std::size_t zeros = 0;
-  for (std::uint64_t i = 0; i < 3000; ++i) {
+  for (std::uint64_t i = 0; i < 1500; ++i) {
     Integers integers(i);
     SCOPED_TRACE(i);
     const Both p = integers.polynomial(integers.between(1, 6));
@@ -280,8 +248,8 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
       for (std::size_t l = 0; l < others.size(); ++l)
         ASSERT_EQ(roots[k].is_below(other_roots[l]), reference[k] < others[l]);
   }
-  EXPECT_GT(found, 1500);
-  EXPECT_GT(zeros, 10);
+  EXPECT_GT(found, 750);
+  EXPECT_GT(zeros, 5);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "ccd/subjects/subject.hpp"
 #include "fuzz/random.hpp"
 #include "oracle/agreement/answers.hpp"
 #include "oracle/agreement/checked.hpp"
@@ -103,7 +102,7 @@ TEST(VerticesAndEdges, EveryAnswerTimeAndDistanceHasACertificate) {
   Random random(1, 2, 0);
   int collisions = 0;
   for (const Kind kind : of_vertices_and_edges)
-    for (std::size_t i = 0; i < 300; ++i) {
+    for (std::size_t i = 0; i < 150; ++i) {
       const Query query = with_some_separation(random, random_query(random, kind));
       const Decision decision = decide(query);
       EXPECT_EQ(disagreement(query, decision, ask_all(query)), "") << testing::repeat(i, query);
@@ -111,7 +110,7 @@ TEST(VerticesAndEdges, EveryAnswerTimeAndDistanceHasACertificate) {
         EXPECT_TRUE(proved(statement).has_value()) << testing::repeat(i, query);
       collisions += decision.collision ? 1 : 0;
     }
-  EXPECT_GT(collisions, 200);
+  EXPECT_GT(collisions, 100);
 }
 
 /// A vertex that moves from (0, 0, 1) to (x, 0, 0), and the edge from (1, -1, 0) to (1, 1, 0) at rest.
@@ -123,41 +122,6 @@ Query approaching(double x) {
 Query complete(Query query) {
   repeat_vertices(query);
   return query;
-}
-
-/// A vertex and half of a wall: the triangle of the edge at z = -1, and of its one or other end at z = 1.
-Query with_half_of_wall(const Query& planar, int end_above) {
-  Query query{.kind = Kind::vertex_triangle};
-  for (const int time : {0, 1})
-    for (int vertex = 0; vertex < 4; ++vertex)
-      for (int k = 0; k < 3; ++k) {
-        const int from = vertex == 3 ? end_above : vertex;
-        const double z = vertex == 0 ? 0 : vertex == 3 ? 1 : -1;
-        query.x[static_cast<std::size_t>(12 * time + 3 * vertex + k)] =
-            k == 2 ? z : planar.x[static_cast<std::size_t>(12 * time + 3 * from + k)];
-      }
-  return query;
-}
-
-// In the plane z = 0, a vertex meets an edge where it meets the wall above and below the edge. Half of the
-// queries are of small integers, the others of doubles.
-TEST(VerticesAndEdges, InThePlaneMeetWhereAVertexMeetsAWall) {
-  Random random(10, 0, 0);
-  int contacts = 0;
-  for (int i = 0; i < 4000; ++i) {
-    Query query{.kind = Kind::vertex_edge};
-    for (std::size_t k = 0; k < query.x.size(); ++k)
-      query.x[k] = k % 3 == 2 ? 0 : i % 2 == 0 ? random.integer(-3, 3) : random.uniform(-1, 1);
-    repeat_vertices(query);
-    const bool meets = collides(query);
-    contacts += meets ? 1 : 0;
-    EXPECT_EQ(meets, collides(with_half_of_wall(query, 1)) || collides(with_half_of_wall(query, 2))) << i;
-    if (meets) {
-      EXPECT_TRUE(make_subject("wang")->decide(query).hit) << i;
-    }
-  }
-  EXPECT_GT(contacts, 500);
-  EXPECT_LT(contacts, 3500);
 }
 
 TEST(VerticesAndEdges, AVertexMeetsAnEdgeAtItsEnd) {

@@ -1,11 +1,14 @@
-// The table of claims about rounding errors.
+// The table of claims about rounding errors, and its check.
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "fuzz/random.hpp"
 #include "tests/proofs/gappa.hpp"
+#include "tests/proofs/witness.hpp"
 
 namespace nearmiss::proofs {
 
@@ -30,10 +33,47 @@ struct CcdClaim {
   static constexpr int underflow_of_time = -1075 + 1000;
 };
 
-/// The precisions, in bits, for which every claim is proven.
-inline constexpr int precisions[] = {11, 24, 53, 64, 113, 256};
+/// The precisions, in bits, for which every claim about ccd/ is proven, in addition to double.
+inline constexpr int precisions[] = {11, 256};
 
 /// All claims about ccd/, in the order of its files.
 std::vector<CcdClaim> ccd_claims();
+
+/// A constant of oracle/ on which the filter relies. Numbers are in units of `unit`.
+struct OracleClaim {
+  std::string name;  ///< name of the constant in `file`, followed by a comma and the quantity if there are
+                     ///< several
+  std::string file;
+  std::string unit;
+  double claimed;
+  std::string method;  ///< "Gappa", or the argument that replaces it
+  /// The least value that is proven to be enough, at most `claimed`.
+  std::function<double()> proven;
+  /// The exact error at given inputs, rounded to double. This error is at most the proven value.
+  std::function<double(const Inputs&)> seen;
+  /// Inputs with which a search for a witness begins.
+  std::function<Inputs(Random&)> draw;
+
+  /// The constant's identifier.
+  [[nodiscard]] std::string constant() const { return name.substr(0, name.find(',')); }
+};
+
+/// The claims about the constants of oracle/. No constant could be halved.
+std::vector<OracleClaim> oracle_claims();
+
+/// Describes the faults of a claim. A claim has none if Gappa proves the bound `proven` in every precision,
+/// with underflow in double; no result overflows; seen <= proven <= claimed; the witness has exactly the
+/// recorded error; and Gappa proves no bound below it.
+std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
+
+/// The faults of all claims with their witnesses. Uses two threads.
+std::vector<std::string> faults(const std::vector<CcdClaim>& claims, const Witnesses& witnesses);
+
+/// Describes the faults of a claim about oracle/: whether seen <= proven <= claimed fails, or the witness
+/// does not have the recorded error.
+std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness);
+
+/// The table with the claimed, the proven and the seen value of each constant, in its unit.
+std::string table_of_bounds(const Witnesses& witnesses);
 
 }  // namespace nearmiss::proofs

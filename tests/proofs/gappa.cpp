@@ -18,18 +18,13 @@ GappaAnswer Prover::run(const std::string& script) {
   return known_.emplace(script, std::move(answer)).first->second;
 }
 
-double Prover::error(const Problem& problem, const Arithmetic& arithmetic) {
-  Lemmas lemmas(*this, problem, arithmetic);
-  const auto results = bounds_in(run(lemmas.last_script("?")).text);
-  return results.at("d").magnitude();
-}
-
-double Prover::largest_result(const Problem& problem, const Arithmetic& arithmetic) {
-  Lemmas lemmas(*this, problem, arithmetic);
-  double largest = 0;
-  for (const auto& [name, bounds] : bounds_in(run(lemmas.range_script()).text))
-    largest = std::max(largest, bounds.magnitude());
-  return largest;
+ProvenBounds Prover::bounds(const Problem& problem, const Arithmetic& arithmetic) {
+  auto ranges = bounds_in(run(Lemmas(*this, problem, arithmetic).script_of_bounds()).text);
+  ProvenBounds bounds{ranges.at("d").magnitude(), 0};
+  ranges.erase("d");
+  for (const auto& [name, range] : ranges)
+    bounds.largest_result = std::max(bounds.largest_result, range.magnitude());
+  return bounds;
 }
 
 bool Prover::proves(const Problem& problem, const Arithmetic& arithmetic, double bound) {
@@ -37,8 +32,7 @@ bool Prover::proves(const Problem& problem, const Arithmetic& arithmetic, double
 }
 
 std::string Prover::script(const Problem& problem, const Arithmetic& arithmetic, double bound) {
-  Lemmas lemmas(*this, problem, arithmetic);
-  return lemmas.last_script(interval(-bound, bound));
+  return Lemmas(*this, problem, arithmetic).last_script(interval(-bound, bound));
 }
 
 }  // namespace nearmiss::proofs

@@ -24,6 +24,12 @@ struct Arithmetic {
   bool vectors_alone = false;
 };
 
+/// Upper bounds for B = 1.
+struct ProvenBounds {
+  double error;           ///< of the problem's error
+  double largest_result;  ///< of the magnitudes of all intermediate results
+};
+
 /// Runs Gappa, and keeps its answers, because problems share lemmas. Several threads may use a Prover at
 /// once.
 ///
@@ -34,12 +40,8 @@ struct Arithmetic {
 /// other operations.
 class Prover {
  public:
-  /// An upper bound of the problem's error for B = 1. Throws std::runtime_error if Gappa proves no bound,
-  /// does not run, or does not understand the script.
-  double error(const Problem& problem, const Arithmetic& arithmetic);
-
-  /// An upper bound of the magnitudes of all intermediate results, for B = 1. Throws like `error`.
-  double largest_result(const Problem& problem, const Arithmetic& arithmetic);
+  /// Throws std::runtime_error if Gappa proves no bounds, does not run, or does not understand the script.
+  ProvenBounds bounds(const Problem& problem, const Arithmetic& arithmetic);
 
   /// Whether Gappa proves that the error is at most `bound` for B = 1.
   bool proves(const Problem& problem, const Arithmetic& arithmetic, double bound);

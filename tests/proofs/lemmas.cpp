@@ -228,21 +228,19 @@ void Lemmas::know_extreme(int index) {
                     error};
 }
 
-std::string Lemmas::range_script() {
-  Script all = script();
-  all.write(left_);
-  all.write(right_);
-  std::vector<std::string> goals;
-  for (const std::string& result : all.results()) goals.push_back(fmt::format("{} in ?", result));
-  return all.text(goals);
-}
-
-std::string Lemmas::last_script(const std::string& goal) {
+Script Lemmas::last() {
   Script last = script();
   last.write(left_);
   last.write(right_);
   last.difference(left_, right_);
-  return last.text({"d in " + goal});
+  return last;
+}
+
+std::string Lemmas::script_of_bounds() {
+  const Script all = last();
+  std::vector<std::string> goals{"d in ?"};
+  for (const std::string& result : all.results()) goals.push_back(fmt::format("{} in ?", result));
+  return all.text(goals);
 }
 
 }  // namespace nearmiss::proofs

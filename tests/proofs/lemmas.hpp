@@ -26,11 +26,12 @@ class Lemmas {
 
   /// The script with all operations that are not in a lemma. `goal` is a statement about the error, which has
   /// the name d.
-  std::string last_script(const std::string& goal);
-  /// The script whose goals are the ranges of all results.
-  std::string range_script();
+  std::string last_script(const std::string& goal) { return last().text({"d in " + goal}); }
+  /// The script whose goals are the ranges of the error and of all results.
+  std::string script_of_bounds();
 
  private:
+  Script last();
   void know_motion(const BoundedMotion& motion, const Traced& time);
   void know_extremes();
   void know_extreme(int index);

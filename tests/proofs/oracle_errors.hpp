@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/proofs/oracle_claim.hpp"
+#include "fuzz/random.hpp"
+#include "tests/proofs/numbers.hpp"
 #include "tests/proofs/oracle_proofs.hpp"
+#include "tests/proofs/witness.hpp"
 
 namespace nearmiss::proofs {
 

@@ -5,8 +5,6 @@
 
 namespace nearmiss::proofs {
 
-using Results = std::vector<Bounded> (*)(Trace&, Leaves);
-
 /// The factor of U w or U M with which the bound covers the rounding errors of all results, for exact leaves.
 template <class Real>
 double proven_rounding(Results results);

@@ -8,6 +8,9 @@
 
 namespace nearmiss::proofs {
 
+/// The results of one of the templates below.
+using Results = std::vector<Bounded> (*)(Trace&, Leaves);
+
 /// The coefficients of a polynomial, its coefficients on [t, s], and its value at t, each with its bound.
 template <class Real, std::size_t n>
 std::vector<Bounded> results_of(Trace& trace, const certified::Bernstein<Real, n>& polynomial,

@@ -69,13 +69,13 @@ Needs needs_of(const Bounded& bounded, const ValuePrecision& precision) {
           bound_of(without_underflow(error)), bound_of(with_underflow(error))};
 }
 
-std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision) {
+std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision) {
   const Needs needs = needs_of(bounded, precision);
   std::set<Monomial> monomials;
   for (const BoundTerms* shares : {&needs.values, &needs.leaves, &needs.underflows, &needs.bound_underflows})
     for (const auto& [monomial, each] : *shares) monomials.insert(monomial);
   constexpr double u = 0x1p-53;
-  std::vector<std::string> scripts;
+  std::set<std::string> scripts;
   for (const Monomial& monomial : monomials) {
     Factors factors;
     const auto times = [&](const BoundTerm& s, double size) {
@@ -100,7 +100,7 @@ std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision
     const auto goal = [&](const char* sign) {
       return fmt::format("({}{} + {}) * {} - {} <= 0", sign, roundings, others, halves, offered);
     };
-    scripts.push_back(factors.script(goal("") + " /\\ " + goal("-")));
+    scripts.insert(factors.script(goal("") + " /\\ " + goal("-")));
   }
   return scripts;
 }

@@ -1,6 +1,7 @@
 // The theorem that a bound of the oracle's filter is at least the error of its value.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,11 +43,11 @@ struct Needs {
 };
 Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 
-/// The scripts, one for each monomial. A script proves that the share of the bound that belongs to its
-/// monomial is at least the share of the error. All scripts together prove |value - exact value| <= error for
-/// all leaves and times. A share of the error is
+/// The scripts. Monomials with the same coefficients and roundings have the same script. It proves that the
+/// share of the bound that belongs to such a monomial is at least the share of the error. All scripts together
+/// prove |value - exact value| <= error for all leaves and times. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + leaves + underflow,
 /// with Π (1 + δ) over the roundings of a term, and Π (1 + λ) over its leaves if these are rounded once.
-std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);
+std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);
 
 }  // namespace nearmiss::proofs

@@ -1,66 +1,49 @@
 // The error bounds of the oracle's filter are at least the errors, for all leaves, sizes and times.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+#include <string>
+
 #include "tests/proofs/gappa_process.hpp"
 #include "tests/proofs/oracle_results.hpp"
 
 namespace nearmiss::proofs {
 namespace {
 
+/// Adds the scripts that prove all results of some templates, with each bound multiplied by `factor`.
 template <class Real>
-void expect_proven(const std::vector<Bounded>& all) {
-  for (const Bounded& each : all)
-    for (const std::string& script : scripts_of(each, precision_of<Real>()))
-      EXPECT_TRUE(is_proven(script)) << script;
-}
-
-TEST(ProofsOfTheFilter, WeightsInDouble) {
-  Trace trace;
-  expect_proven<Traced>(weight_results<Traced>(trace, Leaves::rounded_once));
-}
-TEST(ProofsOfTheFilter, WeightsOfPartsInDouble) {
-  Trace trace;
-  expect_proven<Traced>(weight_results<Traced>(trace, Leaves::given_errors));
-}
-TEST(ProofsOfTheFilter, WeightsInDoubleWords) {
-  Trace trace;
-  expect_proven<TracedWord>(weight_results<TracedWord>(trace, Leaves::given_errors));
-}
-TEST(ProofsOfTheFilter, CoplanarityInDouble) {
-  Trace trace;
-  expect_proven<Traced>(cubic_results<Traced>(trace, Leaves::rounded_once));
-}
-TEST(ProofsOfTheFilter, CoplanarityOfPartsInDouble) {
-  Trace trace;
-  expect_proven<Traced>(cubic_results<Traced>(trace, Leaves::given_errors));
-}
-TEST(ProofsOfTheFilter, CoplanarityInDoubleWords) {
-  Trace trace;
-  expect_proven<TracedWord>(cubic_results<TracedWord>(trace, Leaves::given_errors));
-}
-TEST(ProofsOfTheFilter, PartsOfTheStep) {
-  Trace trace;
-  expect_proven<Traced>(part_results<Traced>(trace, Leaves::rounded_once));
-  expect_proven<Traced>(part_results<Traced>(trace, Leaves::given_errors));
-  expect_proven<TracedWord>(part_results<TracedWord>(trace, Leaves::given_errors));
-}
-
-/// Whether all scripts of all results are proven if each bound is multiplied by `factor`.
-bool is_proven_with(const std::vector<Bounded>& all, double factor) {
-  for (Bounded each : all) {
-    each.error = each.error * factor;
-    for (const std::string& script : scripts_of(each, precision_of<Traced>()))
-      if (!is_proven(script)) return false;
+void add_scripts(std::set<std::string>& scripts, Leaves leaves, std::initializer_list<Results> all,
+                 double factor = 1) {
+  for (const Results results : all) {
+    Trace trace;
+    for (Bounded each : results(trace, leaves)) {
+      if (factor != 1) each.error = each.error * factor;
+      scripts.merge(scripts_of(each, precision_of<Real>()));
+    }
   }
-  return true;
+}
+
+TEST(ProofsOfTheFilter, BoundWeightsCoplanarityAndPartsInDoubleAndDoubleWords) {
+  std::set<std::string> scripts;
+  for (const Leaves leaves : {Leaves::rounded_once, Leaves::given_errors})
+    add_scripts<Traced>(scripts, leaves,
+                        {weight_results<Traced>, cubic_results<Traced>, part_results<Traced>});
+  add_scripts<TracedWord>(scripts, Leaves::given_errors,
+                          {weight_results<TracedWord>, cubic_results<TracedWord>, part_results<TracedWord>});
+  for (const std::string& script : scripts) EXPECT_TRUE(is_proven(script)) << script;
 }
 
 TEST(ProofsOfTheFilter, FailWhereABoundIsSmaller) {
-  Trace trace;
-  EXPECT_TRUE(is_proven_with(weight_results<Traced>(trace, Leaves::rounded_once), 1));
-  EXPECT_FALSE(is_proven_with(weight_results<Traced>(trace, Leaves::rounded_once), 0.75));
-  EXPECT_FALSE(is_proven_with(weight_results<Traced>(trace, Leaves::given_errors), 0.75));
-  EXPECT_FALSE(is_proven_with(part_results<Traced>(trace, Leaves::given_errors), 0.7));
+  const auto is_proven_with = [](Leaves leaves, Results results, double factor) {
+    std::set<std::string> scripts;
+    add_scripts<Traced>(scripts, leaves, {results}, factor);
+    return std::all_of(scripts.begin(), scripts.end(), is_proven);
+  };
+  EXPECT_FALSE(is_proven_with(Leaves::rounded_once, weight_results<Traced>, 0.75));
+  EXPECT_FALSE(is_proven_with(Leaves::given_errors, weight_results<Traced>, 0.75));
+  EXPECT_FALSE(is_proven_with(Leaves::given_errors, part_results<Traced>, 0.7));
 }
 
 }  // namespace

@@ -4,20 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "fuzz/studies/audit.hpp"
-#include "tests/proofs/ccd_problems.hpp"
-#include "tests/proofs/check.hpp"
+#include "tests/proofs/claims.hpp"
 
 namespace nearmiss::proofs {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::map<std::string, Witness>& witnesses() {
-  static const auto all = read_witnesses(NEARMISS_WITNESSES "/ccd.txt");
+const Witnesses& witnesses() {
+  static const auto all = read_witnesses(NEARMISS_WITNESSES);
   return all;
 }
 
@@ -27,71 +29,73 @@ CcdClaim claim_of(std::string_view name) {
   throw std::invalid_argument("no such claim");
 }
 
-std::vector<std::string> faults_of(const CcdClaim& claim, const Witness& witness) {
-  Prover prover;
-  return faults(claim, witness, prover);
-}
-
 TEST(ProofsClaims, HoldInEveryPrecisionAndAtTheirWitnesses) {
   EXPECT_THAT(faults(ccd_claims(), witnesses()), IsEmpty());
+}
+
+TEST(ProofsClaims, AboutTheOracleHoldAtTheirWitnessesAndNoConstantCouldBeHalved) {
+  std::map<std::string, double> share;  // proven / claimed
+  for (OracleClaim claim : oracle_claims()) {
+    const double proven = claim.proven();
+    claim.proven = [proven] { return proven; };
+    EXPECT_THAT(faults(claim, witnesses().at(claim.name)), IsEmpty());
+    double& largest = share[claim.constant()];
+    largest = std::max(largest, proven / claim.claimed);
+  }
+  for (const auto& [name, largest] : share) EXPECT_GT(largest, 0.5) << name;
 }
 
 TEST(ProofsClaims, HaveNamesOfTheirOwnAndAWitnessEach) {
   std::vector<std::string> names;
   for (const CcdClaim& claim : ccd_claims()) names.emplace_back(claim.name);
+  for (const OracleClaim& claim : oracle_claims()) names.push_back(claim.name);
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   std::vector<std::string> seen;
   for (const auto& [name, witness] : witnesses()) seen.push_back(name);
   EXPECT_EQ(names, seen);
 }
 
-// If a script left out a part of its formula, Gappa could prove a bound below an error that was seen.
-TEST(ProofsClaims, HaveNoProofOfLessThanAnErrorThatIsThere) {
+TEST(ProofsClaims, FailWhereTheyAreWrong) {
   Prover prover;
-  for (const CcdClaim& claim : ccd_claims()) {
-    const double best = prover.error(claim.problem(), {53, {}, claim.vectors_alone});
-    EXPECT_GE(best * 0x1p52, witnesses().at(std::string(claim.name)).error) << claim.name;
-  }
-}
-
-TEST(ProofsClaims, FailWhereLessIsClaimedThanProven) {
-  CcdClaim claim = claim_of("VT: N");
-  claim.claimed = claim.proven * 0.999;
-  EXPECT_THAT(faults_of(claim, witnesses().at("VT: N")), ElementsAre(HasSubstr("is claimed")));
-}
-
-TEST(ProofsClaims, FailWhereGappaProvesNoSuchBound) {
-  CcdClaim claim = claim_of("VT: N");
-  claim.proven = 10.01;  // 10.02 with 11 bits
-  EXPECT_THAT(faults_of(claim, witnesses().at("VT: N")),
-              ElementsAre("VT: N: Gappa does not prove 10.01 with 11 bits"));
-  claim.proven = 9.99;
-  EXPECT_EQ(faults_of(claim, witnesses().at("VT: N")).size(), std::size(precisions) + 1);
-}
-
-TEST(ProofsClaims, FailWhereTheFormulaIsAnother) {
-  CcdClaim claim = claim_of("VT: N");
-  claim.problem = [] {
-    Problem problem = configuration(Kind::vertex_triangle, Reach::near, ConfigurationPart::normal);
-    problem.left *= 1 + Traced(0x1p-5);  // one more rounding
-    return problem;
+  const CcdClaim right = claim_of("VV: v.v");
+  const Witness seen = witnesses().at("VV: v.v");
+  const auto faults_with = [&](const std::function<void(CcdClaim&)>& change) {
+    CcdClaim claim = right;
+    change(claim);
+    return faults(claim, seen, prover);
   };
-  EXPECT_THAT(faults_of(claim, witnesses().at("VT: N")), Not(IsEmpty()));
+  EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.claimed = claim.proven * 0.999; }),
+              ElementsAre(HasSubstr("is claimed")));
+  EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.proven = 4.001; }),
+              ElementsAre("VV: v.v: Gappa does not prove 4.001 with 11 bits"));
+  EXPECT_EQ(faults_with([](CcdClaim& claim) { claim.proven = 3.99; }).size(), std::size(precisions) + 1);
+  EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.proven = 3; }),
+              Contains(HasSubstr("is seen, 3 proven")));
+  EXPECT_THAT(faults_with([&](CcdClaim& claim) {  // one more rounding
+                claim.problem = [&] {
+                  Problem problem = right.problem();
+                  problem.left *= 1 + Traced(0x1p-5);
+                  return problem;
+                };
+              }),
+              Contains(HasSubstr("Gappa does not prove")));
+  EXPECT_THAT(faults_with([&](CcdClaim& claim) {  // no rounding of the products and sums
+                claim.problem = [&] {
+                  Problem problem = right.problem();
+                  problem.left = problem.motions[0].vector.xv[3] * 1;
+                  return problem;
+                };
+              }),
+              Contains(HasSubstr("is seen, but Gappa proves")));
+  Witness other = seen;
+  other.error = std::nextafter(other.error, 0);
+  EXPECT_THAT(faults(right, other, prover), ElementsAre(HasSubstr("the witness has an error of")));
 }
 
-TEST(ProofsClaims, FailWhereMoreIsSeenThanProven) {
-  CcdClaim claim = claim_of("VV: v.v");
-  claim.proven = 3;
-  EXPECT_THAT(faults_of(claim, witnesses().at("VV: v.v")),
-              ::testing::Contains(HasSubstr("is seen, 3 proven")));
-}
-
-TEST(ProofsClaims, FailWhereTheWitnessHasAnotherError) {
-  const CcdClaim claim = claim_of("VV: v.v");
-  Witness witness = witnesses().at("VV: v.v");
-  witness.error = std::nextafter(witness.error, 0);
-  EXPECT_THAT(faults_of(claim, witness), ElementsAre(HasSubstr("the witness has an error of")));
+TEST(ProofsClaims, AboutTheOracleFailWhereLessIsClaimedThanProven) {
+  OracleClaim claim = oracle_claims().front();
+  claim.claimed /= 2;
+  EXPECT_THAT(faults(claim, witnesses().at(claim.name)), ElementsAre(HasSubstr("is claimed")));
 }
 
 TEST(ProofsClaims, CoverEveryBoundOfTheAudit) {

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "tests/proofs/solver_climb.hpp"
+#include "tests/proofs/climb.hpp"
 #include "tests/proofs/solver_orders.hpp"
 
 namespace nearmiss::proofs {
@@ -93,9 +93,11 @@ Coefficients changed(Random& random, Coefficients k, int bits) {
 template <class Value>
 double highest_of(int bits, const ClimbEffort& climb, const char* name, const Value& value) {
   const MpfrFloat::PrecisionScope precision(bits);
-  const double found = highest(
-      climb, drawn, [&](Random& random, const Coefficients& k) { return changed(random, k, bits); },
-      [&](const Coefficients& k) { return value(k, bits); });
+  const double found =
+      highest(
+          climb, drawn, [&](Random& random, const Coefficients& k) { return changed(random, k, bits); },
+          [&](const Coefficients& k) { return value(k, bits); })
+          .value;
   ::testing::Test::RecordProperty(std::string(name) + " of " + std::to_string(bits) + " bits",
                                   std::to_string(found));
   return found;

@@ -9,7 +9,7 @@
 
 #include "ccd/wang/bounds/tight_tolerances.hpp"
 #include "ccd/wang/vertex_edge.hpp"
-#include "tests/proofs/solver_climb.hpp"
+#include "tests/proofs/climb.hpp"
 #include "tests/proofs/solver_orders.hpp"
 
 namespace nearmiss::proofs {
@@ -117,9 +117,11 @@ double rise_ratio(const EdgeProblem& p, int bits, double rho) {
 
 double highest_rise(int bits, double rho, const ClimbEffort& climb) {
   const MpfrFloat::PrecisionScope precision(bits);
-  const double found = highest(
-      climb, drawn, [&](Random& random, const EdgeProblem& p) { return changed(random, p, bits); },
-      [&](const EdgeProblem& p) { return rise_ratio(p, bits, rho); });
+  const double found =
+      highest(
+          climb, drawn, [&](Random& random, const EdgeProblem& p) { return changed(random, p, bits); },
+          [&](const EdgeProblem& p) { return rise_ratio(p, bits, rho); })
+          .value;
   ::testing::Test::RecordProperty("of " + std::to_string(bits) + " bits", std::to_string(found));
   return found;
 }

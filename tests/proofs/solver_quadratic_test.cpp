@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ccd/wang/quadratic.hpp"
-#include "tests/proofs/solver_climb.hpp"
+#include "tests/proofs/climb.hpp"
 #include "tests/proofs/solver_orders.hpp"
 
 namespace nearmiss::proofs {
@@ -113,8 +113,10 @@ double highest_distance(int bits, double Distances::*which) {
     x = changed_number(random, x, 36, bits);
     return rounded(p);
   };
-  const double found = highest({.rounds = 6, .steps = 1000}, draw, change,
-                               [&](const QuadraticCoefficients& p) { return distances(p, bits).*which; });
+  const double found =
+      highest({.rounds = 6, .steps = 1000}, draw, change, [&](const QuadraticCoefficients& p) {
+        return distances(p, bits).*which;
+      }).value;
   ::testing::Test::RecordProperty("of " + std::to_string(bits) + " bits", std::to_string(found));
   return found;
 }

@@ -3,14 +3,7 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <vector>
-
-#include "fuzz/random.hpp"
-#include "tests/proofs/claims.hpp"
-#include "tests/proofs/numbers.hpp"
-#include "tests/proofs/program.hpp"
 
 namespace nearmiss::proofs {
 
@@ -22,61 +15,11 @@ struct Witness {
   double error = 0;
   Inputs inputs;
 };
+using Witnesses = std::map<std::string, Witness>;
 
 /// Reads witnesses by claim. A line of the file is "claim = error : name=value ...", with hexadecimal
 /// numbers.
-std::map<std::string, Witness> read_witnesses(const std::filesystem::path& file);
-void write_witnesses(const std::filesystem::path& file, const std::map<std::string, Witness>& witnesses);
-
-/// Measures the rounding errors of a problem that is computed in double. B is the smallest value for which
-/// the inputs are within bounds.
-class Measure {
- public:
-  explicit Measure(const CcdClaim& claim);
-
-  /// The exact error in the claim's unit, truncated to double; nothing if the inputs are out of bounds for
-  /// every B.
-  [[nodiscard]] std::optional<double> error(const Inputs& inputs) const { return measured<Rational>(inputs); }
-  /// An estimate of the error, which is quick to compute.
-  [[nodiscard]] std::optional<double> estimate(const Inputs& inputs) const {
-    return measured<long double>(inputs);
-  }
-
-  /// Whether `inputs` has the names of all inputs of the problem.
-  [[nodiscard]] bool has_inputs(const Inputs& inputs) const;
-
-  /// Random inputs, which may be out of bounds.
-  [[nodiscard]] Inputs drawn(Random& random) const;
-  [[nodiscard]] Inputs changed(Random& random, const Inputs& inputs) const;
-
- private:
-  struct Limit {
-    int index;
-    double lowest, highest;
-    int degree;
-  };
-
-  void limit(const Traced& expression, double lowest, double highest, int degree);
-  [[nodiscard]] double draw(Random& random, const std::string& name) const;
-  void choose_bound(Inputs& inputs) const;
-  template <class Number>
-  [[nodiscard]] std::optional<double> measured(const Inputs& inputs) const;
-  template <class Number>
-  [[nodiscard]] std::vector<Number> results(const Inputs& inputs) const;
-  template <class Number>
-  [[nodiscard]] Number smallest_bound(const std::vector<Number>& exact) const;
-
-  Program program_;
-  int left_, right_, degree_;
-  bool vectors_alone_;
-  std::vector<int> vectors_;          ///< indices of the components of the motions
-  std::map<int, std::string> given_;  ///< exact numbers that are not inputs, by index
-  std::vector<Limit> limits_;
-  std::vector<std::string> names_;
-};
-
-/// Climbs from random inputs, and from `start` if given, to large errors for a time in seconds.
-Witness search(const CcdClaim& claim, const std::optional<Witness>& start, double seconds,
-               std::uint64_t seed);
+Witnesses read_witnesses(const std::filesystem::path& file);
+void write_witnesses(const std::filesystem::path& file, const Witnesses& witnesses);
 
 }  // namespace nearmiss::proofs

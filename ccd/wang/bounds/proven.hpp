@@ -8,7 +8,7 @@ namespace nearmiss::proven {
 // rounds to nearest (u = ε/2).
 //
 // tests/proofs/ has a row for each bound: it records the formulas of ccd/, and Gappa proves the bound with
-// 11, 24, 53, 64, 113 and 256 bits. The bounds hold for every ε <= 2^-10. Gappa adds and multiplies bounds,
+// 11, 53 and 256 bits. The bounds hold for every ε <= 2^-10. Gappa adds and multiplies bounds,
 // so each bound that it proves is a polynomial in u without negative coefficients and without a constant term
 // (or the quotient of one by 1 minus such a polynomial). Divided by u, this grows with u and is largest for
 // 11 bits.

@@ -1,8 +1,10 @@
-// Random search and hill climb for the problem that comes nearest to a bound, with numbers of few bits.
+// Random search and hill climb for the problem that comes nearest to a bound.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "fuzz/random.hpp"
 #include "fuzz/subjects/ladder/mpfr_float.hpp"
@@ -16,11 +18,18 @@ struct ClimbEffort {
   std::uint64_t seed = 1;
 };
 
-/// The largest value(problem) found. `draw(random)` makes a problem, and `change(random, problem)` makes
-/// another problem near it.
+/// A problem and its value.
+template <class P>
+struct Climbed {
+  double value;
+  P problem;
+};
+
+/// The largest value(problem) found, and its problem. `draw(random)` makes a problem, and `change(random,
+/// problem)` makes another problem near it.
 template <class Draw, class Change, class Value>
-double highest(const ClimbEffort& climb, const Draw& draw, const Change& change, const Value& value) {
-  double highest = 0;
+auto highest(const ClimbEffort& climb, const Draw& draw, const Change& change, const Value& value) {
+  std::optional<Climbed<decltype(draw(std::declval<Random&>()))>> highest;
   for (int round = 0; round < climb.rounds; ++round) {
     Random random(climb.seed, 0, static_cast<std::uint64_t>(round));
     auto best = draw(random);
@@ -32,9 +41,9 @@ double highest(const ClimbEffort& climb, const Draw& draw, const Change& change,
       top = found;
       best = next;
     }
-    highest = std::max(highest, top);
+    if (!highest || top > highest->value) highest = {top, best};
   }
-  return highest;
+  return highest.value();
 }
 
 /// The nearest number in the thread's precision.

@@ -1,4 +1,4 @@
-#include "tests/proofs/check.hpp"
+#include "tests/proofs/claims.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "reports/text/text.hpp"
+#include "tests/proofs/measure.hpp"
 
 namespace nearmiss::proofs {
 
@@ -17,14 +18,6 @@ namespace {
 /// The largest result that is allowed for B = 1. Results have degree at most 4 in B <= 2^100 (claims.hpp), so
 /// they are then finite.
 constexpr double largest_allowed = 0x1p20;
-
-/// The arithmetics for which a claim is proven.
-std::vector<Arithmetic> arithmetics(const CcdClaim& claim) {
-  std::vector<Arithmetic> all;
-  for (const int bits : precisions) all.push_back({bits, {}, claim.vectors_alone});
-  all.push_back({53, claim.underflow, claim.vectors_alone});
-  return all;
-}
 
 }  // namespace
 
@@ -41,12 +34,15 @@ std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, P
   if (!(witness.error <= claim.proven))
     fault(fmt::format("{} is seen, {} proven", witness.error, claim.proven));
   const Problem problem = claim.problem();
-  for (const Arithmetic& arithmetic : arithmetics(claim))
-    if (!prover.proves(problem, arithmetic, std::ldexp(claim.proven, 1 - arithmetic.bits)))
-      fault(fmt::format("Gappa does not prove {} with {} bits{}", claim.proven, arithmetic.bits,
-                        arithmetic.underflow ? " and underflow" : ""));
-  if (!(prover.largest_result(problem, {53, {}, claim.vectors_alone}) <= largest_allowed))
-    fault("Gappa does not prove that results are finite");
+  for (const int bits : precisions)
+    if (!prover.proves(problem, {bits, {}, claim.vectors_alone}, std::ldexp(claim.proven, 1 - bits)))
+      fault(fmt::format("Gappa does not prove {} with {} bits", claim.proven, bits));
+  const ProvenBounds bounds = prover.bounds(problem, {53, claim.underflow, claim.vectors_alone});
+  const double best = std::ldexp(bounds.error, 52);
+  if (!(best <= claim.proven)) fault(fmt::format("Gappa proves only {} with underflow", best));
+  // If a script left out a part of its formula, Gappa could prove a bound below an error that was seen.
+  if (!(witness.error <= best)) fault(fmt::format("{} is seen, but Gappa proves {}", witness.error, best));
+  if (!(bounds.largest_result <= largest_allowed)) fault("Gappa does not prove that results are finite");
   return all;
 }
 
@@ -62,8 +58,7 @@ std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness
   return all;
 }
 
-std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
-                                const std::map<std::string, Witness>& witnesses) {
+std::vector<std::string> faults(const std::vector<CcdClaim>& claims, const Witnesses& witnesses) {
   std::vector<std::string> all;
   std::mutex mutex;
   std::atomic<std::size_t> next = 0;
@@ -86,41 +81,19 @@ std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
   return all;
 }
 
-namespace {
-
-double seen(const std::map<std::string, Witness>& witnesses, std::string_view claim) {
-  const auto witness = witnesses.find(std::string(claim));
-  return witness == witnesses.end() ? std::nan("") : witness->second.error;
-}
-
-}  // namespace
-
-std::vector<TableRow> rows_of(const std::vector<CcdClaim>& claims,
-                              const std::map<std::string, Witness>& witnesses) {
-  std::vector<TableRow> rows;
-  for (const CcdClaim& claim : claims)
-    rows.push_back({std::string(claim.name), std::string(claim.constant), std::string(claim.how),
-                    std::string(claim.unit), claim.claimed, claim.proven, seen(witnesses, claim.name)});
-  return rows;
-}
-
-std::vector<TableRow> rows_of(const std::vector<OracleClaim>& claims,
-                              const std::map<std::string, Witness>& witnesses) {
-  std::vector<TableRow> rows;
-  for (const OracleClaim& claim : claims)
-    rows.push_back({claim.name, claim.constant() + ", " + claim.file, claim.method, claim.unit, claim.claimed,
-                    claim.proven(), seen(witnesses, claim.name)});
-  return rows;
-}
-
-std::string table_of(const std::vector<TableRow>& rows) {
-  std::vector<std::vector<std::string>> text{
+std::string table_of_bounds(const Witnesses& witnesses) {
+  std::vector<std::vector<std::string>> rows{
       {"claim", "constant", "proof", "unit", "claimed", "proven", "seen"}};
-  for (const TableRow& row : rows)
-    text.push_back({row.claim, row.constant, row.proof, row.unit, fmt::format("{:.5g}", row.claimed),
-                    fmt::format("{:.5g}", row.proven),
-                    std::isnan(row.seen) ? "" : fmt::format("{:.3g}", row.seen)});
-  return columns(text, 4);
+  const auto add = [&](const auto& claim, const std::string& constant, std::string_view how, double proven) {
+    const auto witness = witnesses.find(std::string(claim.name));
+    rows.push_back({std::string(claim.name), constant, std::string(how), std::string(claim.unit),
+                    fmt::format("{:.5g}", claim.claimed), fmt::format("{:.5g}", proven),
+                    witness == witnesses.end() ? "" : fmt::format("{:.3g}", witness->second.error)});
+  };
+  for (const OracleClaim& claim : oracle_claims())
+    add(claim, claim.constant() + ", " + claim.file, claim.method, claim.proven());
+  for (const CcdClaim& claim : ccd_claims()) add(claim, std::string(claim.constant), claim.how, claim.proven);
+  return columns(rows, 4);
 }
 
 }  // namespace nearmiss::proofs
