@@ -12,7 +12,7 @@
 #include "ccd/query/arithmetic.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/conversion.hpp"
-#include "oracle/distance/proximity.hpp"
+#include "oracle/exact/nearness.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

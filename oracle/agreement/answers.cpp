@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace nearmiss {
 
@@ -41,30 +42,21 @@ bool Answers::collision() const {
 }
 
 std::string Answers::disagreement(const Answer& by_filter) const {
-  Votes collision;
-  Votes at_most;
-  Votes boundary;
-  Votes odd;
   std::string text;
   const bool is_tie = std::any_of(answers_.begin(), answers_.end(), [](const Answer& answer) {
     return answer.collision == false && answer.at_most == true;
   });
-  for (std::size_t i = 0; i < answers_.size(); ++i) {
-    const Method& method = methods_[i];
-    const Answer& answer = answers_[i];
-    if (method.claim == Claim::complete && !answer.collision && !is_tie)
-      text.append(text.empty() ? "" : ", ").append("no answer of ").append(method.name);
-    collision.add(method.name, answer.collision);
-    at_most.add(method.name, answer.at_most);
-    boundary.add(method.name, answer.on_boundary);
-    odd.add(method.name, answer.odd);
+  for (std::size_t i = 0; i < answers_.size(); ++i)
+    if (methods_[i].claim == Claim::complete && !answers_[i].collision && !is_tie)
+      text.append(text.empty() ? "" : ", ").append("no answer of ").append(methods_[i].name);
+  for (const auto& [question, said] :
+       {std::pair{"collision", &Answer::collision}, std::pair{"at most h", &Answer::at_most},
+        std::pair{"boundary", &Answer::on_boundary}, std::pair{"odd", &Answer::odd}}) {
+    Votes votes;
+    for (std::size_t i = 0; i < answers_.size(); ++i) votes.add(methods_[i].name, answers_[i].*said);
+    votes.add("filter", by_filter.*said);
+    votes.complain(text, question);
   }
-  collision.add("filter", by_filter.collision);
-  at_most.add("filter", by_filter.at_most);
-  collision.complain(text, "collision");
-  at_most.complain(text, "at most h");
-  boundary.complain(text, "boundary");
-  odd.complain(text, "odd");
   return text;
 }
 

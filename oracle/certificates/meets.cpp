@@ -289,10 +289,4 @@ std::optional<std::string> certify_meets(const Query& query, const Span& span, b
   return query.separation > 0 ? certify_approach(query, span, is_strict) : certify_contact(query, span);
 }
 
-std::optional<std::string> certify(const Query& query) {
-  const Decision decision = decide(query);
-  if (decision.is_tie) return certify_meets(query, {});
-  return decision.collision ? certify_meets(query, {}, query.separation > 0) : certify_apart(query, {});
-}
-
 }  // namespace nearmiss

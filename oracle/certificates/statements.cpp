@@ -1,5 +1,4 @@
-#include "oracle/certificates/statements.hpp"
-
+// Certificates of decisions, times and distances, made of statements that the primitives are apart or meet.
 #include <cmath>
 
 #include "oracle/certificates/certificate.hpp"
@@ -7,6 +6,12 @@
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
+
+std::optional<std::string> certify(const Query& query) {
+  const Decision decision = decide(query);
+  if (decision.is_tie) return certify_meets(query, {});
+  return decision.collision ? certify_meets(query, {}, query.separation > 0) : certify_apart(query, {});
+}
 
 Certificates certify_time(const Query& query) {
   auto time = earliest_time(query);

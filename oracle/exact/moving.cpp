@@ -7,24 +7,6 @@
 
 namespace nearmiss::exact {
 
-PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Polynomial dot(const PolynomialVector& a, const PolynomialVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k) {
-  const std::size_t i = (k + 1) % 3;
-  const std::size_t j = (k + 2) % 3;
-  return a[i] * b[j] - a[j] * b[i];
-}
-
-PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
-  return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
-}
-
 Unit::Unit(const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));

@@ -5,18 +5,18 @@
 #include <cstddef>
 
 #include "ccd/query/query.hpp"
+#include "oracle/arithmetic/vectors.hpp"
 #include "oracle/exact/polynomial.hpp"
 
 namespace nearmiss::exact {
 
 /// A moving vector; each component is a polynomial in t.
-using PolynomialVector = std::array<Polynomial, 3>;
+using PolynomialVector = certified::Vec<Polynomial>;
 
-PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b);
-Polynomial dot(const PolynomialVector& a, const PolynomialVector& b);
-/// Component k of a × b.
-Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k);
-PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b);
+using certified::cross;
+using certified::cross_component;
+using certified::dot;
+using certified::operator-;
 
 /// A power of two that scales all coordinates of a query below 1/4. Differences of four coordinates are then
 /// below 1, and these and most products have no more limbs than necessary.

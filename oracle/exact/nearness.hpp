@@ -71,3 +71,11 @@ class Nearness {
 };
 
 }  // namespace nearmiss::exact
+
+namespace nearmiss {
+
+/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0. Exact for every finite
+/// query.
+bool comes_within(const Query& query, double bound);
+
+}  // namespace nearmiss

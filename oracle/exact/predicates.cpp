@@ -44,12 +44,12 @@ const std::vector<OnSegment>& Predicates::segments() {
 
 std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
   const Polynomial& normal = N()[k];
-  const Polynomial of_q = cross(p_, r_, k);
+  const Polynomial of_q = cross_component(p_, r_, k);
   if (has_triangle(query_.kind)) {
-    const Polynomial of_r = cross(q_, p_, k);
+    const Polynomial of_r = cross_component(q_, p_, k);
     return {normal - of_q - of_r, of_q, of_r};
   }
-  const Polynomial of_r = cross(p_, q_, k);
+  const Polynomial of_r = cross_component(p_, q_, k);
   return {of_q, normal - of_q, of_r, normal - of_r};
 }
 

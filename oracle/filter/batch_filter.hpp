@@ -12,7 +12,6 @@
 #include "oracle/filter/batch_look.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/filter/instruction_sets.hpp"
-#include "oracle/filter/lanes.hpp"
 #include "oracle/filter/planes.hpp"
 #include "oracle/filter/step_part.hpp"
 

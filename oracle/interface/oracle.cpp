@@ -8,7 +8,6 @@
 
 #include "ccd/query/gather.hpp"
 #include "oracle/certificates/certificate.hpp"
-#include "oracle/certificates/statements.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 

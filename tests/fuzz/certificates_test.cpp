@@ -12,7 +12,6 @@
 #include "fuzz/families/families.hpp"
 #include "oracle/agreement/checked.hpp"
 #include "oracle/certificates/certificate.hpp"
-#include "oracle/certificates/statements.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/fuzz/family_queries.hpp"

@@ -16,7 +16,7 @@
 #include "corpus/query_text.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/random.hpp"
-#include "oracle/certificates/statements.hpp"
+#include "oracle/certificates/certificate.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/text/json.hpp"
 #include "tests/fuzz/family_queries.hpp"

@@ -8,7 +8,7 @@
 #include "oracle/distance.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/moment.hpp"
-#include "oracle/distance/proximity.hpp"
+#include "oracle/exact/nearness.hpp"
 #include "oracle/distance/wide.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/arithmetic_modes.hpp"

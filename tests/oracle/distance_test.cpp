@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "oracle/distance.hpp"
-#include "oracle/distance/proximity.hpp"
+#include "oracle/exact/nearness.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"

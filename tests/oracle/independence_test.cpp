@@ -83,7 +83,7 @@ TEST(Independence, APartOfTheOracleIncludesFromItselfAndTheseAlone) {
   const std::map<std::string, std::set<std::string>> parts{
       {"arithmetic", {}},
       {"filter", {"arithmetic"}},
-      {"exact", {}},
+      {"exact", {"arithmetic"}},
       {"parity", {}},
       {"distance", {"arithmetic", "exact"}},
       {"certificates", {"", "arithmetic", "distance", "exact"}},

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oracle/distance/moment.hpp"
-#include "oracle/distance/proximity.hpp"
+#include "oracle/exact/nearness.hpp"
 #include "oracle/distance/wide.hpp"
 #include "tests/random_queries.hpp"
 

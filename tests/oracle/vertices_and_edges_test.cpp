@@ -10,7 +10,7 @@
 #include "fuzz/random.hpp"
 #include "oracle/agreement/answers.hpp"
 #include "oracle/agreement/checked.hpp"
-#include "oracle/certificates/statements.hpp"
+#include "oracle/certificates/certificate.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/features.hpp"

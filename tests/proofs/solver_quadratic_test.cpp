@@ -2,6 +2,7 @@
 // with another constant c' in place of c.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <vector>

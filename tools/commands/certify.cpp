@@ -7,7 +7,6 @@
 #include <string>
 
 #include "oracle/certificates/certificate.hpp"
-#include "oracle/certificates/statements.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 
