@@ -55,10 +55,6 @@ bool is_below(Root t, double time) {
   throw std::invalid_argument("expected primitives that come within the separation");
 }
 
-}  // namespace
-
-namespace {
-
 exact::FirstApproach first_approach(const Query& query) {
   auto approach = exact::first_approach(query);
   if (!approach) refuse();
@@ -86,6 +82,12 @@ Root first_root(const Query& query, const KnownTime& known) {
 /// unless that is 0, and below h at its end.
 KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_certified && time.lo > 0}; }
 
+/// Whether all of an enclosure is on one side of `time`: 1 if t* < time, 0 if t* >= time, -1 if unknown.
+int comparison(const Enclosure& known, double time) {
+  if (!(time > known.lo)) return 0;
+  return time > known.hi ? 1 : -1;
+}
+
 }  // namespace
 
 EarliestTime::EarliestTime(const Query& query, const KnownTimes& known)
@@ -104,16 +106,6 @@ EarliestTime::EarliestTime(const Query& query, const KnownTimes& known)
     rough_ = *time;
   }
 }
-
-namespace {
-
-/// Whether all of an enclosure is on one side of `time`: 1 if t* < time, 0 if t* >= time, -1 if unknown.
-int comparison(const Enclosure& known, double time) {
-  if (!(time > known.lo)) return 0;
-  return time > known.hi ? 1 : -1;
-}
-
-}  // namespace
 
 bool EarliestTime::is_before(double time) {
   const PlainArithmetic guard;

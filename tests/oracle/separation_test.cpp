@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "oracle/distance/moment.hpp"
-#include "oracle/exact/nearness.hpp"
 #include "oracle/distance/wide.hpp"
+#include "oracle/exact/nearness.hpp"
 #include "tests/random_queries.hpp"
 
 namespace nearmiss::certified {
