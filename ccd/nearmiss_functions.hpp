@@ -254,9 +254,13 @@ class Asked {
 template <class Settings>
 Settings owner_of(const Option<Settings>* /*option*/);
 
-/// The function that decides queries of a kind.
-template <class F, int its_kind>
+/// What a function of a detector does: decides queries, gives a distance, or filters a step.
+enum class Role { decide, measure, step };
+
+/// A function of a detector for primitives of a kind.
+template <Role its_role, int its_kind, class F>
 struct Part {
+  static constexpr Role role = its_role;
   static constexpr int kind = its_kind;
   F f;
 };
@@ -268,28 +272,15 @@ template <class F, class... Argument>
 constexpr bool gives_number<F, std::tuple<Argument...>> =
     std::is_invocable_r_v<double, const F&, Argument...>;
 
-/// The function that gives the distance of primitives of a kind.
-template <class F, int its_kind>
-struct Measure {
-  static constexpr int kind = its_kind;
-  F f;
-
-  template <class Front, std::size_t... i>
-  double operator()(const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) const {
-    auto arguments = std::tuple_cat(front, std::tuple(Point(x + 3 * i)...));
-    static_assert(gives_number<F, decltype(arguments)>,
-                  "a function that gives a distance takes the vertices at one time, and returns a number");
-    if constexpr (gives_number<F, decltype(arguments)>) return std::apply(f, arguments);
-    return 0;
-  }
-};
-
-/// The function that filters the steps of primitives of a kind.
-template <class F, int its_kind>
-struct Filter {
-  static constexpr int kind = its_kind;
-  F f;
-};
+/// Calls a function that gives the distance of the primitives with these vertices.
+template <class F, class Front, std::size_t... i>
+double distance_by(const F& f, const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) {
+  auto arguments = std::tuple_cat(front, std::tuple(Point(x + 3 * i)...));
+  static_assert(gives_number<F, decltype(arguments)>,
+                "a function that gives a distance takes the vertices at one time, and returns a number");
+  if constexpr (gives_number<F, decltype(arguments)>) return std::apply(f, arguments);
+  return 0;
+}
 
 /// For a function that returns the square of a distance: the distance.
 template <class F>
@@ -307,57 +298,58 @@ struct Detector {
   nearmiss_subject subject;
   std::tuple<Parts...> parts;
 
-  template <class Added>
-  auto with(Added part) const {
-    return Detector<Settings, Parts..., Added>{subject, std::tuple_cat(parts, std::tuple(part))};
+  template <Role role, int kind, class F>
+  auto with(F f) const {
+    using Added = Part<role, kind, F>;
+    return Detector<Settings, Parts..., Added>{subject, std::tuple_cat(parts, std::tuple(Added{f}))};
   }
   template <class F>
   auto vertex_triangle(F f) const {
-    return with(Part<F, NEARMISS_VERTEX_TRIANGLE>{f});
+    return with<Role::decide, NEARMISS_VERTEX_TRIANGLE>(f);
   }
   template <class F>
   auto edge_edge(F f) const {
-    return with(Part<F, NEARMISS_EDGE_EDGE>{f});
+    return with<Role::decide, NEARMISS_EDGE_EDGE>(f);
   }
   template <class F>
   auto vertex_vertex(F f) const {
-    return with(Part<F, NEARMISS_VERTEX_VERTEX>{f});
+    return with<Role::decide, NEARMISS_VERTEX_VERTEX>(f);
   }
   template <class F>
   auto vertex_edge(F f) const {
-    return with(Part<F, NEARMISS_VERTEX_EDGE>{f});
+    return with<Role::decide, NEARMISS_VERTEX_EDGE>(f);
   }
   template <class F>
   auto vertex_triangle_distance(F f) const {
-    return with(Measure<F, NEARMISS_VERTEX_TRIANGLE>{f});
+    return with<Role::measure, NEARMISS_VERTEX_TRIANGLE>(f);
   }
   template <class F>
   auto edge_edge_distance(F f) const {
-    return with(Measure<F, NEARMISS_EDGE_EDGE>{f});
+    return with<Role::measure, NEARMISS_EDGE_EDGE>(f);
   }
   template <class F>
   auto vertex_vertex_distance(F f) const {
-    return with(Measure<F, NEARMISS_VERTEX_VERTEX>{f});
+    return with<Role::measure, NEARMISS_VERTEX_VERTEX>(f);
   }
   template <class F>
   auto vertex_edge_distance(F f) const {
-    return with(Measure<F, NEARMISS_VERTEX_EDGE>{f});
+    return with<Role::measure, NEARMISS_VERTEX_EDGE>(f);
   }
   template <class F>
   auto vertex_triangle_step(F f) const {
-    return with(Filter<F, NEARMISS_VERTEX_TRIANGLE>{f});
+    return with<Role::step, NEARMISS_VERTEX_TRIANGLE>(f);
   }
   template <class F>
   auto edge_edge_step(F f) const {
-    return with(Filter<F, NEARMISS_EDGE_EDGE>{f});
+    return with<Role::step, NEARMISS_EDGE_EDGE>(f);
   }
   template <class F>
   auto vertex_vertex_step(F f) const {
-    return with(Filter<F, NEARMISS_VERTEX_VERTEX>{f});
+    return with<Role::step, NEARMISS_VERTEX_VERTEX>(f);
   }
   template <class F>
   auto vertex_edge_step(F f) const {
-    return with(Filter<F, NEARMISS_VERTEX_EDGE>{f});
+    return with<Role::step, NEARMISS_VERTEX_EDGE>(f);
   }
 
   /// Sets a field of nearmiss_subject.h.
@@ -404,21 +396,20 @@ struct Detector {
   void for_each_part(const Act& act) const {
     std::apply([&](const auto&... part) { (act(part), ...); }, parts);
   }
+  /// Calls act(part) for the functions with a role for a kind.
+  template <Role role, class Act>
+  void for_parts_of(int kind, const Act& act) const {
+    for_each_part([&](const auto& part) {
+      if constexpr (std::decay_t<decltype(part)>::role == role)
+        if (part.kind == kind) act(part);
+    });
+  }
   /// How the function that decides queries of a kind is asked.
-  template <class F, int kind>
-  static Asked<F, Front, kind> asked(const Part<F, kind>& /*part*/) {
+  template <int kind, class F>
+  static Asked<F, Front, kind> asked(const Part<Role::decide, kind, F>& /*part*/) {
     return {};
   }
 };
-
-template <class>
-constexpr bool decides = false;
-template <class F, int kind>
-constexpr bool decides<Part<F, kind>> = true;
-template <class>
-constexpr bool measures = false;
-template <class F, int kind>
-constexpr bool measures<Measure<F, kind>> = true;
 
 constexpr int from_signatures = -1;  ///< of a field that nobody sets: what the functions' signatures say
 
@@ -445,15 +436,12 @@ const auto& described() {
 template <class Detector>
 void decide_each(const Detector& detector, void* state, int kind, std::size_t n, const double* x,
                  const double* h, int* answer, double* toi) {
-  detector.for_each_part([&](const auto& part) {
-    if constexpr (decides<std::decay_t<decltype(part)>>) {
-      if (part.kind != kind) return;
-      for (std::size_t k = 0; k < n; ++k) {
-        const Answer said = detector.asked(part).ask(part.f, detector.front(state),
-                                                     {kind, x + 6 * vertices_of(kind) * k, h[k]});
-        answer[k] = said.value;
-        toi[k] = said.time;
-      }
+  detector.template for_parts_of<Role::decide>(kind, [&](const auto& part) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const Answer said = detector.asked(part).ask(part.f, detector.front(state),
+                                                   {kind, x + 6 * vertices_of(kind) * k, h[k]});
+      answer[k] = said.value;
+      toi[k] = said.time;
     }
   });
 }
@@ -463,11 +451,9 @@ template <class Described, std::size_t i>
 double distance_of(void* state, int kind, const double* x, double* /*weights*/) {
   const auto& detector = described<Described, i>();
   double distance = std::numeric_limits<double>::quiet_NaN();
-  detector.for_each_part([&](const auto& part) {
-    using Its = std::decay_t<decltype(part)>;
-    if constexpr (measures<Its>)
-      if (Its::kind == kind)
-        distance = part(detector.front(state), x, std::make_index_sequence<vertices_of(Its::kind)>());
+  detector.template for_parts_of<Role::measure>(kind, [&](const auto& part) {
+    constexpr std::size_t n = vertices_of(std::decay_t<decltype(part)>::kind);
+    distance = distance_by(part.f, detector.front(state), x, std::make_index_sequence<n>());
   });
   return distance;
 }
@@ -477,12 +463,9 @@ template <class Described, std::size_t i>
 double step_of(void* state, int kind, const double* x, double* y) {
   const auto& detector = described<Described, i>();
   double clearance = std::numeric_limits<double>::quiet_NaN();
-  detector.for_each_part([&](const auto& part) {
-    using Its = std::decay_t<decltype(part)>;
-    if constexpr (!decides<Its> && !measures<Its>)
-      if (part.kind == kind)
-        clearance =
-            std::apply(part.f, std::tuple_cat(detector.front(state), std::tuple(Question{kind, x, 0}, y)));
+  detector.template for_parts_of<Role::step>(kind, [&](const auto& part) {
+    clearance =
+        std::apply(part.f, std::tuple_cat(detector.front(state), std::tuple(Question{kind, x, 0}, y)));
   });
   return clearance;
 }
@@ -493,14 +476,14 @@ nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
   int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that a function gives
   detector.for_each_part([&](const auto& part) {
-    using Its = std::decay_t<decltype(part)>;
-    if constexpr (decides<Its>) {
+    constexpr Role role = std::decay_t<decltype(part)>::role;
+    if constexpr (role == Role::decide) {
       const auto asked = detector.asked(part);
       subject.kinds |= part.kind;
       sort = std::min(sort, asked.time_sort);
       with_separation |= asked.takes_separation ? part.kind : 0;
     } else {
-      (measures<Its> ? subject.distance_kinds : subject.step_kinds) |= part.kind;
+      (role == Role::measure ? subject.distance_kinds : subject.step_kinds) |= part.kind;
     }
   });
   if (subject.kinds == 0) sort = NEARMISS_NO_TIME;

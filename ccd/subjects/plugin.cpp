@@ -55,59 +55,23 @@ PluginName PluginName::parse(std::string_view name) {
   return parsed;
 }
 
-namespace {
-
-/// A loaded shared object, and one of its detectors.
-struct Opened {
-  std::shared_ptr<PluginLibrary> library = {};  ///< null for the empty detector
-  std::unique_ptr<Detector> detector = {};
-  std::string options = {};
-};
-
-Opened open(std::string_view name) {
-  PluginName parsed = PluginName::parse(name);
-  Opened opened{.library = std::make_shared<PluginLibrary>(parsed.path)};
-  opened.detector = std::make_unique<Detector>(opened.library->subject(parsed.subject), parsed.options);
-  opened.options = std::move(parsed.options);
-  return opened;
+Plugin::Loaded Plugin::load(const PluginName& name) {
+  auto library = std::make_unique<PluginLibrary>(name.path);
+  auto detector = std::make_unique<Detector>(library->subject(name.subject), name.options);
+  return {std::move(library), std::move(detector)};
 }
 
-}  // namespace
+Plugin::Plugin(std::string_view name) : Plugin(load(PluginName::parse(name))) {}
 
-Plugin::Plugin(std::string_view name) : Plugin(open(name)) {}
-
-template <class Opened>
-Plugin::Plugin(Opened opened)
-    : DescribedSubject(opened.detector->info()),
-      library_(std::move(opened.library)),
-      subject_(opened.detector->subject()),
-      options_(std::move(opened.options)) {
-  idle_.push_back(std::move(opened.detector));
-}
-
-const Subject& Plugin::empty() const {
-  static const Plugin plugin(Opened{.detector = std::make_unique<Detector>(Detector::empty().subject(), "")});
-  return plugin;
-}
+Plugin::Plugin(Loaded loaded) : DescribedSubject(loaded.detector->info()), loaded_(std::move(loaded)) {}
 
 template <class Act>
 auto Plugin::ask(const Query& query, const Act& act) const {
-  std::unique_ptr<Detector> detector = {};
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_.empty()) {
-      detector = std::move(idle_.back());
-      idle_.pop_back();
-    }
-  }
-  if (!detector) detector = std::make_unique<Detector>(subject_, options_);
   const Query seen = rounded(query);
   std::array<double, std::tuple_size_v<decltype(Query::x)>> x;
   lay_out(info(), seen, 0, 1, x.data());
-  auto answer = act(*detector, seen, x.data());
   const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(detector));
-  return answer;
+  return act(*loaded_.detector, seen, x.data());
 }
 
 void Plugin::decide(std::span<const Query> queries, std::span<Verdict> verdicts) const {

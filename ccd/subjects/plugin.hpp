@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "ccd/query/query.hpp"
 #include "ccd/subjects/described_subject.hpp"
@@ -36,7 +35,7 @@ struct PluginName {
   static PluginName parse(std::string_view name);
 };
 
-/// A subject that runs a detector of a shared object in this process.
+/// A subject that runs a detector of a shared object in this process, one thread at a time.
 class Plugin final : public DescribedSubject {
  public:
   /// Throws Error.
@@ -48,24 +47,20 @@ class Plugin final : public DescribedSubject {
   [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override;
   [[nodiscard]] StepAnswer ask_step(const Query& query) const override;
 
- protected:
-  [[nodiscard]] const Subject& empty() const override;
-
  private:
-  /// From a shared object and one of its detectors.
-  template <class Opened>
-  explicit Plugin(Opened opened);
+  struct Loaded {
+    std::unique_ptr<PluginLibrary> library;
+    std::unique_ptr<Detector> detector;  ///< one of the library's
+  };
+  static Loaded load(const PluginName& name);
+  explicit Plugin(Loaded loaded);
 
-  /// Returns act(detector, seen, x) for a detector that no other thread uses meanwhile, the query that it
-  /// sees, and that query's coordinates.
+  /// Returns act(detector, seen, x) for the query that the detector sees, and that query's coordinates.
   template <class Act>
   auto ask(const Query& query, const Act& act) const;
 
-  std::shared_ptr<PluginLibrary> library_;  // null for the empty subject
-  const nearmiss_subject& subject_;
-  std::string options_;
+  Loaded loaded_;
   mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Detector>> idle_;
 };
 
 }  // namespace nearmiss

@@ -1,22 +1,16 @@
 // Checks the harness's times with subjects whose run time is known: ns per query of the same arithmetic in a
-// plain loop, in a built-in subject, and in a plug-in, which runs in its own process. Does the same with
-// published CCDs: in a plain loop that calls their shared objects, and in their own processes. Also measures
+// plain loop, in a built-in subject, and in a plug-in, which runs in its own process. Also measures
 // what isolation costs: ns of the wall clock per query of a plug-in that does nothing, for several sizes of
 // batches. A campaign begins with batches of 50 queries, and soon has batches of 800.
 #include <benchmark/benchmark.h>
-#include <dlfcn.h>
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "ccd/nearmiss_subject.h"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "fuzz/subjects/peers.hpp"
 #include "tests/benchmarks/known_time.h"
 #include "tests/benchmarks/measured.hpp"
 
@@ -64,38 +58,6 @@ void time_plain_loop(benchmark::State& state, int steps) {
   }
 }
 
-/// Loads a plug-in, which stays loaded in this process, and returns its subject of this name.
-const nearmiss_subject& load(const std::string& object, const std::string& name) {
-  void* const handle = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) throw std::runtime_error(dlerror());
-  const auto get =
-      reinterpret_cast<const nearmiss_subject* (*)(std::size_t)>(dlsym(handle, "nearmiss_get_subject"));
-  for (std::size_t i = 0;; ++i) {
-    const nearmiss_subject* const subject = get(i);
-    if (subject == nullptr) throw std::runtime_error(object + " has no subject '" + name + "'");
-    if (subject->name == name) return *subject;
-  }
-}
-
-/// Times a subject as a user would call it: the queries are in an array, and one call decides all of them.
-void time_plain_loop(benchmark::State& state, const nearmiss_subject& subject) {
-  using Clock = std::chrono::steady_clock;
-  const std::size_t n = queries().size();
-  std::vector<double> x;
-  for (const Query& query : queries()) x.insert(x.end(), query.x.begin(), query.x.end());
-  const std::vector<double> h(n);
-  std::vector<int> answer(n);
-  std::vector<double> toi(n);
-  std::string message(200, '\0');
-  void* const opened = subject.open == nullptr ? nullptr : subject.open("", message.data(), message.size());
-  for ([[maybe_unused]] const auto each : state) {
-    const auto start = Clock::now();
-    subject.decide(opened, NEARMISS_VERTEX_TRIANGLE, n, x.data(), h.data(), answer.data(), toi.data());
-    set_time_per_query(state, std::chrono::duration<double, std::nano>(Clock::now() - start).count());
-  }
-  if (subject.close != nullptr) subject.close(opened);
-}
-
 /// Times a plug-in by the wall clock, because nearmiss and the plug-in's process also wait for each other.
 void time_isolation(benchmark::State& state, const Subject& plugin, std::size_t batch) {
   using Clock = std::chrono::steady_clock;
@@ -129,21 +91,6 @@ int main(int argc, char** argv) {
   for (const std::size_t batch : {1U, 50U, 800U, 2000U})
     add_measured("isolation/" + std::to_string(batch),
                  [&idle, batch](benchmark::State& state) { time_isolation(state, *idle, batch); });
-  for (const Peer& peer : peers()) {
-    const std::string name(peer.name);
-    const std::string object = NEARMISS_PEER_PLUGINS "/" + std::string(peer.object) + ".so";
-    if (!std::filesystem::exists(object)) continue;
-    add_measured("loop/" + name, [=](benchmark::State& state) {
-      try {
-        time_plain_loop(state, load(object, name));
-      } catch (const std::exception& exception) {  // thrown by the published CCD, or if it cannot be loaded
-        state.SkipWithError(exception.what());
-      }
-    });
-    subjects.push_back(make_isolated_plugin(object + ":" + name));
-    add_measured("plugin/" + name,
-                 [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
-  }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

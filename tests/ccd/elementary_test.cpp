@@ -17,15 +17,15 @@ TEST(Elementary, PowersOfTwoAreExactAtWholeNumbers) {
 }
 
 TEST(Elementary, PowersOfTwoAreWithinTheirError) {
-  for (int i = 0; i < 115'000; ++i) {
-    const double x = -999.3 + 0.0173 * i;
+  for (int i = 0; i < 11'500; ++i) {
+    const double x = -999.3 + 0.173 * i;
     ASSERT_NEAR(exp2_of(x) / std::exp2(x), 1, 0x1p-50) << x;
   }
 }
 
 TEST(Elementary, LogarithmsAreWithinTheirError) {
-  for (int i = 0; i < 80'000; ++i) {
-    const double x = std::exp2(-1060 + 0.026 * i);
+  for (int i = 0; i < 8'000; ++i) {
+    const double x = std::exp2(-1060 + 0.26 * i);
     const double exact = std::log2(x);
     ASSERT_NEAR(log2_of(x), exact, 0x1p-50 * std::max(1.0, std::abs(exact))) << x;
   }

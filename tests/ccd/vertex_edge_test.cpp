@@ -157,7 +157,7 @@ std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
 
 // Algorithm 2's promise, on which VT and EE rely: every vertex that comes within R is reported.
 TEST(VertexEdge, ReportsWhateverComesWithinR) {
-  for (std::uint64_t i = 0; i < 200000; ++i) {
+  for (std::uint64_t i = 0; i < 50000; ++i) {
     Random random(3, 0, i);
     double time = 0;
     const auto pair = pair_at_distance(random, tol.R * 0.999 * (i % 4 == 0 ? random.uniform(0, 1) : 1), time);
@@ -167,7 +167,7 @@ TEST(VertexEdge, ReportsWhateverComesWithinR) {
 
 TEST(VertexEdge, ReportsNothingFartherAwayThanTheBound) {
   int reported = 0;
-  for (std::uint64_t i = 0; i < 200000; ++i) {
+  for (std::uint64_t i = 0; i < 50000; ++i) {
     Random random(4, 0, i);
     double time = 0;
     const auto pair = pair_at_distance(random, random.log_uniform(tol.R, 100 * tol.R), time);
@@ -176,7 +176,7 @@ TEST(VertexEdge, ReportsNothingFartherAwayThanTheBound) {
     ++reported;
     ASSERT_LE(distance_to_edge(pair, verdict.time), tol.distance_bound()) << shown(i, pair);
   }
-  EXPECT_GT(reported, 1000);
+  EXPECT_GT(reported, 250);
 }
 
 }  // namespace

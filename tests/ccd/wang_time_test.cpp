@@ -1,7 +1,9 @@
-// The lower bound of the time that wang-time gives, on queries whose times are known.
+// The lower bounds of the time that wang-time and advance give, on queries whose times are known.
 #include "ccd/wang/wang_time.hpp"
 
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include "ccd/subjects/subject.hpp"
 #include "tests/queries.hpp"
@@ -24,17 +26,41 @@ void expect_just_before(const Query& query, double time) {
   EXPECT_GE(verdict.time, time - 1e-10);
 }
 
-TEST(WangTime, IsJustBeforeContact) {
-  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5);
-  expect_just_before(falling_vertex(0.25, 0.25, 1, 0), 1);
-  expect_just_before(falling_vertex(0, 0, 3, -1), 0.75);
-  expect_just_before(falling_edge(1, -3), 0.25);
+/// The subjects whose times are lower bounds, and by how much these may be early.
+constexpr std::pair<const char*, double> lower_bounds[]{{"advance", 1e-12}, {"wang-time", 1e-10}};
+
+TEST(LowerBounds, AreJustBeforeContact) {
+  for (const auto& [name, early] : lower_bounds)
+    for (const auto& [query, time] : {std::pair(falling_vertex(0.25, 0.25, 1, -1), 0.5),
+                                      {falling_vertex(0.25, 0.25, 1, 0), 1},
+                                      {falling_vertex(0, 0, 3, -1), 0.75},
+                                      {falling_edge(1, -3), 0.25}}) {
+      const Verdict verdict = make_subject(name)->decide(query);
+      EXPECT_TRUE(verdict.hit) << name;
+      EXPECT_LE(verdict.time, time) << name;
+      EXPECT_GE(verdict.time, time - early) << name;
+    }
 }
 
-TEST(WangTime, IsZeroForContactAtTheStart) {
-  EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
-  EXPECT_EQ(decide(falling_edge(0, 1)).time, 0);
-  for (const Kind kind : kinds_of_meshes) EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
+TEST(LowerBounds, AreZeroForContactAtTheStart) {
+  for (const auto& [name, early] : lower_bounds)
+    for (const Query& query : {falling_vertex(0.25, 0.25, 0, 1), falling_edge(0, 1),
+                               Query{.kind = Kind::vertex_triangle}, Query{.kind = Kind::edge_edge}})
+      EXPECT_EQ(make_subject(name)->decide(query).time, 0) << name;
+}
+
+TEST(LowerBounds, DoNotDependOnTheUnitOfLength) {
+  for (const auto& [name, early] : lower_bounds) {
+    const auto subject = make_subject(name);
+    for (const Query& query : {falling_vertex(0.3, 0.1, 0.7, -1.1), falling_edge(0.7, -1.1)}) {
+      const double h = subject->takes_separation(query.kind) ? 0.1 : 0;
+      const double time = subject->decide(with_separation(query, h)).time;
+      EXPECT_GT(time, 0) << name;
+      for (const double factor : {0x1p-1000, 0x1p-90, 0x1p90, 0x1p1020})
+        EXPECT_EQ(subject->decide(with_separation(scaled(query, factor), h * factor)).time, time)
+            << name << factor;
+    }
+  }
 }
 
 TEST(WangTime, IsThatOfAPlaneForMotionInOnePlane) {
@@ -63,15 +89,6 @@ TEST(WangTime, LeavesOutARootThatIsNoContact) {
                                  {{-0.025, 0.5, 0.6875}, o, a, {0, 3, 3}});
   EXPECT_LT((detail::separated_until(make_pair<Kind::vertex_triangle, double>(query))), 0.25);
   expect_just_before(query, 0.75);
-}
-
-TEST(WangTime, DoesNotDependOnTheUnitOfLength) {
-  for (const Query& query : {falling_vertex(0.3, 0.1, 0.7, -1.1), falling_edge(0.7, -1.1)}) {
-    const double time = decide(query).time;
-    EXPECT_GT(time, 0);
-    for (const double factor : {0x1p-1000, 0x1p-90, 0x1p90, 0x1p1020})
-      EXPECT_EQ(decide(scaled(query, factor)).time, time) << factor;
-  }
 }
 
 TEST(WangTime, DoesNotDependOnAGivenBound) {

@@ -16,42 +16,33 @@ class Answer:
     noticed_by: str = ''  # the first test that failed, or ''
     how: str = ''  # 'failed', 'crashed' or 'too slow'
     cpu: float = 0
-    wall: float = 0
     asked: int = 0  # number of tests
     unasked: list = field(default_factory=list)  # tests left out for lack of time
-    unsteady: list = field(default_factory=list)  # tests whose failure was not confirmed
-    spent: dict = field(default_factory=dict)  # seconds of each test without a mutant
 
 
-def batches(steps, folder):
-    """Yields the steps, the quickest first, in batches whose total time doubles. In each batch,
-    the tests of `folder` come first."""
-    batch, size, limit = [], 0, 0.5
-    for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
+def in_order(steps):
+    return sorted(steps, key=lambda each: (each.cpu, each.name))
+
+
+def batches(steps):
+    """Yields lists of steps of one executable: the quickest of all first, then those that take as
+    long together as all before them, and so on."""
+    batch, size, limit = {}, 0, 0.5
+    for step in in_order(steps):
         if batch and size + step.cpu > limit:
-            yield by_group(batch, folder)
-            batch, size, limit = [], 0, 2 * limit
-        batch.append(step)
+            yield from batch.values()
+            batch, size, limit = {}, 0, 2 * limit
+        batch.setdefault(step.group, []).append(step)
         size += step.cpu
-    if batch:
-        yield by_group(batch, folder)
+    yield from batch.values()
 
 
-def by_group(batch, folder):
-    """Divides a batch into lists of steps, one for each executable."""
-    groups = {}
-    for step in batch:
-        groups.setdefault(step.group, []).append(step)
-    order = sorted(groups, key=lambda each: (each != folder, sum(s.cpu for s in groups[each])))
-    return [groups[each] for each in order]
-
-
-def affordable(steps, budget):
-    """The quickest steps that together fit a budget in seconds, and the names of the others."""
+def affordable(steps):
+    """The quickest steps that together fit the budget, and the names of the others."""
     kept, left, total = [], [], 0
-    for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
+    for step in in_order(steps):
         total += step.cpu
-        if total <= budget:
+        if total <= BUDGET:
             kept.append(step)
         else:
             left.append(step.name)
@@ -60,56 +51,39 @@ def affordable(steps, budget):
 
 def culprit(group, ended):
     """The name of the failed test, and how it failed."""
-    how = (
-        'too slow'
-        if ended.late or ended.code in KILLED
-        else 'failed'
-        if ended.code == 1
-        else 'crashed'
-    )
+    how = 'failed' if ended.code == 1 else 'crashed'
+    if ended.late or ended.code in KILLED:
+        how = 'too slow'
     failed = re.search(r'\[  FAILED  \] ([\w./]+)', ended.output)
     begun = re.findall(r'\[ RUN      \] (\S+)', ended.output)
     return failed[1] if failed else begun[-1] if begun else '', how
 
 
-def run_steps(number, group):
-    """Runs steps of one executable with a mutant, with limits far above their times without it."""
+def run_steps(group):
+    """Runs steps of one executable, with limits far above their times without a mutant."""
     return run_tests(
         group[0].group,
         [step.test for step in group],
-        {'NEARMISS_MUTANT': str(number)},
         seconds=30 + 10 * sum(step.wall for step in group),
         cpu=4 + 4 * sum(step.cpu for step in group),
     )
 
 
-def is_confirmed(number, step):
-    """Whether a failed test fails again with the mutant, and passes without it. The first
-    failure may be due to a busy machine."""
-    again = run_steps(number, [step])
-    without = run_steps(0, [step]) if number else None
-    return again.code != 0 and (without is None or without.code == 0)
-
-
-def ask(number, steps, folder, answer):
-    """Runs the tests with the mutant of this number, or with the built-in mutant if the number
-    is 0, and adds the result to `answer`."""
-    kept, left = affordable(steps, BUDGET)
+def ask(steps, answer):
+    """Runs the tests with the built mutant, and adds the result to `answer`. A failed test runs
+    again, because the first failure may be due to a busy machine."""
+    kept, left = affordable(steps)
     answer.unasked += left
-    for batch in batches(kept, folder):
-        for group in batch:
-            while group:
-                ended = run_steps(number, group)
-                answer.cpu += ended.cpu
-                answer.wall += ended.wall
-                answer.asked += len(group)
-                answer.spent.update({step.name: step.cpu for step in group})
-                if ended.code == 0:
-                    break
-                test, how = culprit(group[0].group, ended)
-                failed = next((step for step in group if step.test == test), group[0])
-                if how != 'failed' or is_confirmed(number, failed):
-                    answer.noticed_by, answer.how = failed.name, how
-                    return
-                answer.unsteady.append(failed.name)
-                group = [step for step in group if step is not failed]
+    for group in batches(kept):
+        while group:
+            ended = run_steps(group)
+            answer.cpu += ended.cpu
+            answer.asked += len(group)
+            if ended.code == 0:
+                break
+            test, how = culprit(group[0].group, ended)
+            failed = next((step for step in group if step.test == test), group[0])
+            if how != 'failed' or run_steps([failed]).code != 0:
+                answer.noticed_by, answer.how = failed.name, how
+                return
+            group = [step for step in group if step is not failed]

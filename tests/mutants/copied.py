@@ -1,13 +1,11 @@
-"""The copy of the tree that contains the mutants. The copy has its own C++ files and headers; all
+"""The copy of the tree that contains a mutant. The copy has its own C++ files and headers; all
 other files are links."""
 
 import os
-from pathlib import Path
 
 from processes import run
 from sources import FOLDERS, ROOT, WORK, read
 
-HERE = Path(__file__).resolve().parent
 COPY = WORK / 'tree'
 BUILD = WORK / 'build'
 
@@ -18,7 +16,7 @@ def has_code(folder):
 
 def write(path, text):
     """Writes a file if its text has changed, so that unchanged files are not compiled again."""
-    data = text.encode('latin-1')
+    data = text.encode()
     if path.is_symlink() or not path.exists() or path.read_bytes() != data:
         path.unlink(missing_ok=True)
         path.write_bytes(data)
@@ -31,9 +29,9 @@ def link(target, path):
     path.symlink_to(target)
 
 
-def mirror(source, target, text_of):
-    """Copies a folder. C++ files and headers get the text that `text_of` gives, and all other
-    files become links. Removes everything else from the copy."""
+def mirror(source, target, mutation):
+    """Copies a folder. C++ files and headers become files, one of them with the mutant, and all
+    other files become links. Removes everything else from the copy."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -41,9 +39,12 @@ def mirror(source, target, text_of):
             remove(entry)
     for entry in source.iterdir():
         if entry.is_dir() and has_code(entry):
-            mirror(entry, target / entry.name, text_of)
+            mirror(entry, target / entry.name, mutation)
         elif entry.suffix in ('.cpp', '.hpp', '.h'):
-            write(target / entry.name, text_of(str(entry.relative_to(ROOT))))
+            is_mutated = mutation is not None and entry == ROOT / mutation.file
+            write(
+                target / entry.name, mutation.applied(read(entry)) if is_mutated else read(entry)
+            )
         else:
             link(entry, target / entry.name)
 
@@ -58,31 +59,26 @@ def remove(path):
     path.rmdir()
 
 
-def text_of_copy(name):
-    """The text of a file in the copy, or in the tree if the copy does not have the file."""
-    return read(COPY / name) if (COPY / name).exists() else read(ROOT / name)
-
-
-def make_copy(text_of):
-    """Makes the copy. `text_of` gives the text of a C++ file by its name."""
+def make_copy(mutation=None):
+    """Makes the copy, with a mutant if it is given."""
     COPY.mkdir(parents=True, exist_ok=True)
     for entry in ROOT.iterdir():
         if entry.name in FOLDERS:
-            mirror(entry, COPY / entry.name, text_of)
+            mirror(entry, COPY / entry.name, mutation)
         elif entry.name not in ('.git', 'build'):
             link(entry, COPY / entry.name)
 
 
 def configure():
-    """Configures the build of the copy, with the product's semantics and less optimisation. Must
-    run again when files appear or disappear."""
+    """Configures the build of the copy, with the product's semantics and less optimisation."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'NEARMISS_COMPONENTS': 'ccd;oracle;trial;tools;python;tests',
         'CMAKE_CXX_COMPILER': 'g++',
-        'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS',
-        'NEARMISS_MUTANTS': HERE,
-        'CMAKE_PROJECT_nearmiss_INCLUDE': HERE / 'copy/CMakeLists.txt',
+        # Mutants cause many warnings.
+        'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w',
+        # The edits that make defective subjects do not fit headers that contain a mutant.
+        'nearmiss_unedited': ROOT,
     }
     words = [f'-D{name}={value}' for name, value in options.items()]
     ended = run(['cmake', '-S', COPY, '-B', BUILD, '-G', 'Ninja', *words], cwd=COPY)
@@ -90,8 +86,8 @@ def configure():
         raise SystemExit(f'cmake failed:\n{ended.output}')
 
 
-def ninja(targets, jobs, say=None):
+def ninja(targets, jobs):
     """Builds as many of the targets as possible. Does not use a compiler cache, which is slower
     with precompiled headers than the compiler itself."""
     words = ['ninja', '-C', BUILD, f'-j{jobs}', '-k', '0', *targets]
-    return run(words, cwd=COPY, env={'CCACHE_DISABLE': '1'}, seconds=24 * 3600, say=say)
+    return run(words, cwd=COPY, env={'CCACHE_DISABLE': '1'}, seconds=24 * 3600)

@@ -1,62 +1,87 @@
 """Draws mutants by a seed, evenly over folders and over operators.
 
-The order depends only on each mutant's own text, so that a change elsewhere does not change a
-draw."""
+The operators are substitutions in lines that clang-format has laid out: it puts blanks around binary operators, and
+none around the brackets of templates. The order of the draw depends only on each mutant's own text, so that a change
+elsewhere does not change a draw."""
 
-import inspect
-import multiprocessing
-import pickle
-import signal
+import re
+from collections import Counter
+from dataclasses import replace
 from itertools import zip_longest
 
-import syntax
-from processes import Stopped, stopping
-from sites import mutants_of
-from sources import ROOT, WORK, cpp_files, read, sha
+import equivalents
+from mutation import Mutation
+from sources import ROOT, cpp_files, read, sha
 
-CACHE = WORK / 'trees'
+# Each row: the operator's name, what it finds, and what takes its place. One mutant changes one place.
+SUBSTITUTIONS = [
+    ('strictness', r'(?<!template) (<|>) ', r' \1= '),
+    ('strictness', r' (<|>)= ', r' \1 '),
+    ('sign', r' \+(=?) ', r' -\1 '),
+    ('sign', r' -(=?) ', r' +\1 '),
+    ('sign', r'(?<=[(,=?:] )-(?=[\w(])|(?<=[(\[{])-(?=[\w(])', ''),
+    ('equality', r' == ', ' != '),
+    ('equality', r' != ', ' == '),
+    (
+        'dropped term',
+        r' (?:[-+*/]|&&|\|\|) [\w.]+(?:\([^()]*\)|\[[^][]*\])?(?=[;),]| (?:[-+*/]|&&|\|\|) )',
+        '',
+    ),
+    ('dropped term', r'(?<=[( ])[\w.]+(?:\([^()]*\)|\[[^][]*\])? (?:[+*]|&&|\|\|) ', ''),
+    ('index', r'(?<=\w)\[([a-z]\w*)\]', r'[\1 + 1]'),
+    ('index', r'(?<=[\[( ])0(?=[\]); ,])', '1'),
+    ('index', r'(?<=[\[( ])1(?=[\]); ,])', '0'),
+    ('index', r'(?<=[\[( ])([23])(?=[\]); ,])', r'(\1 - 1)'),
+    ('constant', r'(?<=[( ])((?:\d+\.\d+|\d{2,}|[4-9])(?:e-?\d+)?)(?=[); ,])', r'(2 * \1)'),
+    ('constant', r'(?<=[( ])(\d+\.\d+(?:e-?\d+)?)(?=[); ,])', r'(\1 / 2)'),
+    (
+        'statement left out',
+        r'^(\s+)(?!return|using)[\w.>\[\]-]+(?:\(.*\)| [-+*/|&]?= .*);$',
+        r'\1;',
+    ),
+    ('statement left out', r'(?<=\) )(?:continue|break);$', ';'),
+    ('swapped arguments', r'(?<![:<])([({])([\w.]+), ([\w.]+)(?=[,)}])', r'\1\3, \2'),
+    ('negated condition', r'\bif \(([^;]*)\)(?= \w| \{|$)', r'if (!(\1))'),
+    ('negated condition', r'(?<=[( ])!(?=[\w(])', ''),
+    ('min for max', r'\b(std::)?min\(', r'\1max('),
+    ('min for max', r'\b(std::)?max\(', r'\1min('),
+    ('min for max', r'\blower_bound\(', 'upper_bound('),
+    ('min for max', r'\bupper_bound\(', 'lower_bound('),
+]
+# Lines whose changes no test can notice, or that only the compiler reads.
+LEFT_ALONE = re.compile(
+    r'\s*(#|//|/?\*|static_assert|template|using |throw |namespace )|.*\bError\('
+)
+# Text in quotes, and a comment to the end of the line, in which no operator looks.
+NO_CODE = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])+\'(?!\d)|//.*')
 
 
-def kept_tree(name):
-    """The path that keeps a file's syntax tree. It depends on the file's text."""
-    return CACHE / sha(name, read(ROOT / name), inspect.getsource(syntax.Node))
+def changed(line):
+    """Yields (operator, line with one change)."""
+    if LEFT_ALONE.match(line):
+        return
+    hidden = NO_CODE.sub(lambda found: '\0' * len(found[0]), line)
+    code = hidden.rstrip('\0 ')
+    for operator, pattern, replacement in SUBSTITUTIONS:
+        for found in re.finditer(pattern, code):
+            if '\0' not in found[0]:
+                new = line[: found.start()] + found.expand(replacement) + line[found.end() :]
+                if new != line:
+                    yield operator, new
 
 
-def sites_of(task):
-    """The mutants of some files, which are parsed in a compiled file that includes all of them."""
-    unit, arguments, names = task
-    missing = [name for name in names if not kept_tree(name).exists()]
-    if missing:
-        CACHE.mkdir(parents=True, exist_ok=True)
-        trees = syntax.parse(ROOT / unit, arguments, [ROOT / name for name in missing])
-        for name, tree in zip(missing, trees):
-            kept_tree(name).write_bytes(pickle.dumps(tree))
-    trees = [pickle.loads(kept_tree(name).read_bytes()) for name in names]
-    return [
-        m for name, tree in zip(names, trees) for m in mutants_of(name, read(ROOT / name), tree)
-    ]
-
-
-def end_on_signals():
-    """Ignores SIGINT in a process of the pool, because the first process ends the others."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-
-
-def all_sites(compiled, copy, folders, jobs):
-    """The mutants of all compiled files in folders."""
-    names = {}
-    for name in cpp_files(folders):
-        for unit in compiled.units(name)[:1]:
-            names.setdefault(unit, []).append(name)
-    tasks = [(unit, compiled.arguments(unit, copy), names[unit]) for unit in names]
-    with multiprocessing.Pool(jobs, end_on_signals) as pool:
-        found = pool.map_async(sites_of, tasks, chunksize=1)
-        while not found.ready():
-            found.wait(0.2)
-            if stopping.is_set():
-                raise Stopped
-        return [mutation for each in found.get() for mutation in each]
+def mutants_of(file, text):
+    """The mutants of a file, each once, in the order of its lines."""
+    found, count = [], Counter()
+    for number, line in enumerate(text.split('\n'), 1):
+        operators = {}  # of each changed line, the first one that makes it
+        for operator, new in changed(line):
+            operators.setdefault(new, operator)
+        for new, operator in operators.items():
+            mutation = Mutation(file, operator, number, line, new)
+            found.append(replace(mutation, nth=count[mutation.identity]))
+            count[mutation.identity] += 1
+    return found
 
 
 def in_turn(lists):
@@ -64,32 +89,22 @@ def in_turn(lists):
     return [each for row in zip_longest(*lists) for each in row if each is not None]
 
 
-class Lines:
-    """The lines that already have a mutant. A line gets at most one."""
-
-    def __init__(self):
-        self.taken = set()
-
-    def take(self, mutation):
-        lines = {(mutation.file, line) for line in range(mutation.line, mutation.last_line + 1)}
-        if lines & self.taken:
-            return False
-        self.taken |= lines
-        return True
+def chosen(mutations, seed, count):
+    """Up to `count` mutants, from each operator in turn, and at most one of each line."""
+    by_operator = {}
+    for each in sorted(mutations, key=lambda each: sha(str(seed), each.identity)):
+        by_operator.setdefault(each.operator, []).append(each)
+    by_line = {}
+    for each in in_turn(by_operator.values()):
+        by_line.setdefault(each.where, each)
+    return list(by_line.values())[:count]
 
 
-def draw(mutations, folders, seed, count):
-    """Up to `count` mutants of each folder, from each operator in turn."""
-    chosen = []
+def draw(folders, seed, count):
+    """The same number of mutants of each folder, `count` in all or a few more."""
+    known = equivalents.listed()
+    drawn = []
     for folder in folders:
-        by_operator = {}
-        for each in mutations:
-            if each.file.split('/')[0] == folder:
-                by_operator.setdefault(each.operator, []).append(each)
-        for operator in by_operator:
-            by_operator[operator].sort(key=lambda each: sha(str(seed), each.identity))
-        order = sorted(by_operator, key=lambda each: sha(str(seed), folder, each))
-        lines = Lines()
-        turns = in_turn([by_operator[operator] for operator in order])
-        chosen.append([each for each in turns if lines.take(each)][:count])
-    return in_turn(chosen)
+        found = [m for file in cpp_files([folder]) for m in mutants_of(file, read(ROOT / file))]
+        drawn.append(chosen(found, seed, -(-count // len(folders))))
+    return [replace(each, reason=equivalents.reason_of(known, each)) for each in in_turn(drawn)]

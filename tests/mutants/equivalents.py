@@ -42,8 +42,8 @@ def complaints(found, root=ROOT):
 
 
 def reason_of(found, mutation):
-    """The reason why a mutant is equivalent, if it is in the list."""
-    return found.get((mutation.file, mutation.before, mutation.after))
+    """The reason why a mutant is equivalent; '' if it is not in the list."""
+    return found.get((mutation.file, mutation.before, mutation.after), '')
 
 
 def listed():

@@ -1,37 +1,26 @@
-"""A mutant: one small change of a file's text, with the context that decides how it can be
-switched on."""
+"""A mutant: one small change of a line of code."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from sources import sha, shown
 
 
 @dataclass(frozen=True)
-class Edit:
-    """An edit that replaces text[start:end]."""
-
-    start: int
-    end: int
-    text: str
-
-
-@dataclass(frozen=True)
 class Mutation:
+    """Replaces line number `line` of a file, `old`, by `new`. `nth` distinguishes equal lines."""
+
     file: str
     operator: str
-    edits: tuple  # the edits of one mutant, in order
-    form: str  # what the edits change: 'expression', 'condition' or 'statement'
-    at_compile_time: bool  # whether the change is in a constexpr function
-    constants: tuple = ()  # edits that make constexpr variables depend on the switch
-    line: int = 0
-    last_line: int = 0
-    before: str = ''  # the changed lines before the edits, and after
-    after: str = ''
-    nth: int = 0  # distinguishes equal changes of equal lines
+    line: int
+    old: str
+    new: str
+    nth: int = 0
+    reason: str = ''  # why it changes no answer, if equivalent.txt says so
 
     @property
     def identity(self):
-        return '|'.join([self.file, self.operator, self.before, self.after, str(self.nth)])
+        """Does not depend on the other lines of the file."""
+        return '|'.join([self.file, self.operator, self.old, self.new, str(self.nth)])
 
     @property
     def name(self):
@@ -41,46 +30,16 @@ class Mutation:
     def where(self):
         return f'{self.file}:{self.line}'
 
-    def lines(self, text):
-        """The lines that a compiler may name in an error about this mutant."""
-        own = set(range(self.line, self.last_line + 1))
-        return own | {line_of(text, edit.start) for edit in self.constants}
+    @property
+    def before(self):
+        return shown(self.old)
 
+    @property
+    def after(self):
+        return shown(self.new)
 
-def from_dict(values):
-    def edits(each):
-        return tuple(Edit(**edit) for edit in each)
-
-    return Mutation(
-        **{**values, 'edits': edits(values['edits']), 'constants': edits(values['constants'])}
-    )
-
-
-def to_dict(mutation):
-    return asdict(mutation)
-
-
-def line_of(text, offset):
-    return text.count('\n', 0, offset) + 1
-
-
-def applied(text, edits):
-    """Applies edits that do not overlap to a text."""
-    for edit in sorted(edits, key=lambda each: each.start, reverse=True):
-        text = text[: edit.start] + edit.text + text[edit.end :]
-    return text
-
-
-def placed(text, mutation):
-    """The mutation with `before` and `after`, the lines that it changes."""
-    first = text.rfind('\n', 0, mutation.edits[0].start) + 1
-    last = text.find('\n', mutation.edits[-1].end)
-    last = len(text) if last < 0 else last
-    edits = [Edit(e.start - first, e.end - first, e.text) for e in mutation.edits]
-    lines = text[first:last]
-    values = to_dict(mutation)
-    values['line'] = line_of(text, mutation.edits[0].start)
-    values['last_line'] = line_of(text, mutation.edits[-1].end)
-    values['before'] = shown(lines)
-    values['after'] = shown(applied(lines, edits))
-    return from_dict(values)
+    def applied(self, text):
+        """The text of the file with the mutant."""
+        lines = text.split('\n')
+        lines[self.line - 1] = self.new
+        return '\n'.join(lines)

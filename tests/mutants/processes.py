@@ -1,7 +1,6 @@
 """Runs commands, which the user can stop."""
 
 import os
-import re
 import signal
 import subprocess
 import tempfile
@@ -40,17 +39,10 @@ def kill(process):
         pass
 
 
-def latest_step(output):
-    """The latest progress in the output of a build, such as [12/250]."""
-    size = os.fstat(output.fileno()).st_size
-    end = os.pread(output.fileno(), 4096, max(0, size - 4096)).decode('utf-8', 'replace')
-    return (re.findall(r'^\[\d+/\d+\]', end, re.MULTILINE) or [''])[-1]
-
-
-def wait(process, seconds, progress=lambda: None):
+def wait(process, seconds):
     """Waits for a process to end. Returns whether it exceeded its time, its exit code, and the
     resources that it used."""
-    begin = shown = time.monotonic()
+    begin = time.monotonic()
     late, pause = False, 0.002
     while True:
         ended, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -62,9 +54,6 @@ def wait(process, seconds, progress=lambda: None):
             kill(process)
         if stopping.is_set():
             kill(process)
-        if time.monotonic() - shown > 30:
-            shown = time.monotonic()
-            progress()
         time.sleep(pause)
         pause = min(2 * pause, 0.1)
 
@@ -86,21 +75,11 @@ def seal():
     128 plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
-    return [
-        'unshare',
-        *user,
-        '--pid',
-        '--fork',
-        '--kill-child',
-        '--mount-proc',
-        'sh',
-        '-c',
-        '"$@"; exit $?',
-        'sh',
-    ]
+    shell = ['sh', '-c', '"$@"; exit $?', 'sh']
+    return ['unshare', *user, '--pid', '--fork', '--kill-child', '--mount-proc', *shell]
 
 
-def run(command, cwd, env=None, seconds=3600, before=(), say=None):
+def run(command, cwd, env=None, seconds=3600, before=()):
     """Runs a command in its own process group. `before` are words from `seal` and `limits`."""
     if stopping.is_set():
         raise Stopped
@@ -115,7 +94,7 @@ def run(command, cwd, env=None, seconds=3600, before=(), say=None):
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
-        late, code, usage = wait(process, seconds, lambda: say and say(latest_step(output)))
+        late, code, usage = wait(process, seconds)
         if stopping.is_set():
             raise Stopped
         output.seek(0)

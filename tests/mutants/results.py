@@ -2,7 +2,6 @@
 
 import json
 import os
-import threading
 
 from sources import FOLDERS, WORK, fingerprint
 
@@ -20,7 +19,6 @@ class Results:
         self.product = fingerprint([*FOLDERS, 'tools'], CODE)
         self.tests = fingerprint(['tests', 'corpus/cases'], CODE | TEST_DATA)
         self.kept = json.loads(file.read_text()) if file.exists() else {}
-        self.lock = threading.Lock()
 
     def get(self, mutation):
         """The result of a mutant, or None if there is no valid one."""
@@ -32,8 +30,7 @@ class Results:
         return result
 
     def put(self, mutation, values):
-        with self.lock:
-            self.kept[mutation.name] = {**values, 'product': self.product, 'tests': self.tests}
-            fresh = self.file.with_suffix('.new')
-            fresh.write_text(json.dumps(self.kept, indent=1))
-            os.replace(fresh, self.file)
+        self.kept[mutation.name] = {**values, 'product': self.product, 'tests': self.tests}
+        fresh = self.file.with_suffix('.new')
+        fresh.write_text(json.dumps(self.kept, indent=1))
+        os.replace(fresh, self.file)

@@ -1,4 +1,4 @@
-"""The tests as steps. Each has its time without a mutant, and the mutants that it reaches."""
+"""The tests as steps. Each has its time without a mutant."""
 
 import hashlib
 import json
@@ -16,7 +16,6 @@ BASELINE = WORK / 'baseline.json'
 EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
 MOST_SECONDS = 150  # tests that take longer without an active mutant are left out
 MEMORY = 6 << 30  # bytes of address space for each process
-MARKS = 4096  # size in bytes of the file of marks, as in switch.hpp
 
 
 @dataclass
@@ -28,7 +27,6 @@ class Step:
     cpu: float = 0
     wall: float = 0
     fine: bool = True
-    reached: tuple = ()
 
     @property
     def name(self):
@@ -49,7 +47,7 @@ def commands():
     }
 
 
-def run_tests(group, tests, env, seconds, cpu=None):
+def run_tests(group, tests, seconds, cpu=None):
     """Runs tests of a group until one fails. They cannot affect other processes, and their files
     are removed afterwards."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
@@ -59,8 +57,7 @@ def run_tests(group, tests, env, seconds, cpu=None):
             flags = Path(folder) / 'flags'
             flags.write_text(f'--gtest_filter={":".join(tests)}\n')
             words = [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={flags}']
-        env = {**env, 'TMPDIR': folder}
-        return run(words, BUILD, env, seconds, before=seal() + limits(cpu, MEMORY))
+        return run(words, BUILD, {'TMPDIR': folder}, seconds, before=seal() + limits(cpu, MEMORY))
 
 
 def tests_of(group):
@@ -78,9 +75,7 @@ def tests_of(group):
 
 def steps_of(group):
     """The steps of a group."""
-    if group in EXECUTABLES:
-        return [Step(group, test) for test in tests_of(group)]
-    return [Step(group, '')]
+    return [Step(group, test) for test in (tests_of(group) if group in EXECUTABLES else [''])]
 
 
 def all_steps():
@@ -88,16 +83,10 @@ def all_steps():
 
 
 def measured(step):
-    """The step with its time without a mutant, the mutants it reaches, and whether it passes."""
-    with tempfile.NamedTemporaryFile(dir=WORK) as marks:
-        marks.write(bytes(MARKS))
-        marks.flush()
-        env = {'NEARMISS_MUTANTS_REACHED': marks.name}
-        ended = run_tests(step.group, [step.test], env, MOST_SECONDS)
-        marks.seek(0)
-        reached = tuple(number for number, byte in enumerate(marks.read()) if byte)
+    """The step with its time without a mutant, and whether it passes."""
+    ended = run_tests(step.group, [step.test], MOST_SECONDS)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
-    step.fine, step.reached = ended.code == 0 and not ended.late, reached
+    step.fine = ended.code == 0 and not ended.late
     return step
 
 
@@ -125,7 +114,7 @@ def baseline(steps, jobs, say):
             if count % 50 == 0 or step.cpu > 5 or count == len(todo):
                 say(f'without a mutant: {count} of {len(todo)} tests')
                 BASELINE.write_text(json.dumps({'built': built, 'steps': known}))
-    found = [Step(**{**known[s.name], 'reached': tuple(known[s.name]['reached'])}) for s in steps]
+    found = [Step(**known[step.name]) for step in steps]
     for step in found:
         if not step.fine:
             say(f'left out, because it fails or takes too long without a mutant: {step.name}')

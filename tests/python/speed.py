@@ -1,9 +1,7 @@
-"""Measures how much time each interface adds to the harness's own call, in ns of processor time per query.
+"""Measures how much time the Python package adds to the C functions, in ns of processor time per query.
 
-The Python package and the C function are called on the same memory, for a million queries of the uniform
-family. All take turns. Prints medians of 15 runs, and their ratios to the harness. Two
-measurements are compared with the C function instead: times of impact, which the harness asks one
-by one, and float32, which it does not take.
+Both are called on the same memory, for a million queries of the uniform family, and take turns.
+Prints medians of 15 runs, and their ratios.
 Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 
@@ -19,10 +17,7 @@ import nearmiss
 
 COUNT, RUNS = 10**6, 15
 
-build = pathlib.Path(sys.argv[1])
-library = ctypes.CDLL(build / 'oracle/libnearmiss.so')
-harness = ctypes.CDLL(build / 'tests/benchmarks/libharness.so')
-harness.harness_new.restype = ctypes.c_void_p
+library = ctypes.CDLL(pathlib.Path(sys.argv[1]) / 'oracle/libnearmiss.so')
 
 
 class Queries(ctypes.Structure):
@@ -61,58 +56,32 @@ def duration(call):
     return 1e9 * (time.process_time() - start)
 
 
-def compare(name, count, reference, **calls):
-    """Prints the time of each call, and its ratio to that of the reference."""
-    every = [reference, *calls.values()]
-    times = [[duration(call) for call in every] for _ in range(RUNS)]
-    base, *others = (statistics.median(each) / count for each in zip(*times))
-    columns = [f'{each:8.1f} {each / base:6.3f}' for each in others]
-    columns = dict(zip(calls, columns))
-    print(f'{name:28} {base:9.1f}   {columns.get("c", ""):15}   {columns["python"]}', flush=True)
+def compare(name, count, ask_c, ask_python):
+    """Prints the time of both calls, and its ratio."""
+    times = [[duration(call) for call in (ask_c, ask_python)] for _ in range(RUNS)]
+    in_c, in_python = (statistics.median(each) / count for each in zip(*times))
+    print(f'{name:28} {in_c:9.1f} {in_python:9.1f} {in_python / in_c:6.3f}', flush=True)
 
 
-def measure_answers(kind, number, array):
+def measure(name, kind, number, array, *rest, numbers=1, dtype=np.int8):
+    """Compares a function that gives so many numbers for each query. `rest` is what it gets in C
+    before the places for them, or behind these."""
     asked = queries_of(number, array)
-
-    for name, subject, rest in (('collides', b'exact-decision', [None]), ('wang', b'wang', [])):
-        in_c, in_python = getattr(library, f'nearmiss_{name}'), getattr(nearmiss, name)
-
-        def ask_c():
-            in_c(ctypes.byref(asked), pointer(np.empty(len(array), np.int8)), *rest)
-
-        def ask_python():
-            in_python(kind, array)
-
-        of = f'{name}, {kind}, {array.dtype}'
-        if array.dtype != float:
-            compare(of, len(array), ask_c, python=ask_python)
-            continue
-        handle = ctypes.c_void_p(
-            harness.harness_new(subject, number, pointer(array), ctypes.c_size_t(len(array)))
-        )
-        compare(of, len(array), lambda: harness.harness_decide(handle), c=ask_c, python=ask_python)
-        harness.harness_delete(handle)
-
-
-def measure_times(kind, number, array):
-    asked = queries_of(number, array)
+    before, behind = rest or ([], [])
 
     def ask_c():
-        lo, hi = np.empty(len(array)), np.empty(len(array))
-        library.nearmiss_earliest_time(
-            ctypes.byref(asked), ctypes.c_double(0), pointer(lo), pointer(hi)
-        )
+        to = [pointer(np.empty(len(array), dtype)) for _ in range(numbers)]
+        getattr(library, f'nearmiss_{name}')(ctypes.byref(asked), *before, *to, *behind)
 
-    compare(
-        f'earliest_time, {kind}, {array.dtype}', len(array), ask_c,
-        python=lambda: nearmiss.earliest_time(kind, array),
-    )  # fmt: skip
+    of = f'{name}, {kind}, {array.dtype}'
+    compare(of, len(array), ask_c, lambda: getattr(nearmiss, name)(kind, array))
 
 
-print(f'{"ns per query":28} reference   C       ratio     Python  ratio')
+print(f'{"ns per query":28} {"C":>9} {"Python":>9}  ratio')
 for kind, number in (('vt', 1), ('ee', 2)):
     x, _ = nearmiss.queries('uniform', kind, COUNT)
-    single = x.astype(np.float32)
-    measure_answers(kind, number, x)
-    measure_answers(kind, number, single)
-    measure_times(kind, number, x[: COUNT // 20])  # times take longer than answers
+    for array in (x, x.astype(np.float32)):
+        measure('collides', kind, number, array, [], [None])
+        measure('wang', kind, number, array)
+    few = x[: COUNT // 20]  # times take longer than answers
+    measure('earliest_time', kind, number, few, [ctypes.c_double(0)], [], numbers=2, dtype=float)

@@ -19,27 +19,17 @@ class Types(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             run = subprocess.run(
                 [sys.executable, '-m', *command], cwd=folder, capture_output=True, text=True,
-                env=os.environ | {'MYPYPATH': FOLDER, 'PYTHONPATH': FOLDER},
+                env=os.environ | {'MYPYPATH': f'{FOLDER}:{USER.parent}', 'PYTHONPATH': FOLDER},
             )  # fmt: skip
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
 
-    def test_of_a_program_that_uses_the_package(self):
-        self.check('mypy', '--strict', USER)
-
-    def test_of_the_package(self):
-        self.check('mypy', '--strict', '-p', 'nearmiss')
+    def test_of_the_package_and_of_a_program_that_uses_it(self):
+        self.check('mypy', '--strict', '-p', 'nearmiss', '-m', USER.stem)
 
     def test_of_stubs_are_those_of_the_modules(self):
         self.check(
             'mypy.stubtest', 'nearmiss', '--allowlist', USER.with_name('stubtest.allowlist')
         )
-
-    def test_are_noticed_if_they_are_wrong(self):
-        with tempfile.TemporaryDirectory() as folder:
-            wrong = pathlib.Path(folder) / 'wrong.py'
-            wrong.write_text(USER.read_text() + "nearmiss.wang('tt', x)\n")
-            with self.assertRaisesRegex(AssertionError, 'Argument 1 to "wang"'):
-                self.check('mypy', '--strict', wrong)
 
 
 if __name__ == '__main__':

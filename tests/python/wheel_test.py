@@ -41,7 +41,8 @@ class Wheel(unittest.TestCase):
                 sys.executable, *pip, 'wheel', *options, '--no-build-isolation', '-w', folder, str(PACKAGE)
             )  # fmt: skip
             (wheel,) = pathlib.Path(folder).glob('nearmiss-*.whl')
-            run(sys.executable, '-m', 'venv', '--system-site-packages', f'{folder}/venv')
+            without = ('--without-pip', '--system-site-packages')  # which have a pip
+            run(sys.executable, '-m', 'venv', *without, f'{folder}/venv')
             python = f'{folder}/venv/bin/python'
             run(python, *pip, 'install', *options, str(wheel))
             run(python, '-c', USE % folder)

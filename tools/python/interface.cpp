@@ -152,7 +152,7 @@ void check(int status, const Queries& queries, const IsAnswered& is_answered) {
 auto has_answer(const std::int8_t* answers) {
   return [answers](std::size_t q) { return answers[q] != NEARMISS_NO_ANSWER; };
 }
-auto has_number(const double* numbers) {
+auto has_answer(const double* numbers) {
   return [numbers](std::size_t q) { return !std::isnan(numbers[q]); };
 }
 
@@ -169,22 +169,15 @@ py::tuple collides(const Queries& queries) {
   return py::make_tuple(answers, decided_by);
 }
 
-py::array wang(const Queries& queries) {
-  auto answers = one_for_each<std::int8_t>(queries);
+/// Calls a function of the C interface that gives one answer, a T, for each query.
+template <class T, int (*function)(const nearmiss_queries*, T*)>
+py::array answers(const Queries& queries) {
+  auto answers = one_for_each<T>(queries);
   auto* const to = answers.mutable_data();
   check(ask_in_parts(queries, [=](const nearmiss_queries& part,
-                                  std::size_t first) { return nearmiss_wang(&part, to + first); }),
+                                  std::size_t first) { return function(&part, to + first); }),
         queries, has_answer(to));
   return answers;
-}
-
-py::array wang_bound(const Queries& queries) {
-  auto bounds = one_for_each<double>(queries);
-  auto* const to = bounds.mutable_data();
-  check(ask_in_parts(queries, [=](const nearmiss_queries& part,
-                                  std::size_t first) { return nearmiss_wang_bound(&part, to + first); }),
-        queries, has_number(to));
-  return bounds;
 }
 
 py::tuple time_of_impact(const Queries& queries, double tmax) {
@@ -211,7 +204,7 @@ py::tuple enclosures(const Queries& queries, double width) {
   check(
       ask_in_parts(queries, [=](const nearmiss_queries& part,
                                 std::size_t first) { return enclose(&part, width, lo + first, hi + first); }),
-      queries, has_number(lo));
+      queries, has_answer(lo));
   return py::make_tuple(lower, upper);
 }
 
@@ -249,8 +242,8 @@ PYBIND11_MODULE(_interface, module) {
   module.def("time_of_impact", &time_of_impact);
   module.def("smallest_distance", &enclosures<nearmiss_smallest_distance>);
   module.def("certificates", &certificates);
-  module.def("wang", &wang);
-  module.def("wang_bound", &wang_bound);
+  module.def("wang", &answers<std::int8_t, nearmiss_wang>);
+  module.def("wang_bound", &answers<double, nearmiss_wang_bound>);
   module.def("end_calls", &end_calls);
   pthread_atfork(nullptr, nullptr, forget_other_threads);
 }

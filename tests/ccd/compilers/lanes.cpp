@@ -1,5 +1,5 @@
-// Compares operations of Lanes with those of double, lane by lane. lanes_test.sh builds this program with
-// several compilers. Exit code 1 means that an operation differs.
+// Compares operations of Lanes with those of double, lane by lane. lanes_test.sh builds this program for each
+// instruction set. Exit code 1 means that an operation differs.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -86,12 +86,12 @@ class Operations {
 }  // namespace nearmiss
 
 int main() {
-  nearmiss::Operations<2>().run();
-#ifdef __AVX2__
-  nearmiss::Operations<4>().run();
-#endif
-#ifdef __AVX512F__
+#if defined(__AVX512F__)
   nearmiss::Operations<8>().run();
+#elif defined(__AVX2__)
+  nearmiss::Operations<4>().run();
+#else
+  nearmiss::Operations<2>().run();
 #endif
   return nearmiss::differs ? 1 : 0;
 }
