@@ -27,7 +27,7 @@ for target in "$@"; do
   kind=query
   if [[ $target == read_* ]]; then
     kind=reader
-    cp "fuzz/libfuzzer/$target.dict" "$OUT/$name.dict"
+    cp fuzz/libfuzzer/reader_target.dict "$OUT/$name.dict"
   fi
   cp "fuzz/libfuzzer/${kind}_target.options" "$OUT/$name.options"
   # The machine that runs the target has the libraries of glibc for certain, and no others.

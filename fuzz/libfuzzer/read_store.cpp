@@ -1,16 +1,23 @@
-// libFuzzer target: the reader of stores, *.db, and everything that commands do with what it accepts.
+// libFuzzer target: the reader of stores, *.db, and everything that commands do with what it accepts. The input
+// has a line for each SQL statement that makes the store, because a store whose bytes are changed at random would
+// hardly ever get past its checksums.
 #include "reports/store/store.hpp"
 
-#include <algorithm>
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fuzz/libfuzzer/reader_target.hpp"
-#include "fuzz/libfuzzer/store_mutation.hpp"
 #include "reports/csv.hpp"
 #include "reports/report.hpp"
+#include "reports/store/table.hpp"
 #include "reports/text/json.hpp"
 
 namespace nearmiss::libfuzzer {
@@ -35,6 +42,89 @@ class Folder {
 
  private:
   fs::path path_;
+};
+
+/// A store in memory, while it is made.
+class OpenStore {
+ public:
+  OpenStore() : db_(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE) {
+    // A statement may take endless time, fill the memory, or write to other files.
+    constexpr int most_instructions = 100'000;
+    constexpr int longest_value = 1 << 20;
+    sqlite3_progress_handler(
+        db_.getHandle(), most_instructions, [](void*) { return 1; }, nullptr);
+    sqlite3_limit(db_.getHandle(), SQLITE_LIMIT_LENGTH, longest_value);
+    sqlite3_limit(db_.getHandle(), SQLITE_LIMIT_ATTACHED, 0);
+    sqlite3_hard_heap_limit64(64 << 20);
+  }
+  OpenStore(const OpenStore&) = delete;
+  OpenStore& operator=(const OpenStore&) = delete;
+  ~OpenStore() { sqlite3_hard_heap_limit64(0); }
+
+  /// Runs statements, a line each, and leaves out those that SQLite refuses.
+  void run(std::istream& statements) {
+    for (std::string line; std::getline(statements, line);) try_to([&] { db_.exec(line); });
+  }
+
+  /// Corrects the checksums of all rows, and the recorded numbers of rows.
+  void seal() {
+    for (const std::string& table : tables())
+      try_to([&] {
+        if (table == "contents") return;
+        const Contents contents = seal_rows(table);
+        SQLite::Statement replace(db_, "INSERT OR REPLACE INTO contents VALUES (?, ?, 0)");
+        replace.bind(1, nlohmann::json(table).dump());
+        replace.bind(2, nlohmann::json(contents).dump());
+        replace.exec();
+      });
+    try_to([&] { seal_rows("contents"); });
+  }
+
+  void write(const fs::path& file) const {
+    sqlite3_int64 size = 0;
+    auto* const bytes = sqlite3_serialize(db_.getHandle(), "main", &size, 0);
+    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes), size);
+    sqlite3_free(bytes);
+  }
+
+ private:
+  template <class Change>
+  static void try_to(const Change& change) {
+    try {
+      change();
+    } catch (const SQLite::Exception&) {  // refused
+    }
+  }
+
+  std::vector<std::string> tables() {
+    std::vector<std::string> names;
+    try_to([&] {
+      SQLite::Statement each(
+          db_, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT GLOB '*[^a-z]*'");
+      while (each.executeStep()) names.push_back(each.getColumn(0).getString());
+    });
+    return names;
+  }
+
+  Contents seal_rows(const std::string& table) {
+    Contents contents;
+    SQLite::Statement row(db_, fmt::format("SELECT rowid, key, value FROM \"{}\"", table));
+    std::vector<std::pair<std::int64_t, std::int64_t>> sums;
+    while (row.executeStep())
+      sums.emplace_back(row.getColumn(0).getInt64(),
+                        checksum(table, row.getColumn(1).getString(), row.getColumn(2).getString()));
+    SQLite::Statement update(db_, fmt::format("UPDATE \"{}\" SET checksum = ? WHERE rowid = ?", table));
+    for (const auto& [id, sum] : sums) {
+      update.bind(1, sum);
+      update.bind(2, id);
+      update.exec();
+      update.reset();
+      contents.add(static_cast<std::uint64_t>(sum));
+    }
+    return contents;
+  }
+
+  SQLite::Database db_;
 };
 
 std::string content(const fs::path& file) {
@@ -79,30 +169,15 @@ void run(const Command& command) {
 void read(std::istream& in) {
   const Folder folder;
   const fs::path file = folder.file("input.db");
-  std::ofstream(file, std::ios::binary) << in.rdbuf();
+  {
+    OpenStore store;
+    store.run(in);
+    store.seal();
+    store.write(file);
+  }
   run([&] { expect_round_trip(salvage_campaign(file).campaign, folder); });
   run([&] { report(load_campaigns({&file, 1})); });
   run([&] { resume(file); });
 }
 
 }  // namespace nearmiss::libfuzzer
-
-extern "C" [[gnu::weak]] std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
-                                                      std::size_t max_size);
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned seed) {
-  nearmiss::Random random(seed, 0, 0);
-  const auto mutate_bytes = [&](std::string_view bytes) {
-    std::string changed(bytes.substr(0, max_size));
-    const std::size_t before = changed.size();
-    changed.resize(std::min(before + 64, max_size));
-    changed.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(changed.data()), before, changed.size()));
-    return changed;
-  };
-  const std::string store =
-      nearmiss::libfuzzer::mutated_store(random, {reinterpret_cast<const char*>(data), size}, mutate_bytes);
-  if (store.empty() || store.size() > max_size) return size;
-  std::copy(store.begin(), store.end(), data);
-  return store.size();
-}

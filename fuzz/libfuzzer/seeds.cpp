@@ -9,13 +9,14 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ccd/query/error.hpp"
-#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
@@ -172,32 +173,45 @@ Campaign campaign() {
   return campaign;
 }
 
-/// Writes a store with small pages, so that an input has few bytes.
-void write_store(const Campaign& campaign, const fs::path& file) {
+/// The SQL statements that make a store, a line each, without its checksums.
+std::string statements_of(const Campaign& campaign, const fs::path& file) {
   fs::remove(file);
   write_campaign(campaign, file);
-  SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("PRAGMA page_size = 512; VACUUM");
+  SQLite::Database db(file.string());
+  std::string text;
+  for (const char* number : {"application_id", "user_version"})
+    text +=
+        fmt::format("PRAGMA {} = {}\n", number, db.execAndGet(fmt::format("PRAGMA {}", number)).getString());
+  SQLite::Statement tables(db, "SELECT name, sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY rowid");
+  while (tables.executeStep()) {
+    const std::string table = tables.getColumn(0).getString();
+    text += tables.getColumn(1).getString() + "\n";
+    SQLite::Statement rows(db, fmt::format("SELECT quote(key), quote(value) FROM {}", table));
+    while (rows.executeStep() && table != "contents")
+      text += fmt::format("INSERT INTO {} VALUES ({}, {}, 0)\n", table, rows.getColumn(0).getString(),
+                          rows.getColumn(1).getString());
+  }
+  fs::remove(file);
+  return text;
 }
 
-void write_stores(const fs::path& folder) {
-  fs::create_directories(folder);
-  write_store(campaign(), folder / "whole.db");
-  Campaign part = campaign();
-  part.statistics = {};
-  write_store(part, folder / "findings.db");
-  part = campaign();
-  part.runs = {{{{"command", "fuzz"}}, {{}}, {}}};
-  write_store(part, folder / "statistics.db");
-  part.statistics = {};
-  write_store(part, folder / "begun.db");
+/// Campaigns of which a store has all, or only a part.
+std::map<std::string, Campaign> campaigns() {
+  const Campaign whole = campaign();
+  return {{"whole", whole},
+          {"findings", {.runs = whole.runs, .statistics = {}}},
+          {"statistics", {.runs = {{{{"command", "fuzz"}}, {{}}, {}}}, .statistics = whole.statistics}},
+          {"begun", {.runs = {{{{"command", "fuzz"}}, {{}}, {}}}, .statistics = {}}}};
 }
 
 void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
   const auto write = [&](const char* target, const std::string& name, const std::string& text) {
     fs::create_directories(folder / target);
-    replace_file(folder / target / name, text);
+    std::ofstream(folder / target / name, std::ios::binary) << text;
   };
-  write_stores(folder / "read_store");
+  fs::create_directories(folder);
+  for (const auto& [name, each] : campaigns())
+    write("read_store", name + ".sql", statements_of(each, folder / "store.db"));
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
   for (const Case& each : make_cases(cases)) {

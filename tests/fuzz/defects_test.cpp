@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 #include <string>
 
@@ -33,23 +32,10 @@ TEST(Defects, AreAtLeastThirtyWithNamesOfTheirOwn) {
   EXPECT_GE(names.size(), 30U);
 }
 
-TEST(Defects, MultiplyEveryToleranceByTheSameFactors) {
-  std::set<std::string> names;
-  for (const Defect& defect : defects()) names.insert(defect.name);
-  for (const NamedTolerance& tolerance : named_tolerances()) {
-    for (const double factor : {0.5, 0.1, 0.01, 0.0})
-      EXPECT_TRUE(names.contains(scaled_tolerance(tolerance.name, factor))) << tolerance.name << factor;
-    // If a test accepts what is within a tolerance, a larger tolerance causes no miss.
-    for (const double factor : {10.0, 100.0})
-      EXPECT_EQ(names.contains(scaled_tolerance(tolerance.name, factor)), !tolerance.accepts)
-          << tolerance.name << factor;
-  }
-}
-
 TEST(Defects, DecideAsWangDoesWhereNothingIsWrong) {
   const auto wang = make_subject("wang");
   const auto same = try_make_defect("defect:mu*1");
-  for_all_families(1000, [&](const Query& query) {
+  for_all_families(300, [&](const Query& query) {
     const Verdict expected = wang->decide(query);
     const Verdict verdict = same->decide(query);
     ASSERT_EQ(verdict.hit, expected.hit);
@@ -61,61 +47,27 @@ TEST(Defects, DecideAsWangDoesWhereNothingIsWrong) {
   });
 }
 
-TEST(Defects, PromiseWhatTheSoundSubjectPromises) {
-  const std::map<std::string, std::string> sound{{"defect:vv", "wang"},
-                                                 {"defect:inside", "wang"},
-                                                 {"defect:later-root", "wang-time"},
-                                                 {"defect:time-float", "wang-time"},
-                                                 {"defect:lines", "advance"}};
-  const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
-  for (const auto& [defect, name] : sound) {
-    const auto defective = try_make_defect(defect);
-    const auto subject = make_subject(name);
-    EXPECT_EQ(defective->time_sort(), subject->time_sort()) << defect;
-    EXPECT_EQ(defective->takes_separation(Kind::vertex_triangle),
-              subject->takes_separation(Kind::vertex_triangle))
-        << defect;
-    EXPECT_EQ(defective->distance_bound(query), subject->distance_bound(query)) << defect;
-  }
-}
-
-/// The number of queries of `uniform`, with and without separations, for which a defect gives another answer
-/// or time than the sound subject.
-int differences(const std::string& defect, const std::string& sound) {
-  const auto defective = try_make_defect(defect);
+/// Whether a defect gives another answer or time than the sound subject for a query of `uniform`.
+bool is_different(const std::string& defect, const std::string& sound) {
+  const auto defective = try_make_defect("defect:" + defect);
   const auto subject = make_subject(sound);
-  int count = 0;
   for (const char* family : {"uniform", "uniform~drawn"})
     for (std::uint64_t i = 0; i < 3000; ++i) {
       const Query query = make_query(find_family(family), 7, i);
       const Verdict verdict = defective->decide(query);
       const Verdict expected = subject->decide(query);
-      count += verdict.hit != expected.hit || (verdict.hit && verdict.time != expected.time) ? 1 : 0;
+      if (verdict.hit != expected.hit || (verdict.hit && verdict.time != expected.time)) return true;
     }
-  return count;
+  return false;
 }
 
 TEST(Defects, OfTimesChangeSomeAnswers) {
   for (const char* defect :
        {"later-root", "upper-end", "middle", "time-rounding", "time-vertex", "time-float"})
-    EXPECT_GT(differences(std::string("defect:") + defect, "wang-time"), 0) << defect;
+    EXPECT_TRUE(is_different(defect, "wang-time")) << defect;
   for (const char* defect : {"step-rounding", "step-vertex", "rest-of-step", "lines", "boxes-at-start",
                              "contact", "float-separation"})
-    EXPECT_GT(differences(std::string("defect:") + defect, "advance"), 0) << defect;
-}
-
-TEST(Defects, GivingUpIsWrongOnlyWhereTheAdvancementDoesNotEnd) {
-  EXPECT_EQ(differences("defect:gives-up", "advance"), 0);
-  const auto sound = make_subject("advance");
-  const auto defect = try_make_defect("defect:gives-up");
-  int given_up = 0;
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    const Query query = make_query(find_family("parallel"), 7, i);
-    const Verdict verdict = sound->decide(query);
-    EXPECT_EQ(defect->decide(query).hit, verdict.hit && verdict.stage != Stage::unknown) << i;
-    given_up += verdict.stage == Stage::unknown ? 1 : 0;
-  }
-  EXPECT_GT(given_up, 0);
+    EXPECT_TRUE(is_different(defect, "advance")) << defect;
 }
 
 TEST(Defects, MultiplyTheirOwnTolerance) {
@@ -138,27 +90,6 @@ TEST(Defects, MultiplyTheirOwnTolerance) {
   EXPECT_NEAR(try_make_defect("defect:D2*0.0625")->needed_tolerance(query), 4, 0.08);
 }
 
-TEST(Defects, LeaveTheOtherPairsOfVertexAndEdge) {
-  const auto wang = make_subject("wang");
-  const auto fewer = try_make_defect("defect:last-edge");
-  int by_edges = 0;
-  int missed = 0;
-  for_all_families(300, [&](const Query& query) {
-    const Verdict verdict = wang->decide(query);
-    if (!verdict.hit || verdict.stage < Stage::ve_end || verdict.stage > Stage::ve_zero) return;
-    ++by_edges;
-    missed += fewer->decide(query).hit ? 0 : 1;
-  });
-  EXPECT_GT(missed, 0);
-  EXPECT_LT(4 * missed, by_edges);
-}
-
-TEST(Defects, DoNotCullWhatTouchesAtTheStart) {
-  const auto start_alone = try_make_defect("defect:both-ends");
-  for (const double end : {-1.0, 1.0})
-    EXPECT_TRUE(start_alone->decide(testing::falling_vertex(0.25, 0.25, 0, end)).hit) << end;
-}
-
 TEST(Defects, AreRefusedWhereUnknown) {
   EXPECT_EQ(try_make_defect("wang"), nullptr);
   EXPECT_REFUSED(try_make_defect("defect:nothing"), "'defect:nothing'");
@@ -169,13 +100,9 @@ TEST(Defects, AreRefusedWhereUnknown) {
 
 TEST(NeededTolerance, IsAtMostOneForHitsAlone) {
   const auto wang = make_subject("wang");
-  for_all_families(200, [&](const Query& query) {
+  for_all_families(100, [&](const Query& query) {
     ASSERT_EQ(wang->needed_tolerance(query) <= 1, wang->decide(query).hit);
   });
-}
-
-TEST(NeededTolerance, IsNotToldByOthers) {
-  EXPECT_TRUE(std::isnan(make_subject("basic")->needed_tolerance(Query{})));
 }
 
 }  // namespace

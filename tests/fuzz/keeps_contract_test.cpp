@@ -27,27 +27,16 @@ Query two_factors(double width_start, double width_end, double height_start, dou
 TEST(Contract, NothingIsTakenForGranted) { EXPECT_TRUE(keeps_contract(Query{}, {})); }
 
 TEST(Contract, ApartAtTheStart) {
-  const Contract contract{.apart_at_start = true};
-  const auto keeps = [&](double start) {
-    return keeps_contract(falling_vertex(0.25, 0.25, start, -1), contract);
-  };
-  EXPECT_TRUE(keeps(1));
-  EXPECT_TRUE(keeps(std::numeric_limits<double>::denorm_min()));
-  EXPECT_FALSE(keeps(0));
-  EXPECT_FALSE(keeps_contract(falling_vertex(0.25, 0.25, 0, 0), contract));
-  EXPECT_TRUE(keeps_contract(falling_vertex(0.25, 0.25, 1, 0), contract));  // touches at the end
-}
-
-TEST(Contract, ApartAtTheStartByMoreThanADistance) {
   const auto keeps = [](double start, double by) {
     return keeps_contract(falling_vertex(0.25, 0.25, start, -1), {.apart_at_start = true, .apart_by = by});
   };
-  for (const double by : {std::numeric_limits<double>::denorm_min(), 0x1p-600, 1e-8, 1.0, 0x1p600}) {
+  for (const double by : {0.0, std::numeric_limits<double>::denorm_min(), 0x1p-600, 1e-8, 1.0, 0x1p600}) {
     EXPECT_FALSE(keeps(by, by)) << by;
     EXPECT_TRUE(keeps(std::nextafter(by, HUGE_VAL), by)) << by;
     EXPECT_FALSE(keeps(0, by)) << by;
   }
-  const Query comes_near_later = falling_vertex(0.25, 0.25, 1, 0x1p-30);
+  EXPECT_FALSE(keeps_contract(falling_vertex(0.25, 0.25, 0, 0), {.apart_at_start = true}));
+  const Query comes_near_later = falling_vertex(0.25, 0.25, 1, 0);
   EXPECT_TRUE(keeps_contract(comes_near_later, {.apart_at_start = true, .apart_by = 1e-8}));
 }
 
@@ -72,7 +61,7 @@ TEST(Contract, OneRoot) {
 TEST(Contract, OneRootIsDecidedAsByExactArithmetic) {
   Random random(24, 0, 0);
   int kept = 0;
-  for (std::size_t i = 0; i < 3000; ++i) {
+  for (std::size_t i = 0; i < 1000; ++i) {
     const Kind kind = testing::kind_of_case(i);
     const Query query =
         i % 3 == 0 ? testing::integer_query(random, kind, 2) : testing::uniform_query(random, kind);
@@ -86,8 +75,8 @@ TEST(Contract, OneRootIsDecidedAsByExactArithmetic) {
     ASSERT_EQ(keeps_contract(query, {.one_root = true}), expected) << testing::repeat(i, query);
     kept += expected ? 1 : 0;
   }
-  EXPECT_GT(kept, 500);
-  EXPECT_LT(kept, 2900);
+  EXPECT_GT(kept, 150);
+  EXPECT_LT(kept, 950);
 }
 
 TEST(Contract, Grid) {
@@ -105,7 +94,7 @@ TEST(Contract, Grid) {
   EXPECT_FALSE(keeps(0x1p1022, 0x1p1023));
 }
 
-TEST(Contract, LengthsOfEdges) {
+TEST(Contract, LengthsOfEdgesAndPaths) {
   const Query query = falling_vertex(0.25, 0.25, 0.5, 0.25);  // the edges are 1, 1 and √2 long
   const double just_above = std::sqrt(2.0);                   // rounded up
   EXPECT_TRUE(keeps_contract(query, {.longest = just_above}));
@@ -120,12 +109,9 @@ TEST(Contract, LengthsOfEdges) {
   edges.set_end(1, {1, 0, 0});
   EXPECT_FALSE(keeps_contract(edges, {.shortest = 1}));  // the other edge is a point
   EXPECT_TRUE(keeps_contract(edges, {.longest = 1}));
-}
-
-TEST(Contract, LengthsOfPaths) {
-  const Query query = falling_vertex(0.25, 0.25, 1, -1);
-  EXPECT_TRUE(keeps_contract(query, {.longest = 2}));
-  EXPECT_FALSE(keeps_contract(query, {.longest = std::nextafter(2.0, 0)}));
+  const Query path = falling_vertex(0.25, 0.25, 1, -1);
+  EXPECT_TRUE(keeps_contract(path, {.longest = 2}));
+  EXPECT_FALSE(keeps_contract(path, {.longest = std::nextafter(2.0, 0)}));
 }
 
 TEST(Contract, LengthsAtTheEndsOfDouble) {

@@ -38,7 +38,7 @@ TEST(ExactSubject, AnswersWithoutAnyTolerance) {
 
 TEST(ExactSubject, AnswersEachOfManyQueries) {
   std::vector<Query> queries;
-  for (int i = 0; i < 1000; ++i)
+  for (int i = 0; i < 300; ++i)
     queries.push_back(testing::falling_vertex(0.25, 0.25, 1, i % 3 == 0 ? 0.5 : -0.5));
   for (const SubjectInfo& info : exact_subjects()) {
     std::vector<Verdict> verdicts(queries.size());
@@ -73,7 +73,7 @@ TEST(AllSubjects, RefuseCoordinatesThatAreNotFinite) {
     const auto subject = make_any_subject(name);
     for (const double c : {infinity, -infinity, std::nan("")})
       for (const double end : {-1.0, 2.0})  // a collision, and a pair that planes keep apart
-        for (std::size_t i = 0; i < 24; ++i) {
+        for (const std::size_t i : {0U, 5U, 13U, 23U}) {
           Query query = testing::falling_vertex(0.25, 0.25, 1, end);
           query.x[i] = c;
           EXPECT_REFUSED(subject->decide(query), "not finite") << name << ' ' << i;

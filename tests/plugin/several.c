@@ -59,22 +59,6 @@ static void decide_batch(void* state, int kind, size_t n, const double* x, const
   }
 }
 
-/* Crashes at the 100th query since it was opened, whatever the query is. */
-static void* open_count(const char* options, char* message, size_t size) {
-  (void)options, (void)message, (void)size;
-  return calloc(1, sizeof(size_t));
-}
-
-static void wear_out(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
-                     double* toi) {
-  (void)kind, (void)x, (void)h, (void)toi;
-  size_t* const count = state;
-  for (size_t i = 0; i < n; ++i) {
-    if (++*count == 100) raise(SIGSEGV);
-    answer[i] = NEARMISS_NO_COLLISION;
-  }
-}
-
 static void find_nothing(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
                          double* toi) {
   (void)state, (void)kind, (void)x, (void)h, (void)toi;
@@ -107,13 +91,6 @@ static const nearmiss_subject detectors[] = {
      .batch = 64,
      .contract = {.apart_at_start = 1, .apart_by = 0x1p-20, .grid = 0x1p-10, .longest = 2},
      .decide = decide_batch},
-    {.interface_version = NEARMISS_INTERFACE,
-     .name = "wearing",
-     .kinds = ANY_KIND,
-     .batch = 64,
-     .open = open_count,
-     .close = free,
-     .decide = wear_out},
     {.interface_version = NEARMISS_INTERFACE,
      .name = "narrow-apart",
      .kinds = ANY_KIND,

@@ -41,7 +41,7 @@ try() {
 }
 expect_said() { [[ ${said,,} == *"${1,,}"* ]] || fail "expected '$1', found '$said'"; }
 
-mapfile -t scripts < <(find . \( -path ./build -o -path './.git*' \) -prune -o \( -type f -executable -o -name run.mjs -o -name chart.mjs \) -print | sort)
+mapfile -t scripts < <(find . \( -path ./build -o -path './.git*' \) -prune -o \( -type f -executable -o -name chart.mjs \) -print | sort)
 ((${#scripts[@]} >= 20)) || fail "found only the scripts ${scripts[*]}"
 for each in "${scripts[@]}"; do
   for option in --help -h; do

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -21,8 +22,10 @@ namespace fs = std::filesystem;
 
 /// The time of the children that a process has waited for, and of theirs.
 Duration time_of_ended_children(pid_t process) {
-  std::istringstream fields(stat_behind_name(process));
-  constexpr int before = 13;  // from `state` to `stime` of proc(5)
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::istringstream fields(text.substr(text.rfind(')') + 1));  // behind the name, which may contain anything
+  constexpr int before = 13;                                    // from `state` to `stime` of proc(5)
   std::string skipped;
   for (int i = 0; i < before; ++i) fields >> skipped;
   double user = 0, system = 0;

@@ -2,6 +2,8 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -41,6 +43,26 @@ unsigned long threads_of_user() {
   return count;
 }
 
+void write_to(const char* path, const std::string& text) {
+  const int file = open(path, O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  static_cast<void>(!write(file, text.data(), text.size()));
+  close(file);
+}
+
+/// Root keeps its rights to files only in its own user namespace, so a new one is the second choice.
+bool enter(int namespaces) {
+  if (unshare(namespaces) == 0) return true;
+  const auto same = [](unsigned id) { return std::to_string(id) + ' ' + std::to_string(id) + " 1"; };
+  const std::string user = same(geteuid());
+  const std::string group = same(getegid());
+  if (unshare(CLONE_NEWUSER | namespaces) != 0) return false;
+  write_to("/proc/self/setgroups", "deny");  // otherwise the group cannot be kept
+  write_to("/proc/self/uid_map", user);
+  write_to("/proc/self/gid_map", group);
+  return true;
+}
+
 }  // namespace
 
 void close_files() {
@@ -67,6 +89,18 @@ void limit_processes(unsigned long more) {
   getrlimit(RLIMIT_NPROC, &limit);
   limit.rlim_cur = limit.rlim_max = std::min<rlim_t>(limit.rlim_max, threads_of_user() + more);
   setrlimit(RLIMIT_NPROC, &limit);
+}
+
+bool enter_namespaces() { return enter(CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWNET | CLONE_NEWIPC); }
+
+void leave_network() { enter(CLONE_NEWNET); }
+
+void mount_own_folders(std::uint64_t bytes) {
+  if (mount(nullptr, "/", nullptr, MS_REC | MS_SLAVE, nullptr) != 0) return;
+  mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC | MS_RDONLY, nullptr);
+  const std::string options = "mode=1777" + (bytes == 0 ? "" : ",size=" + std::to_string(bytes));
+  mount("tmpfs", "/dev/shm", "tmpfs", MS_NOSUID | MS_NODEV, options.c_str());
+  mount("devpts", "/dev/pts", "devpts", MS_NOSUID | MS_NOEXEC, "newinstance,ptmxmode=0666");
 }
 
 }  // namespace nearmiss::isolation

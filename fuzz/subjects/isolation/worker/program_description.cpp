@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -63,62 +65,42 @@ int sum_of_kinds(const std::string& value) {
   return sum;
 }
 
-/// Reads a line of the contract; false if it is not one.
-bool read_contract_line(std::string_view key, const std::string& value, nearmiss_contract& contract) {
-  if (key == "apart-at-start") {
-    contract.apart_at_start = yes_or_no(value);
-  } else if (key == "one-root") {
-    contract.one_root = yes_or_no(value);
-  } else if (key == "apart-by") {
-    contract.apart_by = length(value);
-  } else if (key == "grid") {
-    contract.grid = length(value);
-  } else if (key == "shortest") {
-    contract.shortest = length(value);
-  } else if (key == "longest") {
-    contract.longest = length(value);
-  } else {
-    return false;
-  }
-  return true;
+void read_separation(const std::string& value, nearmiss_subject& subject) {
+  if (value == "yes" || value == "no")
+    subject.takes_separation = yes_or_no(value);
+  else
+    subject.separation_kinds = sum_of_kinds(value);
 }
 
-void read_line(std::string_view key, const std::string& value, ProgramDescription& into) {
-  nearmiss_subject& subject = into.subject;
-  if (key == "name") {
-    into.name = value;
-  } else if (key == "version") {
-    into.version = value;
-  } else if (key == "about") {
-    into.about = value;
-  } else if (key == "kinds") {
-    subject.kinds = sum_of_kinds(value);
-  } else if (key == "bits") {
-    subject.bits = static_cast<int>(whole_number(value));
-  } else if (key == "time") {
-    subject.time_sort = place(value, {"none", "estimate", "lower-bound", "free-step"}, NEARMISS_NO_TIME);
-  } else if (key == "separation") {
-    if (value == "yes" || value == "no")
-      subject.takes_separation = yes_or_no(value);
-    else
-      subject.separation_kinds = sum_of_kinds(value);
-  } else if (key == "distance") {
-    subject.distance_kinds = sum_of_kinds(value);
-  } else if (key == "step") {
-    subject.step_kinds = sum_of_kinds(value);
-  } else if (key == "batch") {
-    subject.batch = whole_number(value);
-  } else if (key == "layout") {
-    subject.layout = place(value, {"rows", "arrays"}, NEARMISS_ROWS);
-  } else if (key == "seconds") {
-    into.says_seconds = yes_or_no(value) == 1;
-  } else if (key == "bound") {
-    into.claims_bound = yes_or_no(value) == 1;
-  } else if (!read_contract_line(key, value, subject.contract)) {
-    throw Error("found the line '" + std::string(key) +
-                "', expected one that fuzz/subjects/PROGRAMS.md lists");
-  }
-}
+/// How the value of each line is read.
+using Description = ProgramDescription;
+const std::map<std::string_view, std::function<void(Description& to, const std::string& value)>> lines{
+    {"name", [](auto& to, auto& value) { to.name = value; }},
+    {"version", [](auto& to, auto& value) { to.version = value; }},
+    {"about", [](auto& to, auto& value) { to.about = value; }},
+    {"kinds", [](auto& to, auto& value) { to.subject.kinds = sum_of_kinds(value); }},
+    {"bits", [](auto& to, auto& value) { to.subject.bits = static_cast<int>(whole_number(value)); }},
+    {"time",
+     [](auto& to, auto& value) {
+       to.subject.time_sort =
+           place(value, {"none", "estimate", "lower-bound", "free-step"}, NEARMISS_NO_TIME);
+     }},
+    {"separation", [](auto& to, auto& value) { read_separation(value, to.subject); }},
+    {"distance", [](auto& to, auto& value) { to.subject.distance_kinds = sum_of_kinds(value); }},
+    {"step", [](auto& to, auto& value) { to.subject.step_kinds = sum_of_kinds(value); }},
+    {"batch", [](auto& to, auto& value) { to.subject.batch = whole_number(value); }},
+    {"layout",
+     [](auto& to, auto& value) {
+       to.subject.layout = place(value, {"rows", "arrays"}, NEARMISS_ROWS);
+     }},
+    {"seconds", [](auto& to, auto& value) { to.says_seconds = yes_or_no(value) == 1; }},
+    {"bound", [](auto& to, auto& value) { to.claims_bound = yes_or_no(value) == 1; }},
+    {"apart-at-start", [](auto& to, auto& value) { to.subject.contract.apart_at_start = yes_or_no(value); }},
+    {"one-root", [](auto& to, auto& value) { to.subject.contract.one_root = yes_or_no(value); }},
+    {"apart-by", [](auto& to, auto& value) { to.subject.contract.apart_by = length(value); }},
+    {"grid", [](auto& to, auto& value) { to.subject.contract.grid = length(value); }},
+    {"shortest", [](auto& to, auto& value) { to.subject.contract.shortest = length(value); }},
+    {"longest", [](auto& to, auto& value) { to.subject.contract.longest = length(value); }}};
 
 }  // namespace
 
@@ -141,7 +123,10 @@ ProgramDescription ProgramDescription::parse(const std::string& text) {
     if (line.find('\0') != std::string::npos)
       throw Error("found a NUL character in '" + printable(line) + "', expected text");
     if (!keys.insert(key).second) throw Error("found the line '" + key + "' twice, expected it once");
-    read_line(key, blank == std::string::npos ? "" : line.substr(blank + 1), description);
+    const auto read = lines.find(key);
+    if (read == lines.end())
+      throw Error("found the line '" + key + "', expected one that fuzz/subjects/PROGRAMS.md lists");
+    read->second(description, blank == std::string::npos ? "" : line.substr(blank + 1));
   }
   return description;
 }

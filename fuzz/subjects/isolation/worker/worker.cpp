@@ -17,14 +17,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <optional>
 
 #include "fuzz/subjects/isolation/shared.hpp"
 #include "fuzz/subjects/isolation/worker/answering.hpp"
 #include "fuzz/subjects/isolation/worker/containment.hpp"
-#include "fuzz/subjects/isolation/worker/namespaces.hpp"
 #include "fuzz/subjects/isolation/worker/privileges.hpp"
-#include "fuzz/subjects/isolation/worker/process_tree.hpp"
 
 namespace {
 
@@ -67,6 +66,21 @@ std::optional<siginfo_t> end_of(pid_t process) {
     how.si_pid = 0;
   }
   return end;
+}
+
+/// Ends all descendants, also those that have left their session: the children of a child that ends become those of
+/// this process, which is a subreaper (prctl(2)).
+void end_descendants() {
+  const auto any_is_left = [] {
+    pid_t ended = 1;
+    while (ended > 0) ended = waitpid(-1, nullptr, WNOHANG);
+    return ended == 0;
+  };
+  while (any_is_left()) {
+    std::ifstream children("/proc/thread-self/children");
+    for (pid_t child = 0; children >> child;) kill(child, SIGKILL);
+    waitpid(-1, nullptr, 0);
+  }
 }
 
 /// Waits until a child has ended or nearmiss has closed the status socket. Returns how the child ended, if it

@@ -1,4 +1,4 @@
-// The subjects basic and wang as plug-ins with planted defects. If the environment variable NEARMISS_PLANTED
+// The subject wang as a plug-in with planted defects. If the environment variable NEARMISS_PLANTED
 // is N, one answer in N is wrong, chosen by the bits of the coordinates. If it is 0 or not set, no answer is
 // wrong. If NEARMISS_SLOWED is a number above 1, each query of the family kilometres is decided that many
 // times on average, which makes this family slower.
@@ -7,15 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 
 #include "ccd/nearmiss_subject.h"
 #include "ccd/query/arithmetic.hpp"
-#include "ccd/wang/basic.hpp"
 #include "ccd/wang/wang.hpp"
-
-#define NEARMISS_QUOTED(x) #x
-#define NEARMISS_TEXT(x) NEARMISS_QUOTED(x)
 
 namespace {
 
@@ -62,25 +57,13 @@ int decisions(const Query& query) {
 }
 
 template <Kind kind>
-bool basic(const Query& query) {
-  return nearmiss::basic<kind, double, true>(query).hit;
-}
-
-template <Kind kind>
-bool wang(const Query& query) {
-  using nearmiss::WangOptions;
-  return nearmiss::wang<kind, double, WangOptions{true, nearmiss::VeCulling::per_root}>(query, std::nullopt)
-      .hit;
-}
-
-template <Kind kind>
 int decide(const double* x) {
   Query query{.kind = kind};
   std::copy(x, x + query.x.size(), query.x.begin());
   volatile bool hit = false;  // keeps the compiler from removing repeated decisions
   int made = 0;
   do {
-    hit = PLANTED_IN<kind>(query);
+    hit = nearmiss::wang<kind, double, nearmiss::WangOptions{}>(query).hit;
     ++made;
   } while (made < decisions(query));  // called in each iteration, so that its cost is multiplied, too
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
@@ -100,7 +83,7 @@ extern "C" const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
   static const nearmiss_subject subject = [] {
     nearmiss_subject own{};
     own.interface_version = NEARMISS_INTERFACE;
-    own.name = "planted-in-" NEARMISS_TEXT(PLANTED_IN);
+    own.name = "planted-in-wang";
     own.version = "1";
     own.about = "a CCD with a planted defect";
     own.kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
