@@ -167,16 +167,6 @@ TEST(Interface, NumbersOf24BitsAreRoundedBeforeTheDetectorSeesThem) {
   }
 }
 
-TEST(Interface, AContractIsKnown) {
-  const Contract expected{.apart_at_start = true,
-                          .one_root = false,
-                          .apart_by = 0x1p-20,
-                          .grid = 0x1p-10,
-                          .shortest = 0,
-                          .longest = 2};
-  for (const auto& subject : both(":batches")) EXPECT_EQ(subject->contract(), expected);
-}
-
 TEST(Interface, TheExampleOnEigenTakesAToleranceAndGivesATime) {
   const std::string path = NEARMISS_PLUGINS "/sampling.so";
   const Query falls = testing::falling_vertex(0.25, 0.25, 1, -1);

@@ -16,15 +16,11 @@
 #include <thread>
 #include <vector>
 
-#include "ccd/query/arithmetic.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "fuzz/trial/judge.hpp"
-#include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "tests/fuzz/family_queries.hpp"
-#include "tests/fuzz/trials.hpp"
 #include "tests/plugins.hpp"
 #include "tests/refused.hpp"
 
@@ -292,30 +288,6 @@ TEST(Isolation, ACrashAfterARefusedAllocationIsACrash) {
     EXPECT_EQ(verdicts[i].fault, i % 2 == 0 ? Fault::none : Fault::crash) << i;
 }
 #endif
-
-TEST(Isolation, OneAnswerDoesNotChangeTheArithmeticOfTheNext) {
-  const auto subject = make_isolated_plugin(plugin("hostile"));
-  const auto queries = first_queries("uniform", 500);
-  std::vector<Verdict> verdicts(queries.size(), Verdict{.hit = true});
-  subject->decide(queries, verdicts);
-  for (const Verdict& verdict : verdicts) EXPECT_FALSE(verdict.hit);
-  EXPECT_EQ(subject->distance_bound(queries[0]), 0);
-  EXPECT_TRUE(is_arithmetic_plain());
-}
-
-TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
-  const Subjects subjects = testing::one(make_isolated_plugin(plugin("crash")));
-  const TrialResult result = hold_trial(subjects, testing::batch_of("uniform", one_batch(1000)));
-  const Counts& counts = result.statistics.counts.begin()->second;
-  EXPECT_GE(counts.faults_total(), 3);
-  EXPECT_EQ(counts.positives + counts.without_answer(Fault::crash), 1000);
-  EXPECT_EQ(counts.false_negatives, 0);
-  EXPECT_LE(counts.times.queries(), 1000 - counts.faults_total());
-  ASSERT_EQ(result.findings.size(), counts.faults_total());
-  const Finding& finding = result.findings.front();
-  const Query shrunk = shrunk_query(finding, subjects.front().get());
-  EXPECT_EQ(Judge(*subjects.front()).failure(shrunk), (Failure{Finding::What::fault, "vt crash SEGV"}));
-}
 
 TEST(Isolation, WhatThePluginPrintsIsLost) {
   const auto subject = make_isolated_plugin(plugin("print"));

@@ -62,38 +62,17 @@ static void wear_out(void* state, int kind, size_t n, const double* x, const dou
 static double forever(void* state) { return (void)state, 1e5; }
 static double unknown(void* state) { return (void)state, NAN; }
 
-static const nearmiss_subject detectors[] = {{.interface_version = NEARMISS_INTERFACE,
-                                              .name = "rows",
-                                              .kinds = ANY_KIND,
-                                              .time_sort = NEARMISS_TIME_ESTIMATE,
-                                              .batch = 100000,
-                                              .decide = decide_rows,
-                                              .seconds_of_kernels = forever},
-                                             {.interface_version = NEARMISS_INTERFACE,
-                                              .name = "arrays",
-                                              .kinds = ANY_KIND,
-                                              .time_sort = NEARMISS_TIME_ESTIMATE,
-                                              .batch = 100000,
-                                              .decide = decide_arrays,
-                                              .layout = NEARMISS_ARRAYS,
-                                              .seconds_of_kernels = unknown},
-                                             {.interface_version = NEARMISS_INTERFACE,
-                                              .name = "small-arrays",
-                                              .kinds = ANY_KIND,
-                                              .time_sort = NEARMISS_TIME_ESTIMATE,
-                                              .batch = 7,
-                                              .decide = decide_arrays,
-                                              .layout = NEARMISS_ARRAYS},
-                                             {.interface_version = NEARMISS_INTERFACE,
-                                              .name = "counts",
-                                              .kinds = ANY_KIND,
-                                              .batch = 100000,
-                                              .decide = count},
-                                             {.interface_version = NEARMISS_INTERFACE,
-                                              .name = "wearing",
-                                              .kinds = ANY_KIND,
-                                              .batch = 100000,
-                                              .decide = wear_out}};
+#define DETECTOR(...) \
+  { .interface_version = NEARMISS_INTERFACE, .kinds = ANY_KIND, __VA_ARGS__ }
+#define TIMED .time_sort = NEARMISS_TIME_ESTIMATE
+#define ARRAYS TIMED, .decide = decide_arrays, .layout = NEARMISS_ARRAYS
+
+static const nearmiss_subject detectors[] = {
+    DETECTOR(.name = "rows", .batch = 100000, TIMED, .decide = decide_rows, .seconds_of_kernels = forever),
+    DETECTOR(.name = "arrays", .batch = 100000, ARRAYS, .seconds_of_kernels = unknown),
+    DETECTOR(.name = "small-arrays", .batch = 7, ARRAYS),
+    DETECTOR(.name = "counts", .batch = 100000, .decide = count),
+    DETECTOR(.name = "wearing", .batch = 100000, .decide = wear_out)};
 
 const nearmiss_subject* nearmiss_get_subject(size_t index) {
   return index < sizeof detectors / sizeof detectors[0] ? &detectors[index] : NULL;

@@ -65,39 +65,20 @@ static void find_nothing(void* state, int kind, size_t n, const double* x, const
   for (size_t i = 0; i < n; ++i) answer[i] = NEARMISS_NO_COLLISION;
 }
 
+#define DETECTOR(...) \
+  { .interface_version = NEARMISS_INTERFACE, __VA_ARGS__ }
+
 static const nearmiss_subject detectors[] = {
-    {.interface_version = NEARMISS_INTERFACE,
-     .name = "told",
-     .version = "7",
-     .about = "answers what its option says",
-     .kinds = ANY_KIND,
-     .open = open_answer,
-     .close = free,
-     .decide = decide_as_told},
-    {.interface_version = NEARMISS_INTERFACE,
-     .name = "edges",
-     .kinds = NEARMISS_EDGE_EDGE,
-     .time_sort = NEARMISS_TIME_LOWER_BOUND,
-     .decide = give_time},
-    {.interface_version = NEARMISS_INTERFACE,
-     .name = "floats",
-     .kinds = ANY_KIND,
-     .bits = 24,
-     .takes_separation = 1,
-     .decide = find_floats},
-    {.interface_version = NEARMISS_INTERFACE,
-     .name = "batches",
-     .kinds = ANY_KIND,
-     .batch = 64,
-     .contract = {.apart_at_start = 1, .apart_by = 0x1p-20, .grid = 0x1p-10, .longest = 2},
-     .decide = decide_batch},
-    {.interface_version = NEARMISS_INTERFACE,
-     .name = "narrow-apart",
-     .kinds = ANY_KIND,
-     .bits = 24,
-     .contract = {.apart_at_start = 1},
-     .decide = find_nothing},
-};
+    DETECTOR(.name = "told", .version = "7", .about = "answers what its option says", .kinds = ANY_KIND,
+             .open = open_answer, .close = free, .decide = decide_as_told),
+    DETECTOR(.name = "edges", .kinds = NEARMISS_EDGE_EDGE, .time_sort = NEARMISS_TIME_LOWER_BOUND,
+             .decide = give_time),
+    DETECTOR(.name = "floats", .kinds = ANY_KIND, .bits = 24, .takes_separation = 1, .decide = find_floats),
+    DETECTOR(.name = "batches", .kinds = ANY_KIND, .batch = 64,
+             .contract = {.apart_at_start = 1, .apart_by = 0x1p-20, .grid = 0x1p-10, .longest = 2},
+             .decide = decide_batch),
+    DETECTOR(.name = "narrow-apart", .kinds = ANY_KIND, .bits = 24, .contract = {.apart_at_start = 1},
+             .decide = find_nothing)};
 
 const nearmiss_subject* nearmiss_get_subject(size_t index) {
   return index < sizeof detectors / sizeof detectors[0] ? &detectors[index] : NULL;

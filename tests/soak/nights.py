@@ -4,7 +4,6 @@ import os
 import pathlib
 import random
 import resource
-import shutil
 import signal
 import subprocess
 import time
@@ -26,10 +25,6 @@ class Machine:
 
     def __init__(self, nearmiss, plugins, folder):
         self.nearmiss, self.plugins, self.folder = nearmiss, plugins, folder
-        self.disk = folder / 'disk'
-        self.disk.mkdir()
-        self.can_mount = self.mount(1 << 20)
-        self.unmount()
 
     def start(self, command, jumps=False, largest_file=None):
         environment = {**os.environ, 'NEARMISS_ONE_IN': '500'}
@@ -83,21 +78,11 @@ class Machine:
                 raise Failure(f'processes {left} are left running')
             time.sleep(0.01)
 
-    def mount(self, size):
-        size = -(-size // 4096) * 4096
-        command = ['mount', '-t', 'tmpfs', '-o', f'size={size}', 'none', str(self.disk)]
-        return subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode == 0
-
-    def unmount(self):
-        if os.path.ismount(self.disk):
-            subprocess.run(['umount', str(self.disk)], check=True)
-
     def clean(self):
         for each in self.left():
             os.kill(each, signal.SIGKILL)
         while self.left():
             time.sleep(0.01)
-        self.unmount()
 
 
 def catches(process, number):
@@ -142,7 +127,11 @@ class Night:
     def run(self, campaign, machine):
         """Runs the night. Returns the exit code, which is one of those that fit the night."""
         if self.end == 'full disk':
-            code = self.run_on_full_disk(campaign, machine)
+            largest = max([file.stat().st_size for file in campaign.files()] + [0]) + self.room
+            process = machine.start(
+                campaign.command(campaign.store, self.jobs), self.jumps, largest
+            )
+            code = self.wait(process, signal.SIGTERM, self.seconds)
             expected = {INTERRUPTED, REFUSED}
         else:
             command = campaign.command(campaign.store, self.jobs)
@@ -178,27 +167,3 @@ class Night:
         finally:
             process.kill()
             process.wait()
-
-    def run_on_full_disk(self, campaign, machine):
-        """Moves the store to a disk with little room, and back."""
-        files = campaign.files()
-        if not machine.can_mount:
-            largest = max([file.stat().st_size for file in files] + [0]) + self.room
-            command = campaign.command(campaign.store, self.jobs)
-            process = machine.start(command, self.jumps, largest)
-            return self.wait(process, signal.SIGTERM, self.seconds)
-        machine.mount(sum(file.stat().st_size + 4096 for file in files) + self.room + 4096)
-        try:
-            for file in files:
-                shutil.copy2(file, machine.disk)
-            there = machine.disk / campaign.store.name
-            process = machine.start(campaign.command(there, self.jobs), self.jumps)
-            code = self.wait(process, signal.SIGTERM, self.seconds)
-            machine.wait_until_alone()
-            for file in files:
-                file.unlink()
-            for file in campaign.files(there):
-                shutil.copy2(file, machine.folder)
-        finally:
-            machine.unmount()
-        return code

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs tools/environments on two environments, and checks its output and that a signal ends it. Also checks
-# which flags the headers of ccd/ refuse.
+# Runs tools/environments on two environments, and checks its output. Also checks which flags the headers of
+# ccd/ refuse.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."
@@ -16,15 +16,6 @@ grep -Eq '^wang +g\+\+ [0-9.]+ +-O2 +nearest +2,[0-9]+ .* 0 +keeps it$' "$folder
 grep -Eq '^wang +g\+\+ [0-9.]+ +-O2 +flush .* MISSES +false-negative ' "$folder/out" ||
   { cat "$folder/out"; fail "expected that wang misses where subnormals are flushed"; }
 grep -q '"verdict": "misses"' "$folder/report/report.json" || fail "expected the table in report.json"
-
-env --default-signal=TERM tools/environments --only '^wang g[+][+] -O2 nearest$' --time 24h --results "$folder" >"$folder/out" 2>&1 &
-until grep -q campaign "$folder/out"; do kill -0 $! || fail "expected a campaign"; sleep 0.1; done
-until [[ -e $folder/campaign.db-wal ]]; do kill -0 $! || fail "expected a store"; sleep 0.1; done
-kill -TERM $!
-code=0
-wait $! || code=$?
-((code == 130)) || { cat "$folder/out"; fail "expected exit code 130, found $code"; }
-[[ ! -e $folder/campaign.db.lock ]] || fail "expected that the campaign has ended"
 
 compile() { g++ -std=c++20 -fsyntax-only -I. "$@" -x c++ - <<<'#include "ccd/query/arithmetic.hpp"'; }
 if compile -ffast-math 2>"$folder/error"; then fail "expected that -ffast-math is refused"; fi
