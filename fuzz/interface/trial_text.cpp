@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -41,17 +42,9 @@ std::size_t lines_in(std::string_view text) {
 }
 
 std::string_view macro_of(Kind kind) {
-  switch (kind) {
-    case Kind::vertex_triangle:
-      return "NEARMISS_VERTEX_TRIANGLE";
-    case Kind::edge_edge:
-      return "NEARMISS_EDGE_EDGE";
-    case Kind::vertex_vertex:
-      return "NEARMISS_VERTEX_VERTEX";
-    case Kind::vertex_edge:
-      return "NEARMISS_VERTEX_EDGE";
-  }
-  return "";
+  constexpr std::array<std::string_view, kinds.size()> macros{
+      "NEARMISS_VERTEX_TRIANGLE", "NEARMISS_EDGE_EDGE", "NEARMISS_VERTEX_VERTEX", "NEARMISS_VERTEX_EDGE"};
+  return macros[static_cast<std::size_t>(kind)];
 }
 
 /// The positions at a time (0 or 1), separated by commas.
@@ -110,18 +103,10 @@ std::string what_happens(const Finding& finding) {
 }
 
 std::string_view words_for(Finding::What what) {
-  switch (what) {
-    case Finding::What::false_negative:
-      return "misses";
-    case Finding::What::late:
-      return "gives a late time for";
-    case Finding::What::unsafe_step:
-      return "gives an unsafe step for";
-    case Finding::What::refuted_bound:
-      return "reports beyond its bound";
-    default:
-      return "does not answer";
-  }
+  if (what == Finding::What::false_negative) return "misses";
+  if (what == Finding::What::late) return "gives a late time for";
+  if (what == Finding::What::unsafe_step) return "gives an unsafe step for";
+  return what == Finding::What::refuted_bound ? "reports beyond its bound" : "does not answer";
 }
 
 }  // namespace

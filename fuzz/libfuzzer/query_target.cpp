@@ -21,7 +21,7 @@
 #include "fuzz/libfuzzer/query_bytes.hpp"
 #include "fuzz/libfuzzer/untraced.hpp"
 #include "fuzz/subjects/built_in.hpp"
-#include "fuzz/subjects/contract.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/named.hpp"
 #include "reports/campaign/finding_case.hpp"
 

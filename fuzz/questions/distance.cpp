@@ -219,13 +219,9 @@ Query search_over(const Subject& subject, const Stop& stop, Random& random, Kind
 }  // namespace
 
 std::vector<Family> DistanceQuestion::searches(const Subject& subject, const Stop& stop) {
-  const Family search{
-      .name = "search-over-" + subject.name(),
-      .about = "distances that are over-reported, by directed search",
-      .make = [&subject, &stop](Random& random,
-                                Kind kind) { return search_over(subject, stop, random, kind); },
-      .block_cases = 1};
-  return {search, among_vertices(search)};
+  return search_families("search-over-" + subject.name(),
+                         "distances that are over-reported, by directed search",
+                         [&](Random& random, Kind kind) { return search_over(subject, stop, random, kind); });
 }
 
 }  // namespace nearmiss

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "fuzz/search/search.hpp"
 #include "reports/statistics/family_class.hpp"
 
 namespace nearmiss {
@@ -12,6 +13,13 @@ std::uint64_t sum(const QueryClassCounts& counts) {
 
 std::uint64_t sum_that_counts(const QueryClassCounts& counts) {
   return sum(counts) - counts[static_cast<std::size_t>(QueryClass::extreme)];
+}
+
+std::vector<Family> search_families(std::string name, std::string about,
+                                    std::function<Query(Random&, Kind)> make) {
+  const Family search{
+      .name = std::move(name), .about = std::move(about), .make = std::move(make), .block_cases = 1};
+  return {search, among_vertices(search)};
 }
 
 std::vector<Family> families_of_questions(bool at_rest) {

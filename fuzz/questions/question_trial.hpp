@@ -267,6 +267,10 @@ std::uint64_t sum(const QueryClassCounts& counts);
 /// The same without extreme queries, which are shown, but say nothing about others.
 std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 
+/// A directed search as two families, of which one is among vertices and edges. Each block has one query.
+std::vector<Family> search_families(std::string name, std::string about,
+                                    std::function<Query(Random&, Kind)> make);
+
 /// The families of which a user can choose: those that campaigns have, and before them those at rest on request.
 std::vector<Family> families_of_questions(bool at_rest);
 /// Those that are asked if nobody chooses: without the extreme ones, in which a plain function overflows.

@@ -140,13 +140,9 @@ Query search_step(const Subject& subject, const Stop& stop, Random& random, Kind
 }  // namespace
 
 std::vector<Family> StepQuestion::searches(const Subject& subject, const Stop& stop) {
-  const Family search{
-      .name = "search-step-" + subject.name(),
-      .about = "filtered steps that come nearest to contact, by directed search",
-      .make = [&subject, &stop](Random& random,
-                                Kind kind) { return search_step(subject, stop, random, kind); },
-      .block_cases = 1};
-  return {search, among_vertices(search)};
+  return search_families("search-step-" + subject.name(),
+                         "filtered steps that come nearest to contact, by directed search",
+                         [&](Random& random, Kind kind) { return search_step(subject, stop, random, kind); });
 }
 
 }  // namespace nearmiss

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 
-#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "reports/statistics/failure.hpp"
 

@@ -1,4 +1,4 @@
-// Subjects that are asked only what their contracts allow.
+// Contracts, and subjects that are asked only what their contracts allow.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,10 @@
 #include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
+
+/// Whether the query has all properties that the contract requires, decided exactly. If the four vertices are
+/// coplanar at all times, F counts as having more than one root.
+bool keeps_contract(const Query& query, const Contract& contract);
 
 /// For a subject with a contract, makes one that is asked only queries that keep the contract; all other
 /// queries get the fault `contract`. If `asks_beyond`, makes a second subject that is asked only these

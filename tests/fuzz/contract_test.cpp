@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "tests/fuzz/made_up_subjects.hpp"

@@ -46,14 +46,6 @@ TEST(Interface, ASharedObjectMayHaveSeveralDetectors) {
                  "found no detector 'none', expected one of told, edges, floats, batches, narrow-apart");
 }
 
-TEST(Interface, ASharedObjectMayHave64DetectorsWithNamesOf255Bytes) {
-  const auto subjects = make_any_subjects(NEARMISS_PLUGINS "/many.so");
-  ASSERT_EQ(subjects.size(), 64);
-  EXPECT_EQ(subjects.front()->name(), std::string(253, 'n') + "00");
-  EXPECT_EQ(subjects.back()->name(), std::string(253, 'n') + "63");
-  EXPECT_REFUSED(make_any_subjects(NEARMISS_PLUGINS "/too_many.so"), "found more than 64 detectors");
-}
-
 TEST(Interface, OptionsArePassedOnAndPartOfTheName) {
   for (const auto& subject : both(":told:answer=0/:file=/tmp/x")) {
     EXPECT_EQ(subject->name(), "told:answer=0/:file=/tmp/x");

@@ -1,4 +1,4 @@
-#include "fuzz/subjects/contract.hpp"
+#include "fuzz/subjects/contracted.hpp"
 
 #include <gtest/gtest.h>
 

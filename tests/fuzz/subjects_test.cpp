@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/subjects/contract.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/exact.hpp"
 #include "tests/queries.hpp"
 #include "tests/refused.hpp"

@@ -85,7 +85,7 @@ class Campaign:
         else:
             self.options += ['--family', ','.join(draw.sample(FAMILIES, 3))]
         self.store = machine.folder / f'{number}.db'
-        self.cases = self.faults = self.nights = 0
+        self.cases = self.faults = 0
         self.complete = False
 
     def __str__(self):
@@ -106,7 +106,6 @@ class Campaign:
 
     def check_progress(self):
         """Reads a copy of the store, which must be sound and must not lose anything."""
-        self.nights += 1
         copy = self.machine.folder / 'copy'
         shutil.rmtree(copy, ignore_errors=True)
         copy.mkdir()

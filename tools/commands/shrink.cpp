@@ -7,7 +7,6 @@
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
