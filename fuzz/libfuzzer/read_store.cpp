@@ -1,6 +1,6 @@
-// libFuzzer target: the reader of stores, *.db, and everything that commands do with what it accepts. The input
-// has a line for each SQL statement that makes the store, because a store whose bytes are changed at random would
-// hardly ever get past its checksums.
+// libFuzzer target: the reader of stores, *.db, and everything that commands do with what it accepts. The
+// input has a line for each SQL statement that makes the store, because a store whose bytes are changed at
+// random would hardly ever get past its checksums.
 #include "reports/store/store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>

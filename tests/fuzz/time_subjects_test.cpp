@@ -70,7 +70,8 @@ TEST_P(TimesOfVertices, AreNeverLateAndTheSubjectsMissNothing) {
     }
 }
 
-/// Expects that wang-time decides as wang about the first queries of a family, those of meshes without separations.
+/// Expects that wang-time decides as wang about the first queries of a family, those of meshes without
+/// separations.
 void expect_same_decisions(const Subject& wang, const Family& family, std::uint64_t count) {
   const auto timed = make_any_subject("wang-time");
   for (std::uint64_t i = 0; i < count; ++i) {

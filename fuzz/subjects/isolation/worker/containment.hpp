@@ -1,5 +1,5 @@
-// Limits on the files and processes of a plug-in's process, and namespaces, in which it can name no process outside and
-// reach no network.
+// Limits on the files and processes of a plug-in's process, and namespaces, in which it can name no process
+// outside and reach no network.
 #pragma once
 
 #include <cstdint>

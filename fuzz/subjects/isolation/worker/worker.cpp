@@ -68,8 +68,8 @@ std::optional<siginfo_t> end_of(pid_t process) {
   return end;
 }
 
-/// Ends all descendants, also those that have left their session: the children of a child that ends become those of
-/// this process, which is a subreaper (prctl(2)).
+/// Ends all descendants, also those that have left their session: the children of a child that ends become
+/// those of this process, which is a subreaper (prctl(2)).
 void end_descendants() {
   const auto any_is_left = [] {
     pid_t ended = 1;
