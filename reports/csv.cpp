@@ -11,7 +11,6 @@
 #include "reports/sections/measures.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
-#include "reports/statistics/family_class.hpp"
 
 namespace nearmiss {
 

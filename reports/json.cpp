@@ -8,15 +8,9 @@
 #include <utility>
 
 #include "corpus/query_text.hpp"
-#include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/counts_json.hpp"
-#include "reports/sections/funnel_table.hpp"
-#include "reports/sections/simulations.hpp"
-#include "reports/sections/sizes_table.hpp"
-#include "reports/sections/sweeps.hpp"
-#include "reports/sections/version_table.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/statistics/family.hpp"
-#include "reports/statistics/family_class.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/shell.hpp"
 

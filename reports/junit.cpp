@@ -10,7 +10,7 @@
 #include "ccd/query/printable.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/sections/verdicts.hpp"
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/campaign/campaign.hpp"
+#include "reports/sections/baseline.hpp"
 #include "reports/sections/other_tables.hpp"
 #include "reports/statistics/failure.hpp"
 
@@ -15,12 +16,12 @@ namespace nearmiss {
 
 /// Data that a report shows in addition to its campaign.
 struct ReportContext {
-  std::vector<Campaign> baseline = {};  ///< earlier campaigns, the oldest first
-  std::vector<Hunt> hunts = {};         ///< hunts for known defects
-  std::string audit = {};               ///< audit of rounding constants, the JSON that nearmiss audit writes
-  std::string paper = {};               ///< the paper's claims, the JSON that nearmiss paper writes
-  std::string distances = {};  ///< distances of features, from the JSON that nearmiss distance writes
-  std::vector<Environment> environments = {};
+  std::optional<Changes> since = {};  ///< the comparison with earlier campaigns
+  std::vector<Hunt> hunts = {};       ///< hunts for known defects
+  std::string audit = {};             ///< audit of rounding constants, the JSON that nearmiss audit writes
+  std::string paper = {};             ///< the paper's claims, the JSON that nearmiss paper writes
+  std::string distances = {};         ///< distances of features, from the JSON that nearmiss distance writes
+  std::string environments = {};      ///< CCDs in environments, the JSON of load_environments
   Failures failing = usual_failures();  ///< the failures that count
 };
 

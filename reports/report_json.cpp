@@ -13,15 +13,12 @@
 #include "reports/json.hpp"
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/counts_json.hpp"
-#include "reports/sections/decider_table.hpp"
 #include "reports/sections/headline.hpp"
 #include "reports/sections/ladder.hpp"
-#include "reports/sections/scorecard.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/sections/shown.hpp"
-#include "reports/sections/trade_off.hpp"
 #include "reports/sections/verdicts.hpp"
 #include "reports/statistics/family.hpp"
-#include "reports/statistics/family_class.hpp"
 #include "reports/text/json.hpp"
 
 namespace nearmiss {
@@ -88,16 +85,26 @@ ordered_json farthest_json(const ShownFarthest& each) {
           {"file", "farthest/" + each.exported.file}};
 }
 
-ordered_json extreme_time_json(const ShownTime& each) {
-  const double time = moment(each.far.query);
-  return {{"subject", each.subject},
-          {"kind", short_name(each.kind)},
-          {"side", each.is_early ? "early" : "after"},
-          {"error", each.far.ratio},
-          {"provenance", each.far.provenance},
-          {"query", numbers_json(each.far.query)},
-          {"time", time},
-          {"toi", each.given(time)}};
+/// The earliest and the latest time of each subject and kind with times.
+ordered_json extreme_times_json(const Statistics& statistics) {
+  ordered_json json = ordered_json::array();
+  for (const auto& [key, sum] : statistics.by_subject_and_kind())
+    for (const auto& [is_early, cases] :
+         {std::pair{true, &sum.counts.earliest}, std::pair{false, &sum.counts.latest}}) {
+      if (cases->empty()) continue;
+      const FarCase& far = cases->front();
+      const double time = moment(far.query);
+      const double given = is_early ? time - far.ratio : time + far.ratio;  // to the precision of the ratio
+      json.push_back({{"subject", key.subject},
+                      {"kind", short_name(key.kind)},
+                      {"side", is_early ? "early" : "after"},
+                      {"error", far.ratio},
+                      {"provenance", far.provenance},
+                      {"query", numbers_json(far.query)},
+                      {"time", time},
+                      {"toi", std::clamp(given, 0.0, 1.0)}});
+    }
+  return json;
 }
 
 /// The rates of each subject and kind in the baseline and now.
@@ -149,18 +156,20 @@ void add_pictures(ordered_json& json, const Campaign& campaign) {
 }
 
 /// Results of other commands, and the comparison with the baseline.
-void add_context(ordered_json& json, const Campaign& campaign, const ReportContext& context,
-                 const std::optional<Changes>& since) {
-  if (!context.audit.empty()) json["audit"] = ordered_json::parse(context.audit);
-  if (!context.paper.empty()) json["paper"] = ordered_json::parse(context.paper);
-  if (!context.distances.empty()) json["distances"] = ordered_json::parse(context.distances);
+void add_context(ordered_json& json, const Statistics& statistics, const ReportContext& context) {
+  const auto add = [&](const char* section, const std::string& text) {
+    if (!text.empty()) json[section] = ordered_json::parse(text);
+  };
+  add("audit", context.audit);
+  add("paper", context.paper);
+  add("distances", context.distances);
   if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
-  if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
-  if (!since) return;
-  json["baseline"] = changes_json(*since);
-  const Campaign baseline = add_up(context.baseline);
+  add("environments", context.environments);
+  if (!context.since) return;
+  const Campaign& baseline = context.since->baseline;
+  json["baseline"] = changes_json(*context.since);
   json["baseline"]["runs"] = runs_json(baseline.runs);
-  json["baseline"]["subjects"] = before_and_now(campaign.statistics, baseline.statistics);
+  json["baseline"]["subjects"] = before_and_now(statistics, baseline.statistics);
 }
 
 }  // namespace
@@ -169,28 +178,24 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   const Statistics& statistics = campaign.statistics;
   ordered_json json{{"schema_version", report_schema_version}};
   json.update(summary_json({campaign.runs, by_shown_family(statistics)}));
-  std::optional<Changes> since;
-  if (!context.baseline.empty()) since = changes(campaign, context.baseline);
-  const Headline line = headline(statistics, since, context.failing);
+  const Headline line = headline(statistics, context.since, context.failing);
   json["headline"] = {{"clean", line.clean}, {"text", line.text}, {"alarms", line.alarms}};
   const std::vector<ShownFinding> findings = shown_findings(campaign);
-  json["verdicts"] = scorecard_json(statistics, findings, since, context.failing);
+  json["verdicts"] = scorecard_json(statistics, findings, context.since, context.failing);
   json["oracle"]["complaint"] = oracle_complaint(statistics);
   json["error_against_time"] = trade_offs_json(statistics);
   json["histogram_borders"] = borders_json();
   json["stages"] = stages_json();
   json["findings_total"] = campaign.findings().size();
-  json["findings"] = findings_json(campaign, findings, since);
+  json["findings"] = findings_json(campaign, findings, context.since);
   json["farthest"] = ordered_json::array();
   for (const ShownFarthest& each : farthest_cases(statistics))
     json["farthest"].push_back(farthest_json(each));
-  json["extreme_times"] = ordered_json::array();
-  for (const ShownTime& each : extreme_times(statistics))
-    json["extreme_times"].push_back(extreme_time_json(each));
+  json["extreme_times"] = extreme_times_json(statistics);
   if (auto rows = deciders_json(statistics); !rows.empty()) json["deciders"] = std::move(rows);
-  if (const auto ladder = ladder_json(statistics)) json["ladder"] = *ladder;
+  if (auto ladder = ladder_json(statistics); !ladder.empty()) json["ladder"] = std::move(ladder);
   add_pictures(json, campaign);
-  add_context(json, campaign, context, since);
+  add_context(json, statistics, context);
   return json;
 }
 

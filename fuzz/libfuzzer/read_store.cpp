@@ -141,7 +141,7 @@ void expect_round_trip(const Campaign& campaign, const Folder& folder) {
 }
 
 void report(const Campaign& campaign) {
-  report_json(campaign, {.baseline = {campaign}}).dump();
+  report_json(campaign, {.since = changes(campaign, campaign)}).dump();
   statistics_csv(campaign.statistics);
   classes_csv(campaign.statistics);
   distances_csv(campaign.statistics);

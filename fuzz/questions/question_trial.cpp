@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "fuzz/search/search.hpp"
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 
 namespace nearmiss {
 

@@ -126,16 +126,14 @@ Campaign add_up(std::span<const Campaign> campaigns) {
 Changes changes(const Campaign& now, const Campaign& baseline) { return changes(now, {&baseline, 1}); }
 
 Changes changes(const Campaign& now, std::span<const Campaign> campaigns) {
-  const Campaign baseline = add_up(campaigns);
+  Campaign baseline = add_up(campaigns);
   ComparedRates rates = compare_rates(now.statistics, campaigns, false_alarm_risk);
   Changes changes{compare_signatures(now, campaigns, baseline.statistics, false_alarm_risk),
-                  std::move(rates.changed),
-                  rates.compared,
-                  compare_times(now, campaigns, false_alarm_risk),
-                  changed_facts(now, baseline),
-                  {}};
+                  std::move(rates.changed), rates.compared, compare_times(now, campaigns, false_alarm_risk),
+                  changed_facts(now, baseline)};
   for (const auto& [subject, failures] : failures_by_subject(baseline.statistics))
     for (const FailureKind each : failures) changes.failed_before.emplace(subject, each);
+  changes.baseline = std::move(baseline);
   return changes;
 }
 

@@ -2,20 +2,163 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "reports/campaign/campaign.hpp"
-#include "reports/sections/changed_rates.hpp"
-#include "reports/sections/changed_signatures.hpp"
-#include "reports/sections/changed_times.hpp"
+#include "reports/statistics/confidence.hpp"
 #include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
+
+/// Which code of a subject ran. If runs had different code, their values are joined with " | ".
+struct SubjectCode {
+  std::string
+      version;  ///< a plug-in's own, or nearmiss's for a built-in subject and the oracle; "" if there is none
+  std::string build;  ///< "sha256 0123456789ab" for a plug-in, "commit 0123456" for a built-in subject
+
+  /// "version 2", or the build if there is no version; "" if neither is known.
+  [[nodiscard]] std::string text() const { return version.empty() ? build : "version " + version; }
+
+  bool operator==(const SubjectCode&) const = default;
+};
+
+SubjectCode code_of(const Campaign& campaign, const std::string& subject);
+
+/// When the baseline saw a signature: the dates of the first and the last of its campaigns that saw it, the
+/// subject's code in these two, and the number of such campaigns.
+struct Sightings {
+  std::string first, last;
+  std::size_t campaigns = 0;
+  SubjectCode first_code = {}, last_code = {};
+
+  bool operator==(const Sightings&) const = default;
+};
+
+struct ChangedSignatures {
+  /// Ways to fail that are new, or more frequent than chance explains; in order.
+  std::vector<Signature> new_signatures = {};
+  /// Signatures that are missing in the baseline, of a subject that already failed there, and that are no
+  /// more frequent than chance explains.
+  std::vector<Signature> unseen_signatures = {};
+  double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
+  /// Signatures that only the baseline has, and whose absence now is unlikely to be chance.
+  std::vector<Signature> gone_signatures = {};
+  /// For each gone signature whose subject's code has changed since the signature was last seen: "in version
+  /// 2", or "since sha256 0123456789ab".
+  std::map<Signature, std::string> fixed = {};
+  /// The other signatures that only the baseline has.
+  std::vector<Signature> unrepeated_signatures = {};
+  /// Signatures that the baseline has, too, and that are no more frequent now than chance explains.
+  std::vector<Signature> lasting_signatures = {};
+  std::map<Signature, Sightings> sightings = {};  ///< of all signatures of the baseline
+  /// Subjects that the baseline was not asked about. Their failures are neither new nor lasting.
+  std::vector<std::string> absent_subjects = {};
+};
+
+/// Compares the signatures of a campaign with those of earlier ones, the oldest first.
+///
+/// If a subject has no failure of a sort in the baseline, each failure of that sort is new. A failure of the
+/// oracle that the baseline does not have is always new. A subject that already fails in the baseline shows a
+/// few unseen signatures in every campaign. Therefore its signature is new only if Fisher's exact test finds
+/// it more frequent among the subject's queries than chance explains. A signature that is no longer seen is
+/// gone if the same test finds it less frequent, or if the subject has no failure of that sort any more and
+/// the test finds all failures of the sort together less frequent.
+///
+/// A new signature must also be more frequent than in the rest of the baseline, after those campaigns are
+/// left out in which it was rarer than in the last one by more than chance explains. Therefore campaigns in
+/// which a fault was absent do not make it new again.
+///
+/// The steps of a sweep share their random draws, so that the queries of a campaign with sweeps are no
+/// independent samples. Therefore the test counts draws: the smallest number from which the queries may come.
+///
+/// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
+/// different ratios for different families, and the families in which a signature was seen are not recorded.
+/// Therefore the test takes the ratio that makes its result least certain: the largest one for a signature
+/// that may be new, the smallest for one that may be gone. Failures in cases and meshes are no evidence that
+/// a signature is gone, because those cases and meshes may not have been asked again.
+///
+/// @param before the sum of the baseline's statistics
+/// @param risk the probability that a signature is found to be new although none is, and also that one is
+///             found to be gone; each comparison has an equal part of it (Bonferroni)
+ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
+                                     const Statistics& before, double risk);
+
+/// A rate that differs by more than chance explains.
+struct ChangedRate {
+  /// "false negatives", "false positives", "late times", "false positives beyond the bound" or "no answer".
+  /// For a subject that claims no bound: "false positives beyond wang's bound (no claim)".
+  std::string_view what;
+  std::string subject, kind, family;
+  Proportion before, now;
+  double p = 1;  ///< p-value of an exact test: the probability of such a difference if the rates are equal
+
+  [[nodiscard]] bool worse() const { return now.rate() > before.rate(); }
+};
+
+struct ComparedRates {
+  std::vector<ChangedRate> changed;
+  std::size_t compared = 0;
+};
+
+/// Compares the rates of all families that a campaign and its baseline have, by Fisher's exact test. The
+/// earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
+/// differs from it by no more than chance explains. Therefore campaigns in which a fault was absent for some
+/// time do not make it new again. For each subject it also compares the sum over all families and kinds with
+/// few failures in both campaigns, to notice a new way to fail that is spread over many families. The steps
+/// of a sweep share their random draws, so the sum includes only the step of each sweep with the most
+/// failures. Cases and meshes are left out, because they are not random samples.
+///
+/// @param risk the probability that a rate is found to have changed although none has; each comparison has an
+///             equal part of it (Bonferroni)
+ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
+
+/// A run time per query that differs by more than those of equal campaigns do.
+struct ChangedTime {
+  /// For a subject as a whole, ChangedTime::all_families and all of its kinds, as in "vt, ee".
+  std::string subject, kind, family;
+  double before = 0;    ///< ns in the baseline: the geometric mean over its campaigns
+  double expected = 0;  ///< ns expected now: `before` multiplied by the slowdown of everything else
+  double now = 0;       ///< ns
+  double p = 1;         ///< the probability of such a difference if nothing has changed
+
+  static constexpr std::string_view all_families = "all families";
+
+  [[nodiscard]] bool is_of_subject() const { return family == all_families; }
+  [[nodiscard]] double ratio() const { return now / expected; }
+  [[nodiscard]] bool slower() const { return now > expected; }
+};
+
+struct ComparedTimes {
+  std::vector<ChangedTime> changed = {};
+  std::size_t compared = 0;
+  std::size_t campaigns = 0;  ///< number of the baseline's campaigns on a processor of the same model
+};
+
+/// Compares the run times of a campaign with those of earlier campaigns on a processor of the same model: the
+/// times of each subject as a whole, and of each of its families and kinds. The time of a family is the
+/// geometric mean over batches, weighted by their numbers of queries; that of a subject is the geometric mean
+/// over families and kinds.
+///
+/// A busy machine makes everything slower. Therefore each family is compared with the subject's other
+/// families: the ratio of its time to its earlier time is divided by the median of this ratio over the
+/// subject's families. A subject as a whole is compared with the other subjects: its median ratio is divided
+/// by the median of 1 and the median ratios of all subjects. The families of a subject that has only a few
+/// are divided by this median, too.
+///
+/// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
+/// parts: one that follows from the batches, and one estimated from the subject's families, most of which
+/// have not changed. If there are several earlier campaigns, the variance is at least the one between them.
+///
+/// @param risk the probability that a time is found to have changed although none has; each comparison has an
+///             equal part of it (Bonferroni)
+ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
 /// A fact that differs between the campaigns' runs; `before` and `now` join all of its values with " | ".
 struct ChangedFact {
@@ -30,6 +173,8 @@ struct Changes : ChangedSignatures {
 
   /// The failures of the baseline, by subject.
   std::set<std::pair<std::string, FailureKind>> failed_before = {};
+
+  Campaign baseline = {};  ///< the sum of the earlier campaigns
 };
 
 /// The probability that `changes` reports a changed rate although no rate has changed. Each other sort of

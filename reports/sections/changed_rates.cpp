@@ -1,4 +1,4 @@
-#include "reports/sections/changed_rates.hpp"
+#include "reports/sections/baseline.hpp"
 
 #include <fmt/format.h>
 
@@ -135,7 +135,7 @@ ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> bas
   ComparedRates rates{pairs_of_rates(now, baseline, risk), 0};
   for (ChangedRate& each : rates_where_few(rates.changed)) rates.changed.push_back(std::move(each));
   rates.compared = rates.changed.size();
-  const double level = risk / static_cast<double>(std::max<std::size_t>(1, rates.compared));
+  const double level = level_of(risk, rates.compared);
   std::erase_if(rates.changed, [&](const ChangedRate& each) { return each.p >= level; });
   name_bounds(rates.changed, now);
   return rates;

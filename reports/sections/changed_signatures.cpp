@@ -1,4 +1,4 @@
-#include "reports/sections/changed_signatures.hpp"
+#include "reports/sections/baseline.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,11 +21,6 @@ using What = Finding::What;
 
 /// A sort of failure, and the subject that fails.
 using Sort = std::pair<What, std::string>;
-
-/// The level of each of several tests that share a risk.
-double level_of(double risk, std::size_t tests) {
-  return risk / static_cast<double>(std::max<std::size_t>(1, tests));
-}
 
 /// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline. It
 /// is computed from how often each known signature was seen, by the series of Good and Toulmin (1956), or by
@@ -121,36 +116,21 @@ struct Chances {
   }
 };
 
-/// The Chances of each sort of failure, computed on demand.
-class AllChances {
- public:
-  AllChances(const Statistics& now, const Statistics& before) : now_(now), before_(before) {}
-
-  [[nodiscard]] const Chances& of(const Sort& sort) {
-    const auto [place, is_unknown] = known_.try_emplace(sort);
-    if (is_unknown) count(sort, place->second);
-    return place->second;
+Chances chances_of(const Sort& sort, const Statistics& now, const Statistics& before) {
+  Chances sum;
+  sum.repeats = std::max(most_repeats(now, sort.second), most_repeats(before, sort.second));
+  for (const auto& [key, counts] : before.counts) {
+    const std::uint64_t earlier = chances(counts, sort.first);
+    if (key.subject != sort.second || !is_random(key.family) || earlier == 0) continue;
+    const auto same = now.counts.find(key);
+    const std::uint64_t again = same == now.counts.end() ? 0 : chances(same->second, sort.first);
+    const double ratio = static_cast<double>(again) / static_cast<double>(earlier);
+    sum.before += earlier;
+    sum.least = std::min(sum.least, ratio);
+    sum.most = std::max(sum.most, ratio);
   }
-
- private:
-  void count(const Sort& sort, Chances& sum) const {
-    sum.repeats = std::max(most_repeats(now_, sort.second), most_repeats(before_, sort.second));
-    for (const auto& [key, counts] : before_.counts) {
-      const std::uint64_t earlier = chances(counts, sort.first);
-      if (key.subject != sort.second || !is_random(key.family) || earlier == 0) continue;
-      const auto same = now_.counts.find(key);
-      const std::uint64_t again = same == now_.counts.end() ? 0 : chances(same->second, sort.first);
-      const double ratio = static_cast<double>(again) / static_cast<double>(earlier);
-      sum.before += earlier;
-      sum.least = std::min(sum.least, ratio);
-      sum.most = std::max(sum.most, ratio);
-    }
-  }
-
-  const Statistics& now_;
-  const Statistics& before_;
-  std::map<Sort, Chances> known_;
-};
+  return sum;
+}
 
 /// The number of failures of a sort in cases and meshes, which are not random samples.
 std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
@@ -160,12 +140,12 @@ std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   return sum;
 }
 
-/// The probability that a failure which was seen `before` times is seen at least `now` times, if nothing has
-/// changed.
-double chance_of_more(std::uint64_t now, std::uint64_t before, const Chances& chances) {
+/// The probability that a signature is seen at least as often as now, if nothing has changed since `before`.
+double chance_of_more(const Signature& signature, const Statistics& now, const Statistics& before) {
+  const Chances chances = chances_of({signature.what, signature.subject}, now, before);
   if (!chances.known()) return 1;
-  return fisher_test(chances.proportion(now, chances.now(chances.most)),
-                     chances.proportion(before, chances.before))
+  return fisher_test(chances.proportion(now.times_seen(signature), chances.now(chances.most)),
+                     chances.proportion(before.times_seen(signature), chances.before))
       .more;
 }
 
@@ -185,59 +165,28 @@ std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statis
   return seen;
 }
 
-/// Compares how often a signature is seen with a baseline, whose campaigns are given from the oldest.
-class Frequency {
- public:
-  /// @param before the sum of the baseline's statistics
-  Frequency(const Statistics& now, std::span<const Campaign> baseline, const Statistics& before, double risk)
-      : now_(now),
-        baseline_(baseline),
-        before_(before),
-        chances_(now, before),
-        level_(level_of(risk, baseline.size())) {
-    for (const Campaign& each : baseline) since_.emplace_back(baseline.back().statistics, each.statistics);
-  }
-
-  /// Whether a signature is seen more often than before, by a test at a level. A second test leaves out
-  /// campaigns in which the signature was rarer than in the last one by more than chance explains. Therefore
-  /// campaigns in which a fault was absent for some time do not make it new again.
-  [[nodiscard]] bool is_higher(const Signature& signature, double level) {
-    const Sort sort{signature.what, signature.subject};
-    const std::uint64_t times = now_.times_seen(signature);
-    if (chance_of_more(times, before_.times_seen(signature), chances_.of(sort)) >= level) return false;
-    const Statistics like_the_last = without_rarer(signature);
-    AllChances chances(now_, like_the_last);
-    return chance_of_more(times, like_the_last.times_seen(signature), chances.of(sort)) < level;
-  }
-
- private:
-  /// The sum of the campaigns, without those in which a signature was rarer than in the last one.
-  [[nodiscard]] Statistics without_rarer(const Signature& signature) {
-    const Sort sort{signature.what, signature.subject};
-    const std::uint64_t last = baseline_.back().statistics.times_seen(signature);
-    Statistics sum;
-    for (std::size_t i = 0; i < baseline_.size(); ++i)
-      if (chance_of_more(last, baseline_[i].statistics.times_seen(signature), since_[i].of(sort)) >= level_)
-        sum.merge(baseline_[i].statistics);
-    return sum;
-  }
-
-  const Statistics& now_;
-  std::span<const Campaign> baseline_;
-  const Statistics& before_;
-  AllChances chances_;
-  double level_;
-  std::vector<AllChances> since_;  // chances in the last campaign, compared with each one
-};
+/// The sum of the campaigns, without those in which a signature was rarer than in the last one by more than
+/// chance explains.
+Statistics without_rarer(const Signature& signature, std::span<const Campaign> baseline, double risk) {
+  Statistics sum;
+  for (const Campaign& each : baseline)
+    if (chance_of_more(signature, baseline.back().statistics, each.statistics) >=
+        level_of(risk, baseline.size()))
+      sum.merge(each.statistics);
+  return sum;
+}
 
 /// Finds out which of the signatures that are seen now are new.
 void find_new(const Statistics& now, std::span<const Campaign> baseline, const Statistics& before,
               double risk, ChangedSignatures& changes) {
-  Frequency frequency(now, baseline, before, risk);
   const auto seen_before = seen_by_sort(before);
   const auto is_only_before = [&](const auto& each) { return now.times_seen(each.first) == 0; };
   const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
   const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
+  const auto is_more_frequent = [&](const Signature& signature) {
+    return chance_of_more(signature, now, before) < level &&
+           chance_of_more(signature, now, without_rarer(signature, baseline, risk)) < level;
+  };
   for (const auto& [signature, count] : now.seen) {
     if (is_beyond_contract(signature.subject) || is_only_shown(signature.what) ||
         std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
@@ -245,7 +194,7 @@ void find_new(const Statistics& now, std::span<const Campaign> baseline, const S
     const bool is_unseen = before.times_seen(signature) == 0;
     const bool fails_anyway =
         !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
-    if (fails_anyway ? frequency.is_higher(signature, level) : is_unseen)
+    if (fails_anyway ? is_more_frequent(signature) : is_unseen)
       changes.new_signatures.push_back(signature);
     else if (is_unseen)
       changes.unseen_signatures.push_back(signature);
@@ -259,8 +208,7 @@ void find_new(const Statistics& now, std::span<const Campaign> baseline, const S
 }
 
 /// Finds out which of the signatures that were seen before are gone.
-void find_gone(const Statistics& now, const Statistics& before, double risk, AllChances& all_chances,
-               ChangedSignatures& changes) {
+void find_gone(const Statistics& now, const Statistics& before, double risk, ChangedSignatures& changes) {
   std::set<Sort> still_fail;
   for (const auto& [signature, count] : now.seen) still_fail.emplace(signature.what, signature.subject);
   std::map<Sort, std::uint64_t> seen_before;
@@ -274,7 +222,7 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, All
   const double level = level_of(risk, candidates.size() + seen_before.size());
   for (const Signature& each : candidates) {
     const Sort sort{each.what, each.subject};
-    const Chances& of_sort = all_chances.of(sort);
+    const Chances of_sort = chances_of(sort, now, before);
     const auto chance = [&, in_cases = unsampled(before, sort)](std::uint64_t times) {
       return chance_of_none(times - std::min(times, in_cases), of_sort);
     };
@@ -318,9 +266,8 @@ ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campai
                                      const Statistics& before, double risk) {
   ChangedSignatures changes{.sightings = sightings_in(baseline),
                             .absent_subjects = absent_subjects(now.statistics, before)};
-  AllChances all_chances(now.statistics, before);
   find_new(now.statistics, baseline, before, risk, changes);
-  find_gone(now.statistics, before, risk, all_chances, changes);
+  find_gone(now.statistics, before, risk, changes);
   for (const Signature& each : changes.gone_signatures)
     if (const std::string text = fixed_text(changes.sightings.at(each).last_code, code_of(now, each.subject));
         !text.empty())

@@ -1,4 +1,4 @@
-#include "reports/sections/changed_times.hpp"
+#include "reports/sections/baseline.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -269,7 +269,7 @@ ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> basel
     }
   result.changed = times.tested();
   result.compared = result.changed.size();
-  const double level = risk / static_cast<double>(std::max<std::size_t>(1, result.compared));
+  const double level = level_of(risk, result.compared);
   std::erase_if(result.changed, [&](const ChangedTime& each) { return each.p >= level; });
   return result;
 }

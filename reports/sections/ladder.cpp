@@ -14,6 +14,7 @@
 #include "ccd/query/scalar_name.hpp"
 #include "ccd/wang/bounds/tight_tolerances.hpp"
 #include "reports/sections/counts_json.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/text/json.hpp"
@@ -27,6 +28,34 @@ constexpr std::array algorithms{"wang", "wang-tight"};
 constexpr int finest = -127;
 constexpr int coarsest = -23;
 constexpr int double_exponent = -52;
+
+/// A subject of the ladder; distances in units of B.
+struct Rung : LadderPlace {
+  std::string subject;
+  CountsSum sum;  ///< over all families and kinds
+
+  /// The distance bound.
+  [[nodiscard]] double claimed() const { return *unit; }
+  /// Farthest distance divided by claimed distance; 0 without false positives.
+  [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
+  /// Distance of the farthest false positive; 0 without false positives.
+  [[nodiscard]] double farthest() const { return part() * claimed(); }
+};
+
+/// The farthest distance of an algorithm as a power of ε: a line fitted to logarithms by least squares, for
+/// the queries of one origin or of all.
+struct Fit {
+  std::string algorithm, origin;
+  double exponent = 0, standard_error = 0;
+  double half_width_95 = 0;                  ///< half the width of its 95 % confidence interval (Student's t)
+  int points = 0;                            ///< number of subjects
+  int precisions = 0;                        ///< number of different ε
+  double least_part = 0, greatest_part = 0;  ///< range of Rung::part()
+
+  /// Whether the farthest false positives almost reach the claimed distances. Then the fit only repeats the
+  /// exponent in the formula of the claim.
+  [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
+};
 
 /// The distance bound that an algorithm claims for ε = 2^exponent, in units of B.
 double claimed_distance(const std::string& algorithm, int exponent) {
@@ -73,7 +102,11 @@ nlohmann::ordered_json place_json(const LadderPlace& place) {
           {"epsilon", std::exp2(place.epsilon_exponent)}};
 }
 
-std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
+namespace {
+
+/// The rungs of wang and wang-tight over the scalars in the statistics, by ascending precision. Counts the
+/// queries of one origin (family.hpp), or of all origins if `only` is "".
+std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
   // The power of ε is about the bound 41 B ε^¼ of pairs of meshes.
   for (const auto& [key, counts] : statistics.counts)
@@ -88,8 +121,6 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
                    [](const Rung& a, const Rung& b) { return a.epsilon_exponent > b.epsilon_exponent; });
   return all;
 }
-
-namespace {
 
 /// The binary logarithms of ε and of the farthest distance.
 struct LogPoint {
@@ -115,8 +146,8 @@ std::pair<double, double> slope(const std::vector<LogPoint>& points) {
   return {xy / xx, std::sqrt(residual / (n - 2) / xx)};
 }
 
-}  // namespace
-
+/// Fits an algorithm's rungs with ε from 2^-127 to 2^-23. Rungs whose farthest false positive is below the
+/// histogram's lowest border are left out. Nothing for fewer than three values of ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
   std::vector<LogPoint> points;
   std::set<int> precisions;
@@ -139,6 +170,7 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
   return line;
 }
 
+/// For each algorithm, the fit over all origins, and the fit for each single origin.
 std::vector<Fit> fits(const Statistics& statistics) {
   std::set<std::string> origins{""};
   for (const auto& [key, counts] : statistics.counts) origins.emplace(origin(key.family));
@@ -152,7 +184,7 @@ std::vector<Fit> fits(const Statistics& statistics) {
   return all;
 }
 
-std::string describe(const Fit& line) {
+std::string to_text(const Fit& line) {
   const std::string of = line.algorithm + (line.origin.empty() ? "" : ", " + line.origin);
   const std::string from = fmt::format("{} subjects with {} precisions", line.points, line.precisions);
   const std::string parts =
@@ -163,10 +195,12 @@ std::string describe(const Fit& line) {
                      line.exponent, line.half_width_95, from, parts);
 }
 
-std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) {
-  const std::vector<Rung> all = rungs(statistics);
-  if (!is_ladder(all)) return std::nullopt;
+}  // namespace
+
+nlohmann::ordered_json ladder_json(const Statistics& statistics) {
   nlohmann::ordered_json json;
+  const std::vector<Rung> all = rungs(statistics);
+  if (!is_ladder(all)) return json;
   json["rungs"] = nlohmann::ordered_json::array();
   for (const Rung& rung : all) {
     nlohmann::ordered_json row{{"subject", rung.subject}};
@@ -204,7 +238,7 @@ std::string ladder_table(const Statistics& statistics) {
   }
   std::string text = "\n" + columns(rows, 1);
   for (const Fit& line : fits(statistics))
-    if (line.origin.empty()) text += describe(line) + "\n";
+    if (line.origin.empty()) text += to_text(line) + "\n";
   return text;
 }
 

@@ -1,6 +1,5 @@
 #include "reports/sections/other_tables.hpp"
 
-#include <array>
 #include <utility>
 
 #include "reports/text/json.hpp"
@@ -49,48 +48,22 @@ std::vector<Hunt> load_hunts(const std::filesystem::path& file) {
   return hunts;
 }
 
-namespace {
-
-constexpr std::array<std::pair<const char*, std::string Environment::*>, 4> texts{
-    {{"subject", &Environment::subject},
-     {"compiler", &Environment::compiler},
-     {"flags", &Environment::flags},
-     {"mode", &Environment::mode}}};
-constexpr std::array<std::pair<const char*, std::uint64_t Environment::*>, 6> numbers{
-    {{"queries", &Environment::queries},
-     {"collisions", &Environment::collisions},
-     {"missed", &Environment::missed},
-     {"false_positives", &Environment::false_positives},
-     {"refuted_bounds", &Environment::refuted_bounds},
-     {"faults", &Environment::faults}}};
-
-}  // namespace
-
-ordered_json environments_json(const std::vector<Environment>& environments) {
-  ordered_json json = ordered_json::array();
-  for (const Environment& each : environments) {
-    ordered_json row;
-    for (const auto& [key, member] : texts) row[key] = each.*member;
-    for (const auto& [key, member] : numbers) row[key] = each.*member;
-    row["verdict"] = each.verdict();
-    row["first"] = each.first ? ordered_json(*each.first) : ordered_json();
-    json.push_back(std::move(row));
-  }
-  return json;
-}
-
-std::vector<Environment> load_environments(const std::filesystem::path& file) {
-  std::vector<Environment> environments;
+std::string load_environments(const std::filesystem::path& file) {
+  ordered_json rows = ordered_json::array();
   read_json_file(file, "the table of tools/environments", [&](const ordered_json& json) {
     for (const ordered_json& each : json) {
-      Environment row;
-      for (const auto& [key, member] : texts) each.at(key).get_to(row.*member);
-      for (const auto& [key, member] : numbers) each.at(key).get_to(row.*member);
-      if (!each.at("first").is_null()) row.first = each["first"].get<std::string>();
-      environments.push_back(std::move(row));
+      ordered_json& row = rows.emplace_back();
+      for (const char* key : {"subject", "compiler", "flags", "mode"})
+        row[key] = each.at(key).get<std::string>();
+      for (const char* key :
+           {"queries", "collisions", "missed", "false_positives", "refuted_bounds", "faults"})
+        row[key] = each.at(key).get<std::uint64_t>();
+      row["verdict"] = row["missed"] > 0 ? "misses" : row["faults"] > 0 ? "gives no answer" : "keeps it";
+      row["first"] = each.at("first");
+      if (!row["first"].is_null()) row["first"].get_ref<const std::string&>();  // throws for anything else
     }
   });
-  return environments;
+  return rows.empty() ? "" : json_text(rows);
 }
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-#include "reports/sections/scorecard.hpp"
+#include "reports/sections/headline.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/verdicts.hpp"
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/statistics/sums.hpp"
 #include "reports/text/json.hpp"
 

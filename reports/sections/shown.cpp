@@ -85,15 +85,6 @@ std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
   return cases;
 }
 
-std::vector<ShownTime> extreme_times(const Statistics& statistics) {
-  std::vector<ShownTime> times;
-  for (const auto& [key, sum] : statistics.by_subject_and_kind())
-    for (const auto& [is_early, cases] :
-         {std::pair{true, &sum.counts.earliest}, std::pair{false, &sum.counts.latest}})
-      if (!cases->empty()) times.push_back({key.subject, key.kind, is_early, cases->front()});
-  return times;
-}
-
 namespace {
 
 /// The run that contains a finding; null if there is none.

@@ -1,8 +1,6 @@
-// Single queries that a report shows: findings, the farthest false positives, and the earliest and latest
-// times. Findings and false positives become case files too.
+// Single queries that a report shows as case files: findings, and the farthest false positives.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -45,22 +43,5 @@ struct ShownFarthest {
 /// The farthest false positive of each subject, kind and family that has one, in the order of their keys.
 /// File names differ even if upper and lower case are not distinguished.
 std::vector<ShownFarthest> farthest_cases(const Statistics& statistics);
-
-/// The time that is the farthest before t*, or the farthest after it, among those of a subject and kind.
-struct ShownTime {
-  std::string subject;
-  Kind kind{};
-  bool is_early = false;
-  FarCase far;  ///< its ratio is the magnitude of time - t*
-
-  /// The time that the subject gave, computed from t* (`earliest`) and the ratio, to the precision of the
-  /// ratio.
-  [[nodiscard]] double given(double earliest) const {
-    return std::clamp(is_early ? earliest - far.ratio : earliest + far.ratio, 0.0, 1.0);
-  }
-};
-
-/// The earliest and the latest time of each subject and kind with times, in the order of their names.
-std::vector<ShownTime> extreme_times(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -1,8 +1,10 @@
-#include "reports/sections/simulations.hpp"
+#include "reports/sections/sections.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "reports/text/json.hpp"

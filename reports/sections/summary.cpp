@@ -1,4 +1,4 @@
-#include "reports/sections/summary.hpp"
+#include "reports/sections/sections.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,9 @@
 #include <set>
 #include <vector>
 
-#include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/measures.hpp"
-#include "reports/sections/sizes_table.hpp"
 #include "reports/sections/verdicts.hpp"
-#include "reports/sections/version_table.hpp"
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {
@@ -90,8 +87,8 @@ constexpr const char* footnotes =
 /// A table followed by an empty line; "" for an empty table.
 std::string spaced(const std::string& text) { return text.empty() ? "" : text + "\n"; }
 
-}  // namespace
-
+/// A table with a row for each subject, kind and class: the sort of its times, how many of them are late or
+/// stuck at 0, and how early or late they are; "" if no subject gives times.
 std::string time_table(const Statistics& statistics) {
   auto sums = by_class(statistics);
   std::erase_if(sums, [](const auto& each) {
@@ -106,6 +103,7 @@ std::string time_table(const Statistics& statistics) {
          footnote_on_times;
 }
 
+/// A table with a row for each subject, kind and class; "" if all queries are of one class.
 std::string class_table(const Statistics& statistics) {
   const auto sums = by_class(statistics);
   std::set<QueryClass> classes;
@@ -114,6 +112,8 @@ std::string class_table(const Statistics& statistics) {
   return table(sums, {"subject", "kind", "class"}, cells_of,
                {"queries", "collisions", "false_negatives", "late", "false_positives", "ns_per_query"}, 3);
 }
+
+}  // namespace
 
 std::string summary_table(const Statistics& statistics, const Failures& failing) {
   const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);

@@ -1,23 +1,41 @@
-#include "reports/sections/sweeps.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "reports/sections/counts_json.hpp"
-#include "reports/statistics/family_name.hpp"
+#include "reports/sections/measures.hpp"
+#include "reports/sections/sections.hpp"
+#include "reports/statistics/confidence.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {
 
+using nlohmann::ordered_json;
+
 namespace {
+
+/// Sums of counters over all kinds, by the value of the parameter.
+using Sweep = std::map<double, CountsSum>;
+
+/// Likewise, by class of families and value of the option.
+using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
+
+/// Two neighbouring values of an option, and the misses among the collisions with each of them.
+struct Cliff {
+  QueryClass of{};  ///< of the families
+  double value = 0, next = 0;
+  Proportion missed, missed_next;
+};
 
 /// A place in a sweep: what is swept, and the value there.
 struct Step {
@@ -61,8 +79,8 @@ bool has_one_value(const OptionSweep& sweep) {
   return values.size() == 1;
 }
 
-}  // namespace
-
+/// The sweeps in a campaign by family, NAME or NAME~SEPARATION, and by subject: families NAME@VALUE and
+/// NAME@VALUE~SEPARATION with at least two values.
 std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& statistics) {
   std::map<std::pair<std::string, std::string>, Sweep> found;
   for (const auto& [key, counts] : statistics.counts)
@@ -72,6 +90,8 @@ std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& st
   return found;
 }
 
+/// The sweeps of options in a campaign by pattern: subjects NAME:KEY=NUMBER with at least two different
+/// numbers have the pattern NAME:KEY=*.
 std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics) {
   std::map<std::string, OptionSweep> found;
   for (const auto& [key, counts] : statistics.counts)
@@ -81,14 +101,13 @@ std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics) {
   return found;
 }
 
-namespace {
-
 Proportion missed(const CountsSum& sum) { return {sum.counts.false_negatives, sum.counts.collisions}; }
 
 double difference(const Cliff& cliff) { return std::abs(cliff.missed.rate() - cliff.missed_next.rate()); }
 
-/// The cliff of a sweep; nothing if no rate changes.
-std::optional<Cliff> cliff_of(const std::string& pattern, const OptionSweep& sweep) {
+/// The neighbouring values between which the rate of misses changes most, in the least exotic class in which a
+/// rate changes by more than chance explains; nothing without such a change.
+std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   constexpr double improbable = 1e-3;
   std::optional<Cliff> best;
   for (auto at = sweep.begin(); at != sweep.end() && std::next(at) != sweep.end(); ++at) {
@@ -97,7 +116,7 @@ std::optional<Cliff> cliff_of(const std::string& pattern, const OptionSweep& swe
     if (next.first != key.first || (best && best->of != key.first)) continue;
     if (key.second < 0 && next.second >= 0)
       continue;  // -1 often means no limit, so 100 is no neighbour of it
-    const Cliff cliff{pattern, key.first, key.second, next.second, missed(sum), missed(next_sum)};
+    const Cliff cliff{key.first, key.second, next.second, missed(sum), missed(next_sum)};
     const bool is_there = cliff.missed.total > 0 && cliff.missed_next.total > 0 &&
                           fisher_test(cliff.missed_next, cliff.missed).either() < improbable;
     if (is_there && (!best || difference(cliff) > difference(*best))) best = cliff;
@@ -115,13 +134,6 @@ std::string to_text(const Cliff& cliff) {
 }
 
 }  // namespace
-
-std::vector<Cliff> cliffs(const Statistics& statistics) {
-  std::vector<Cliff> found;
-  for (const auto& [pattern, sweep] : option_sweeps(statistics))
-    if (auto cliff = cliff_of(pattern, sweep)) found.push_back(std::move(*cliff));
-  return found;
-}
 
 std::string sweep_tables(const Statistics& statistics) {
   const auto as_text = [](double value) { return fmt::format("{:.6g}", value); };
@@ -143,12 +155,12 @@ std::string sweep_tables(const Statistics& statistics) {
                                "without_answer", "median_early", "q99_early", "max_early", "false_positives",
                                "false_positive_rate", "ns_per_query"},
                               1));
-    if (const auto cliff = cliff_of(pattern, sweep)) text += to_text(*cliff) + "\n";
+    if (const auto cliff = cliff_of(sweep)) text += to_text(*cliff) + "\n";
   }
   return text;
 }
 
-nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
+ordered_json sweeps_json(const Statistics& statistics) {
   const MeasureKeys shown{"queries",
                           "collisions",
                           "false_negatives",
@@ -158,7 +170,7 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
                           "max_fp_distance_over_bound",
                           "bound_of_distances",
                           "ns_per_query"};
-  auto json = nlohmann::ordered_json::object();
+  auto json = ordered_json::object();
   for (const auto& [key, sweep] : sweeps(statistics)) {
     auto& steps = json[key.first][key.second];
     for (const auto& [value, sum] : sweep) {
@@ -169,21 +181,22 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
   return json;
 }
 
-nlohmann::ordered_json cliffs_json(const Statistics& statistics) {
-  auto json = nlohmann::ordered_json::array();
-  for (const Cliff& each : cliffs(statistics))
-    json.push_back({{"pattern", each.pattern},
-                    {"class", name(each.of)},
-                    {"value", each.value},
-                    {"next", each.next},
-                    {"false_negative_rate", each.missed.rate()},
-                    {"false_negative_rate_next", each.missed_next.rate()},
-                    {"text", to_text(each)}});
+ordered_json cliffs_json(const Statistics& statistics) {
+  auto json = ordered_json::array();
+  for (const auto& [pattern, sweep] : option_sweeps(statistics))
+    if (const auto cliff = cliff_of(sweep))
+      json.push_back({{"pattern", pattern},
+                      {"class", name(cliff->of)},
+                      {"value", cliff->value},
+                      {"next", cliff->next},
+                      {"false_negative_rate", cliff->missed.rate()},
+                      {"false_negative_rate_next", cliff->missed_next.rate()},
+                      {"text", to_text(*cliff)}});
   return json;
 }
 
-nlohmann::ordered_json option_sweeps_json(const Statistics& statistics) {
-  auto json = nlohmann::ordered_json::object();
+ordered_json option_sweeps_json(const Statistics& statistics) {
+  auto json = ordered_json::object();
   for (const auto& [pattern, sweep] : option_sweeps(statistics)) {
     auto& steps = json[pattern];
     for (const auto& [key, sum] : sweep) {

@@ -1,16 +1,39 @@
-#include "reports/sections/trade_off.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "reports/sections/counts_json.hpp"
+#include "reports/sections/ladder.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/text/json.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+/// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
+struct TradeOff {
+  std::string subject;
+  /// The sum over timed families. Rates are computed from it, too, because directed searches, which are not
+  /// timed, have no meaningful rates.
+  CountsSum timed;
+  CountsSum all;
+  LadderPlace place;
+
+  /// Distance of the subject's farthest false positive in units of B; nothing if the unit is not known.
+  [[nodiscard]] std::optional<double> farthest() const {
+    if (all.counts.false_positives == 0) return 0;
+    return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
+  }
+
+  /// Whether the subject may be on a front: it has no failure, except failures that count only on request.
+  [[nodiscard]] bool sound() const {
+    return in_common(failures_of(subject, all.counts), usual_failures()).empty();
+  }
+};
 
 using Subjects = std::set<std::string>;
 
@@ -43,8 +66,8 @@ Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>&
   return most == sets.end() ? Subjects() : most->first;
 }
 
-}  // namespace
-
+/// A TradeOff for each timed subject, in the order of their names, except those beyond their contracts. If no
+/// family was asked of all subjects, only the largest set of subjects with a common family is compared.
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   const auto asked = asked_subjects(statistics);
   const Subjects subjects = most_comparable(asked);
@@ -64,6 +87,9 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   return trade_offs;
 }
 
+/// The Pareto front of the sound subjects, fastest first. A subject is on the front unless another sound
+/// subject is at least as fast with at most the same error. If several subjects have equal times and errors,
+/// only the first name is on the front. `error` computes the error of a subject.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&)) {
   std::vector<const TradeOff*> sound;
   for (const TradeOff& each : all)
@@ -81,8 +107,6 @@ std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (
   }
   return front;
 }
-
-namespace {
 
 bool has_ladder(const std::vector<TradeOff>& all) {
   std::map<std::string, std::set<std::string>> scalars;

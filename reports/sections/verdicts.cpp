@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

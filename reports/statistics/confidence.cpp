@@ -50,6 +50,10 @@ double student_t_quantile_975(std::size_t degrees_of_freedom) {
   return quantile(boost::math::students_t(static_cast<double>(degrees_of_freedom)), 0.975);
 }
 
+double level_of(double risk, std::size_t tests) {
+  return risk / static_cast<double>(std::max<std::size_t>(1, tests));
+}
+
 namespace {
 
 /// P(X >= count) and P(X <= count) for a random number X whose smallest value is `least`.

@@ -51,6 +51,9 @@ struct ExactTest {
   [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
 };
 
+/// The level of each of several tests that share a risk (Bonferroni).
+double level_of(double risk, std::size_t tests);
+
 /// Fisher's exact test, given the sum of both counts. If the sum of the totals exceeds 2^31, or the sum of
 /// the counts a million, a binomial distribution replaces the hypergeometric one; its p-values are larger.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "reports/statistics/sums.hpp"
 
@@ -117,52 +118,32 @@ bool is_slow(std::string_view signature) {
   });
 }
 
+using What = Finding::What;
+using FailureAndFinding = std::pair<FailureKind, What>;
+
+/// The sort of finding that each kind of failure makes, unless it makes none.
+constexpr std::array<FailureAndFinding, 9> findings{{
+    {FailureKind::oracle_disagreement, What::oracle_disagreement},
+    {FailureKind::wrong_truth, What::truth_mismatch},
+    {FailureKind::miss, What::false_negative},
+    {FailureKind::late, What::late},
+    {FailureKind::unsafe_step, What::unsafe_step},
+    {FailureKind::beyond_bound, What::refuted_bound},
+    {FailureKind::fault, What::fault},
+    {FailureKind::committed, What::committed},
+    {FailureKind::slow, What::fault},
+}};
+
 }  // namespace
 
 FailureKind failure_of(const Signature& signature) {
-  switch (signature.what) {
-    case Finding::What::false_negative:
-      return FailureKind::miss;
-    case Finding::What::refuted_bound:
-      return FailureKind::beyond_bound;
-    case Finding::What::oracle_disagreement:
-      return FailureKind::oracle_disagreement;
-    case Finding::What::truth_mismatch:
-      return FailureKind::wrong_truth;
-    case Finding::What::late:
-      return FailureKind::late;
-    case Finding::What::committed:
-      return FailureKind::committed;
-    case Finding::What::unsafe_step:
-      return FailureKind::unsafe_step;
-    case Finding::What::fault:
-      break;
-  }
-  return is_slow(signature.text) ? FailureKind::slow : FailureKind::fault;
+  if (signature.what == What::fault && is_slow(signature.text)) return FailureKind::slow;
+  return std::ranges::find(findings, signature.what, &FailureAndFinding::second)->first;
 }
 
 std::optional<Finding::What> finding_of(FailureKind kind) {
-  switch (kind) {
-    case FailureKind::oracle_disagreement:
-      return Finding::What::oracle_disagreement;
-    case FailureKind::wrong_truth:
-      return Finding::What::truth_mismatch;
-    case FailureKind::miss:
-      return Finding::What::false_negative;
-    case FailureKind::late:
-      return Finding::What::late;
-    case FailureKind::committed:
-      return Finding::What::committed;
-    case FailureKind::unsafe_step:
-      return Finding::What::unsafe_step;
-    case FailureKind::beyond_bound:
-      return Finding::What::refuted_bound;
-    case FailureKind::fault:
-    case FailureKind::slow:
-      return Finding::What::fault;
-    default:
-      return std::nullopt;
-  }
+  const auto found = std::ranges::find(findings, kind, &FailureAndFinding::first);
+  return found == findings.end() ? std::nullopt : std::optional(found->second);
 }
 
 Failures failures_of(const std::string& subject, const Counts& counts) {

@@ -1,8 +1,10 @@
 #include "reports/statistics/family.hpp"
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <utility>
+
+#include "reports/statistics/sums.hpp"
 
 namespace nearmiss {
 
@@ -43,6 +45,52 @@ Statistics by_shown_family(const Statistics& statistics) {
   for (const auto& [key, counts] : statistics.oracle)
     shown.oracle[{key.first, shown_family(key.second)}].merge(counts);
   return shown;
+}
+
+std::string scene_of(const std::string& step) { return step.substr(0, step.rfind('#')); }
+
+namespace {
+
+// The families of each class, before and after a blank. The only place that says which class a family has.
+constexpr std::array<std::string_view, 3> classes{
+    " near near-within v-drifting v-rest-angle v-rest-ratio rest rest-units rest-distant uniform "
+    "uniform-end uniform-slow mesh floats kilometres metres units distant v-small-integer "
+    "v-decimals v-reached-separation ",
+    " v-along rest-touching rest-angle rest-ratio v-shrinking v-minimum planted planted-ulp "
+    "grazing parallel sliver planar small-integer unit-integer degenerate decimals "
+    "near-parallel-edges needle rigid end-contact even-roots triple-root far-end far-start "
+    "first-moment one-point touch-twice crossed close-roots touch-once border-first return-later "
+    "slow-contact near-separation tied-separation reached-separation slow-approach "
+    "changed-features starts-near-separation ",
+    " small stiff aspect offset scale overflow mixed-scale static-pair near-overflow "
+    "near-overflow-planted near-underflow near-underflow-planted sized-separation v-one-point "};
+static_assert(classes.size() == static_cast<std::size_t>(QueryClass::unclassified));
+
+QueryClass class_in_table(std::string_view name) {
+  const std::string word = ' ' + std::string(name) + ' ';
+  const auto has_word = [&](std::string_view words) { return words.find(word) != words.npos; };
+  const bool is_word = name.find(' ') == name.npos;  // a forged store may have any name
+  const auto found = is_word ? std::ranges::find_if(classes, has_word) : classes.end();
+  return static_cast<QueryClass>(found - classes.begin());
+}
+
+}  // namespace
+
+QueryClass class_of(std::string_view family) {
+  if (family.starts_with("scene:")) return QueryClass::ordinary;
+  if (family.starts_with("sim:"))  // those with options or sizes were not counted
+    return family.find_first_of("@~:", 4) == std::string_view::npos ? QueryClass::ordinary
+                                                                    : QueryClass::unclassified;
+  const FamilyName name(family);
+  // The vertices and edges of a family have its class, unless the table names them.
+  const QueryClass own = class_in_table(name.base);
+  return own == QueryClass::unclassified ? class_in_table(name.root) : own;
+}
+
+std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {
+  return sums_by(statistics, [](const CountsKey& key) {
+    return ClassKey{key.subject, key.kind, class_of(key.family)};
+  });
 }
 
 }  // namespace nearmiss

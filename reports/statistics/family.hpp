@@ -1,11 +1,15 @@
-// Families in reports: which are random samples, and which are shown together as one family.
+// Families in reports: which are random samples, how near their queries are to those of a simulation, and which
+// are shown together as one.
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include "reports/statistics/family_name.hpp"
+#include "reports/statistics/query_class.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
@@ -29,5 +33,24 @@ std::uint64_t most_repeats(const Statistics& statistics, std::string_view subjec
 
 /// Statistics in which families that are shown as one are added up.
 Statistics by_shown_family(const Statistics& statistics);
+
+/// The scene of "scene:NAME#STEP": "scene:NAME".
+std::string scene_of(const std::string& step);
+
+/// The class of a family by its name, NAME or NAME@VALUE. Scenes are ordinary. So are simulations with the
+/// usual options; other simulations are unclassified.
+QueryClass class_of(std::string_view family);
+
+/// Identifies the counters of a subject and kind over the families of a class.
+struct ClassKey {
+  std::string subject;
+  Kind kind{};
+  QueryClass of{};
+
+  auto operator<=>(const ClassKey&) const = default;
+};
+
+/// Sums over the families of each class. A class without queries is left out.
+std::map<ClassKey, CountsSum> by_class(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -13,8 +13,9 @@
 
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
-#include "reports/store/campaign_tables.hpp"
 #include "reports/store/file_lock.hpp"
+#include "reports/store/table.hpp"
+#include "reports/text/json.hpp"
 #include "reports/text/shell.hpp"
 
 namespace nearmiss {
@@ -22,9 +23,99 @@ namespace nearmiss {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 using Check = std::function<void()>;
 
 constexpr std::uint64_t only_run = 0;
+
+/// The rows that belong to runs. Runs are numbered from 0.
+using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;      ///< by run and index
+using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;  ///< by run and place in the run
+using Pictures = std::map<std::pair<std::uint64_t, std::string>, json::object_t>;  ///< by run and step
+
+/// Calls `use` with the name and the rows of each table of counters.
+template <class SomeStatistics, class Use>
+void for_each_table(SomeStatistics& statistics, const Use& use) {
+  use("counts", statistics.counts);
+  use("oracle", statistics.oracle);
+  use("funnel", statistics.funnels);
+  use("simulated", statistics.simulated);
+  use("factor", statistics.factors);
+  use("version", statistics.versions);
+  use("seen", statistics.seen);
+  use("extreme", statistics.extremes);
+}
+
+Statistics read_statistics(Reader& read) {
+  std::map<int, Statistics> whole;
+  read("campaign", whole);
+  Statistics statistics = std::move(whole[0]);
+  for_each_table(statistics, [&](const char* table, auto& rows) { read(table, rows); });
+  return statistics;
+}
+
+std::vector<Run> read_runs(Reader& read) {
+  std::map<std::uint64_t, RunInfo> infos;
+  Shards shards;
+  Findings findings;
+  Pictures pictures;
+  read("run", infos);
+  read("shard", shards);
+  read("finding", findings);
+  read("picture", pictures);
+  std::map<std::uint64_t, Run> runs;
+  for (auto& [run, info] : infos) runs[run].info = std::move(info);
+  for (auto& [key, shard] : shards) runs[key.first].shards.push_back(std::move(shard));
+  for (auto& [key, finding] : findings) runs[key.first].findings.push_back(std::move(finding));
+  for (auto& [key, picture] : pictures)
+    runs[key.first].pictures.push_back({key.second, json_text(json(std::move(picture)))});
+  std::vector<Run> all;
+  for (auto& [number, run] : runs) all.push_back(std::move(run));
+  return all;
+}
+
+/// Consecutive findings of a run, from the one at place `first` on.
+Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint64_t first = 0) {
+  Findings rows;
+  for (const Finding& each : findings) rows.emplace(std::pair{run, first++}, each);
+  return rows;
+}
+
+/// Replaces all counters in a store.
+void write_statistics(Save& save, const Statistics& statistics) {
+  Statistics whole;
+  merge_counters(whole, statistics);
+  save.replace("campaign", std::map<int, Statistics>{{0, whole}});
+  for_each_table(statistics, [&](const char* table, const auto& rows) { save.replace(table, rows); });
+}
+
+/// Writes a campaign to an empty store.
+void write_campaign(Save& save, const Campaign& campaign) {
+  std::map<std::uint64_t, RunInfo> infos;
+  Shards shards;
+  Findings findings;
+  Pictures pictures;
+  for (const Run& run : campaign.runs) {
+    const std::uint64_t number = infos.size();
+    infos.emplace(number, run.info);
+    for (const Shard& shard : run.shards) shards.emplace(std::pair{number, shard.index}, shard);
+    findings.merge(rows_of(number, run.findings));
+    for (const ScenePicture& picture : run.pictures)
+      pictures.emplace(std::pair{number, picture.step}, json::parse(picture.json));
+  }
+  save.add("run", infos);
+  save.add("shard", shards);
+  save.add("finding", findings);
+  save.add("picture", pictures);
+  write_statistics(save, campaign.statistics);
+}
+
+/// Reads a campaign. A run whose row was lost has no facts. Throws Error for an invalid value, and passes on
+/// exceptions of `read`.
+Campaign read_campaign(Reader& read) {
+  std::vector<Run> runs = read_runs(read);
+  return {std::move(runs), read_statistics(read)};
+}
 
 /// How long to wait for another process that reads a store, or opens or closes it. It is short enough for a
 /// process to stop within two seconds after it is told to.
@@ -281,8 +372,8 @@ void Store::replace(std::span<const Finding> findings) {
 
 void Store::add(const ScenePicture& picture) {
   database_->change([&](Save& save) {
-    save.add("picture", Pictures{{{only_run, picture.step},
-                                  nlohmann::json::parse(picture.json).get<nlohmann::json::object_t>()}});
+    save.add("picture",
+             Pictures{{{only_run, picture.step}, json::parse(picture.json).get<json::object_t>()}});
   });
 }
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 

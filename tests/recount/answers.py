@@ -10,7 +10,6 @@ import numpy as np
 from asking import KINDS, separation
 from enclosed import Enclosed
 from impact import Impact, compare, sort_of
-from query_class import query_classes
 
 
 @dataclass
@@ -51,11 +50,8 @@ class Answers:
     asked: dict  # (subject, kind) -> Asked
     times: dict  # kind -> Known enclosures of t*
 
-    classify: typing.Callable  # (kind, lines) -> the classes of queries
-
     def __post_init__(self):
         self.tallies = {}  # (subject, kinds, family) -> Tally
-        self._classes = {kind: {} for kind in KINDS}  # kind -> line -> class
         self._place = {
             kind: {place: i for i, place in enumerate(zip(self.family[kind], self.number[kind]))}
             for kind in KINDS
@@ -72,13 +68,6 @@ class Answers:
     def families(self, kind):
         return sorted(set(self.family[kind]))
 
-    def classes(self, kind, lines):
-        """The classes of queries, which are given as lines."""
-        known = self._classes[kind]
-        if unknown := [line for line in dict.fromkeys(lines) if line not in known]:
-            known.update(zip(unknown, self.classify(kind, unknown)))
-        return [known[line] for line in lines]
-
     def place(self, kind, provenance):
         """The index of the query "family:seed:number"; None if there is no such query."""
         family, seed, number = provenance.rsplit(':', 2)
@@ -91,8 +80,7 @@ def ask(nearmiss, seed, counts, subjects, kinds_of):
     """Collects answers to the first counts[kind][family] queries of each kind of each family.
     Subjects are names, or paths of shared objects that have one subject; `kinds_of` says which
     kinds each name was asked."""
-    classify = functools.partial(query_classes, nearmiss)
-    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, {}, classify)
+    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, {})
     for kind in KINDS:
         answers.within[kind] = nearmiss.within(kind, answers.queries[kind])
         answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])

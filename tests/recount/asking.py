@@ -4,7 +4,6 @@ import json
 import math
 import subprocess
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -30,15 +29,10 @@ def with_separation(kind, line, h):
 
 @dataclass
 class Report:
-    """The output of a campaign and of its report: parsed JSON, and text."""
+    """The JSON of a campaign and of its report."""
 
-    folder: Path
-    fuzz_json: dict
-    fuzz_text: str
-    report_text: str
-
-    def json(self):
-        return json.loads((self.folder / 'report.json').read_text())
+    of_fuzz: dict
+    json: dict
 
 
 class Nearmiss:
@@ -68,9 +62,10 @@ class Nearmiss:
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
         command = f'fuzz --family {families} --cases {cases} --seed {seed} -q'
         options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
-        fuzz_text = self.run(*command.split(), *options, codes=(0, 1))
-        report_text = self.run('report', store, '-o', folder / 'report', codes=(0, 1))
-        return Report(folder / 'report', json.loads(fuzz_json.read_text()), fuzz_text, report_text)
+        self.run(*command.split(), *options, codes=(0, 1))
+        self.run('report', store, '-o', folder / 'report', codes=(0, 1))
+        files = fuzz_json, folder / 'report' / 'report.json'
+        return Report(*(json.loads(file.read_text()) for file in files))
 
     def family(self, name, seed, kind, count):
         """The first queries of one kind of a family, as lines."""

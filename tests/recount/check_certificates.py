@@ -10,10 +10,10 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / 'tools' / 'certificate
 from check import Refused, Statement, check  # pylint: disable=wrong-import-position
 
 
-def check_certificates(comparison, where, findings, answers):
+def check_certificates(comparison, where, report, answers):
     """Checks that the certificate of each finding proves that the subject is wrong about its
     shrunk query."""
-    for i, found in enumerate(findings):
+    for i, found in enumerate(report['findings']):
         own = f'{where} {i} certificate'
         if found['what'] == 'refuted-bound':
             claimed = answers.asked[found['subject'], found['kind']].claimed

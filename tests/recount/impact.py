@@ -1,12 +1,12 @@
 """Times of impact: their sort for each subject, and how far they are from the exact ones."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from asking import VERTICES, coordinates
 from enclosed import BORDERS, Enclosed, PRECISION
-from scalars import EPSILONS, paper_bound
 
 SORTS = {  # the sort of time that each built-in subject gives, with any scalar
     'basic': 'estimate',
@@ -23,6 +23,9 @@ WORDS = {
     'a time to which the step is free': 'free-step',
 }
 PROMISED = ('lower-bound', 'free-step')  # nothing happens before such a time
+# The bound that wang claims in double, in units of B: sqrt(D^2 + 2 delta) with D^2 = 1678 eps^(1/2) and
+# delta = 311 eps (sections 4.2 and 4.5 of the paper).
+WANGS_BOUND = math.sqrt(1678 * math.sqrt(2.0**-52) + 2 * 311 * 2.0**-52)
 ROUNDING = 1e-15  # more than the relative rounding error of one operation
 SPLIT = {'vt': 1, 'ee': 2, 'vv': 1, 've': 1}  # the first vertex of the second primitive
 
@@ -129,7 +132,7 @@ def _speeds(nearmiss, kind, queries):
     bound = nearmiss.verdicts(*_as_meshes(kind, pairs), 'wang').bound
     x = np.array([[float.fromhex(word) for word in pair] for pair in pairs])
     with np.errstate(all='ignore'):
-        B = bound / paper_bound(2.0 ** EPSILONS['double'])
+        B = bound / WANGS_BOUND
         place = x.reshape(-1, 2, VERTICES[kind], 3) / B[:, None, None, None]
         moved = place[:, 1] - place[:, 0]
         first, second = np.split(moved, [SPLIT[kind]], axis=1)

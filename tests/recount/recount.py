@@ -6,7 +6,6 @@ one by one (nearmiss family, oracle and verdict), and recomputes everything exce
 NumPy and SciPy. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
 
 import argparse
-import json
 import sys
 import tempfile
 from pathlib import Path
@@ -15,19 +14,28 @@ from answers import ask
 from asking import KINDS, Nearmiss
 from check_certificates import check_certificates
 from check_counts import check_statistics
-from check_csv import CSV_CHECKS
-from check_deciders import check_deciders
 from check_factors import check_common_factors, check_sizes
 from check_findings import check_findings
 from check_kept import check_extreme_times, check_farthest
-from check_page import check_page
-from check_scorecard import check_scorecard
-from check_sections import check_borders, check_ladder, check_trade_offs
-from check_text import check_text
+from check_sections import check_ladder, check_scorecard, check_trade_offs
 from check_versions import check_versions
 from comparison import Comparison
-from scalars import Units
 from tally import Tally
+
+# The checks of report.json, by the section that each of them is about.
+REPORT_CHECKS = {
+    'report.json': check_statistics,
+    'verdicts': check_scorecard,
+    'error_against_time': check_trade_offs,
+    'ladder': check_ladder,
+    'findings': check_findings,
+    'certificates': check_certificates,
+    'extreme_times': check_extreme_times,
+    'farthest': check_farthest,
+    'common_factors': check_common_factors,
+    'sizes': check_sizes,
+    'versions': check_versions,
+}
 
 
 def counts_of(report):
@@ -39,51 +47,11 @@ def counts_of(report):
     }
 
 
-def report_checks(report, answers, units):
-    """The checks of report.json, each with the sections whose values it checks and its
-    arguments."""
-    trade_offs, findings = report['error_against_time'], report['findings']
-    yield ('oracle', 'signatures', 'subjects'), check_statistics, 'report.json', report, answers
-    yield ('histogram_borders',), check_borders, 'report.json', report
-    yield (
-        'error_against_time',
-    ), check_trade_offs, 'error_against_time', trade_offs, answers, units
-    yield ('ladder',), check_ladder, 'ladder', report, answers, units
-    yield ('findings',), check_findings, 'findings', findings, 'original', report, answers
-    yield ('findings',), check_certificates, 'findings', findings, answers
-    for name, check in (
-        ('verdicts', check_scorecard),
-        ('deciders', check_deciders),
-        ('extreme_times', check_extreme_times),
-        ('farthest', check_farthest),
-        ('common_factors', check_common_factors),
-        ('sizes', check_sizes),
-        ('versions', check_versions),
-    ):
-        yield (name,), check, name, report, answers
-
-
-def check_report(comparison, report, answers, units, first=''):
-    """Checks everything in report.json that can be recomputed, beginning with the section
-    `first`."""
-    schema = Path(__file__).parents[2] / 'reports' / 'report.schema.json'
-    version = json.loads(schema.read_text())['properties']['schema_version']['const']
-    comparison.same('names', 'schema_version', report['schema_version'], version)
-    checks = report_checks(report, answers, units)
-    for _, check, *arguments in sorted(checks, key=lambda each: first not in each[0]):
-        comparison.section(check, *arguments)
-
-
-def check_all(comparison, report, answers, units):
+def check_all(comparison, report, answers):
     """Checks everything in a campaign's output and in its report that can be recomputed."""
-    json_report = report.json()
-    check_report(comparison, json_report, answers, units)
-    comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
-    for name, check in CSV_CHECKS.items():
-        comparison.section(check, name, report.folder, json_report, answers)
-    comparison.section(check_text, 'report.json', report, json_report)
-    page = (report.folder / 'index.html').read_text(encoding='utf-8')
-    comparison.section(check_page, 'index.html', page, json_report)
+    for name, check in REPORT_CHECKS.items():
+        comparison.section(check, name, report.json, answers)
+    comparison.section(check_statistics, 'fuzz.json', report.of_fuzz, answers)
 
 
 def check_cases(comparison, found, cases, counts, seed):
@@ -111,14 +79,13 @@ def recount(nearmiss, folder, cases, seed, subjects, families):
     """Runs a campaign, recomputes its report, and compares."""
     comparison = Comparison()
     report = nearmiss.report(folder, cases, seed, subjects, families)
-    counts = counts_of(report.json())
-    check_cases(comparison, report.json(), cases, counts, seed)
-    kinds_of = {name: tuple(kinds) for name, kinds in report.json()['subjects'].items()}
+    counts = counts_of(report.json)
+    check_cases(comparison, report.json, cases, counts, seed)
+    kinds_of = {name: tuple(kinds) for name, kinds in report.json['subjects'].items()}
     answers = ask(nearmiss, seed, counts, subjects, kinds_of)
-    units = Units(nearmiss, seed)
-    check_all(comparison, report, answers, units)
+    check_all(comparison, report, answers)
     note_either_way(comparison, answers)
-    return comparison, report, answers, units
+    return comparison, report.json
 
 
 def main():
@@ -144,7 +111,7 @@ def main():
     options = parser.parse_args()
     try:
         with tempfile.TemporaryDirectory(prefix='nearmiss-recount-') as folder:
-            comparison, *_ = recount(
+            comparison, _ = recount(
                 Nearmiss(options.nearmiss.resolve()),
                 Path(folder),
                 options.cases,

@@ -1,8 +1,6 @@
 """Recomputes counters, histograms and confidence intervals from single answers."""
 
 import functools
-import itertools
-from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,12 +10,7 @@ from enclosed import Enclosed
 from impact import Times
 
 CLASSES = ('ordinary', 'degenerate', 'extreme', 'unclassified')
-ON_REQUEST = {
-    'committed',
-    'unknown',
-    'contract',
-    'slow',
-}  # failures that count only with --fail-on
+ON_REQUEST = {'committed', 'unknown'}  # failures that count only with --fail-on
 
 
 @dataclass
@@ -30,10 +23,6 @@ class Tally:
     collisions: int
     positives: int
     false_negatives: int
-    missed_by_class: dict  # false negatives, by the class of the query
-    late_by_class: dict  # late times, by the class of the query
-    committed_by_class: dict  # likewise, steps with contact
-    refuted_by_class: dict  # least and largest number of refuted bounds, by the class of the query
     false_positives: int
     claims: bool
     true_by_stage: dict
@@ -58,26 +47,13 @@ class Tally:
             for name in ('hit', 'collision', 'stage')
         )
         false = hit & ~collision
-
-        def by_class(failed):
-            each = (_classes(answers, kind, *part, failed) for kind, part in zip(kinds, parts))
-            return dict(Counter(itertools.chain(*each)))
-
         claims = answers.asked[subject, kinds[0]].claims
-        least, most = (
-            by_class(lambda asked: claims & (getattr(asked.ratios, end) > 1))
-            for end in ('lo', 'hi')
-        )
         return cls(
             subject,
             len(hit),
             int(collision.sum()),
             int(hit.sum()),
             int((collision & ~hit).sum()),
-            by_class(lambda asked: asked.false_negative),
-            by_class(lambda asked: asked.impact.late),
-            by_class(lambda asked: asked.impact.committed),
-            {name: (least.get(name, 0), most[name]) for name in most},
             int(false.sum()),
             claims,
             _by_name(stage[hit & collision]),
@@ -118,13 +94,6 @@ def _part(answers, subject, kind, family):
     return answers.asked[subject, kind], own
 
 
-def _classes(answers, kind, asked, own, failed):
-    """The classes of those queries among `own` whose answers `failed` selects."""
-    some = np.zeros(len(asked.hit), dtype=bool)
-    some[own] = failed(asked)[own]
-    return answers.classes(kind, [asked.judged[i] for i in np.flatnonzero(some)])
-
-
 def classes_of(class_of):
     """The families of each class, in the order of reports; class_of maps families to classes."""
     members = {
@@ -137,21 +106,17 @@ def _by_name(stages):
     return {str(name): int(count) for name, count in zip(*np.unique(stages, return_counts=True))}
 
 
-def failures_of(counts, faults):
-    """The failures in a subject's counters, the gravest first."""
-    slow = faults.get('time', 0) + faults.get('not-asked', 0)
-    beyond = faults.get('contract', 0)
+def failures_of(counts):
+    """The failures in a subject's counters, the gravest first. A campaign that is recomputed has
+    no faults."""
     found = {
         'miss': counts['false_negatives'],
         'late': counts['late'],
         'unsafe-step': counts['unsafe_steps'],
         'beyond-bound': counts['refuted_bounds'],
-        'fault': sum(faults.values()) - slow - beyond,
-        'unjudged': counts['queries'] == slow + beyond,
+        'unjudged': counts['queries'] == 0,
         'committed': counts['committed'] - counts['unsafe_steps'],
         'unknown': counts['unknown'],
-        'contract': beyond,
-        'slow': slow,
     }
     return [name for name, count in found.items() if count]
 

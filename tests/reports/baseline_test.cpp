@@ -22,19 +22,6 @@ using ::testing::SizeIs;
 
 const CountsKey key{"wang", Kind::edge_edge, "uniform"};
 
-TEST(Changes, WaysToFailComeAndGo) {
-  Campaign before = campaign("1", {});
-  Campaign now = before;
-  before.statistics.seen[{Finding::What::false_negative, "basic", "old"}] = 3;
-  now.statistics.seen[{Finding::What::fault, "mine", "vt crash SEGV"}] = 1;
-  const Changes found = changes(now, before);
-  ASSERT_THAT(found.new_signatures, SizeIs(1));
-  EXPECT_EQ(found.new_signatures[0].text, "vt crash SEGV");
-  ASSERT_THAT(found.unrepeated_signatures, SizeIs(1));
-  EXPECT_EQ(found.unrepeated_signatures[0].text, "old");
-  EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-}
-
 const auto missed = Finding::What::false_negative;
 
 TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
@@ -102,15 +89,6 @@ Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen)
   made.runs[0].shards[0].started = date;
   made.statistics.seen = std::move(seen);
   return made;
-}
-
-TEST(Baseline, IsTheSumOfItsCampaigns) {
-  const std::vector<Campaign> nights{night("1", {{inside, 3}}), night("2", {}), night("3", {{on_edge, 4}})};
-  const Campaign sum = add_up(nights);
-  EXPECT_EQ(sum.statistics.queries_of("wang"), 600000);
-  EXPECT_EQ(sum.statistics.times_seen(inside), 3);
-  EXPECT_EQ(sum.statistics.times_seen(on_edge), 4);
-  EXPECT_THAT(sum.runs, SizeIs(3));
 }
 
 // Five of six nights have the failure about equally often, and one in the middle does not have it. If the

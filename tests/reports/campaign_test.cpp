@@ -57,6 +57,10 @@ Campaign merged(const std::vector<std::uint64_t>& shards) {
   return merge_campaigns(campaigns, names);
 }
 
+Campaign merge(const Campaign& one, const Campaign& other) {
+  return merge_campaigns(std::vector{one, other}, std::vector<std::string>{"a.db", "b.db"});
+}
+
 TEST(Campaign, ARunBeganWithItsFirstShard) {
   nearmiss::Run run{info, {}, {}};
   for (const char* started : {"2026-02-02T00:00:00Z", "2026-02-01T00:00:00Z", "2026-02-03T00:00:00Z"})
@@ -105,9 +109,7 @@ TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
   std::vector<std::uint64_t> order{0, 1, 2};
   while (std::next_permutation(order.begin(), order.end())) EXPECT_EQ(merged(order).runs, whole.runs);
   // Merging in several steps gives the same result.
-  const std::vector parts{merged({2, 0}), shard_of_three(1)};
-  const std::vector<std::string> names{"a", "b"};
-  EXPECT_EQ(merge_campaigns(parts, names).runs, whole.runs);
+  EXPECT_EQ(merge(merged({2, 0}), shard_of_three(1)).runs, whole.runs);
 }
 
 TEST(Campaign, SaysWhichShardsAreMissing) {
@@ -140,41 +142,38 @@ TEST(Campaign, AShardIsTakenOnce) {
 TEST(Campaign, ARunIsCutInOneWay) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[1].runs[0].shards[0].count = 4;
-  const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_REFUSED(merge_campaigns(campaigns, names), "b.db: found a shard of 4, and one of 3 in a.db");
+  EXPECT_REFUSED(merge(campaigns[0], campaigns[1]), "b.db: found a shard of 4, and one of 3 in a.db");
 }
 
 TEST(Campaign, RunsThatDifferStandSideBySide) {
   std::vector campaigns{shard_of_three(0), shard_of_three(0)};
   campaigns[1].runs[0].info["seed"] = "0";
-  const std::vector<std::string> names{"a.db", "b.db"};
-  const Campaign both = merge_campaigns(campaigns, names);
+  const Campaign both = merge(campaigns[0], campaigns[1]);
   ASSERT_EQ(both.runs.size(), 2);
   EXPECT_EQ(both.runs[0].info.at("seed"), "0");
 }
 
 TEST(Campaign, ANameStandsForOneSubject) {
-  const std::vector<std::string> names{"a.db", "b.db"};
   std::vector campaigns{shard_of_three(0), shard_of_three(0)};
   campaigns[1].runs[0].info["seed"] = "0";
   campaigns[0].runs[0].info["subject x"] = campaigns[1].runs[0].info["subject x"] = "x=wang";
-  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
   campaigns[1].runs[0].info["subject x"] = "x=basic";
-  EXPECT_ERROR(merge_campaigns(campaigns, names),
+  EXPECT_ERROR(merge(campaigns[0], campaigns[1]),
                "b.db: found the name 'x' for x=basic, but for x=wang in a.db, expected different names");
   campaigns[1].runs[0].info.erase("subject x");
   campaigns[1].runs[0].info["plug-in x sha256"] = "0";
-  EXPECT_REFUSED(merge_campaigns(campaigns, names), "for the plug-in x, but for x=wang in a.db");
+  EXPECT_REFUSED(merge(campaigns[0], campaigns[1]), "for the plug-in x, but for x=wang in a.db");
   campaigns[0].runs[0].info.erase("subject x");
   campaigns[0].runs[0].info["plug-in x sha256"] = "1";  // another version
-  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
   campaigns[0].runs[0].info["plug-in x detector"] = "boxes";
-  EXPECT_REFUSED(merge_campaigns(campaigns, names), "for the plug-in x, but for the plug-in boxes in a.db");
+  EXPECT_REFUSED(merge(campaigns[0], campaigns[1]), "for the plug-in x, but for the plug-in boxes in a.db");
   for (Campaign& each : campaigns) each.runs[0].info["plug-in boxes:t=0 sha256"] = "1";
   campaigns[0].runs[0].info["plug-in boxes:t=0 detector"] = "boxes";  // was given as boxes=
   campaigns[1].runs[0].info["plug-in x detector"] = "boxes";
   campaigns[1].runs[0].info["plug-in sha256"] = "1";  // names none
-  EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+  EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
 }
 
 /// A run of seed 3 with families and a number of cases, which asked a subject queries of a family.
@@ -187,10 +186,6 @@ Campaign asked(const std::string& families, const std::string& cases, const Coun
 
 TEST(Campaign, TheSameQueriesDoNotCountTwice) {
   const CountsKey uniform{"wang", Kind::edge_edge, "uniform"};
-  const std::vector<std::string> names{"a.db", "b.db"};
-  const auto merge = [&](const Campaign& one, const Campaign& other) {
-    return merge_campaigns(std::vector{one, other}, names);
-  };
   const Campaign some = asked("uniform", "300", uniform);
   for (const char* families : {"uniform", "all", "needle,uniform", "uniform, search"})
     EXPECT_ERROR(
@@ -215,13 +210,12 @@ TEST(Campaign, TheSameQueriesDoNotCountTwice) {
 }
 
 TEST(Campaign, TheSameMeshIsTheSameQueries) {
-  const std::vector<std::string> names{"a.db", "b.db"};
   for (const std::string family : {"mesh", "mesh~0.5"}) {
     const CountsKey mesh{"wang", Kind::edge_edge, family};
     std::vector campaigns{asked("mesh", "1", mesh), asked("mesh", "2", mesh)};
-    EXPECT_REFUSED(merge_campaigns(campaigns, names), "queries of mesh");
+    EXPECT_REFUSED(merge(campaigns[0], campaigns[1]), "queries of mesh");
     campaigns[0].runs[0].info["scene"] = "start.obj end.obj";
-    EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+    EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
   }
 }
 
@@ -234,10 +228,6 @@ TEST(Campaign, AMergedStoreIsMergedAgain) {
     made.runs[0].info["subjects"] = given;
     made.runs[0].info["kinds"] = short_name(kind);
     return made;
-  };
-  const std::vector<std::string> names{"a.db", "b.db"};
-  const auto merge = [&](const Campaign& one, const Campaign& other) {
-    return merge_campaigns(std::vector{one, other}, names);
   };
   const Campaign one = run("wang", "wang", "1", Kind::edge_edge);
   const Campaign other = run("x", "exact,x=basic", "1", Kind::edge_edge);
@@ -256,17 +246,15 @@ TEST(Campaign, TheSameSeparationMayBeWrittenDifferently) {
   const auto with = [](const std::string& cases, const std::string& separation) {
     return asked("uniform", cases, {"wang", Kind::edge_edge, "uniform~" + separation});
   };
-  const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_REFUSED(merge_campaigns(std::vector{with("1", "0.1"), with("2", "0.10")}, names), "of uniform~0.1");
-  EXPECT_EQ(merge_campaigns(std::vector{with("1", "0.1"), with("2", "drawn")}, names).runs.size(), 2);
+  EXPECT_REFUSED(merge(with("1", "0.1"), with("2", "0.10")), "of uniform~0.1");
+  EXPECT_EQ(merge(with("1", "0.1"), with("2", "drawn")).runs.size(), 2);
 }
 
 TEST(Campaign, CountsThatDoNotFitAreRefused) {
   const CountsKey key{"wang", Kind::edge_edge, "cases/"};
   std::vector campaigns{asked("uniform", "1", key), asked("uniform", "2", key)};
   for (Campaign& each : campaigns) each.statistics.counts[key].queries = largest_count / 2 + 1;
-  const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_ERROR(merge_campaigns(campaigns, names),
+  EXPECT_ERROR(merge(campaigns[0], campaigns[1]),
                "found counts that add up to more than 2^60, expected fewer queries");
 }
 
@@ -279,25 +267,23 @@ std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
 }
 
 TEST(Campaign, ShardsOfDifferentCodeAreRefused) {
-  const std::vector<std::string> names{"a.db", "b.db"};
   for (const std::string fact : {"version", "commit", "plug-in boxes sha256", "plug-in boxes version"}) {
     auto campaigns = shards_that_differ_in(fact);
     EXPECT_ERROR(
-        merge_campaigns(campaigns, names),
+        merge(campaigns[0], campaigns[1]),
         "b.db: found " + fact + " 'b', expected 'a' as in a.db, for the run with command fuzz, seed 1");
     campaigns[1].runs[0].info["seed"] = "2";  // a run of another night
-    EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+    EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
     campaigns[1] = campaigns[0];
     campaigns[1].runs[0].shards[0].index = 1;
-    EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 1);
+    EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 1);
   }
 }
 
 TEST(Campaign, ARunWithoutAFactOfItsCodeIsRefused) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[1].runs[0].info["plug-in boxes sha256"] = "b";
-  const std::vector<std::string> names{"a.db", "b.db"};
-  EXPECT_REFUSED(merge_campaigns(campaigns, names),
+  EXPECT_REFUSED(merge(campaigns[0], campaigns[1]),
                  "b.db: found plug-in boxes sha256 'b', expected '' as in a.db");
 }
 

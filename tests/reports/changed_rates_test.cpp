@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "reports/sections/scorecard.hpp"
+#include "reports/sections/headline.hpp"
 #include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
 

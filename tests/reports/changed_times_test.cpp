@@ -1,5 +1,5 @@
 // Comparison of run times with those of a baseline.
-#include "reports/sections/changed_times.hpp"
+#include "reports/sections/baseline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "reports/sections/baseline.hpp"
 #include "reports/sections/headline.hpp"
 #include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
@@ -162,6 +161,45 @@ TEST(ChangedTimes, OfAFewFamiliesSayLittle) {
   const std::vector before{night("1", usual, subjects, 4)};
   EXPECT_THAT(changed(night("2", slower(1.3), subjects, 4), before), IsEmpty());
   EXPECT_THAT(changed(night("2", slower(1.5), subjects, 4), before), SizeIs(1));
+}
+
+// The expected numbers were computed with SciPy. Each family has two batches; there are two earlier nights.
+TEST(ChangedTimes, AreComparedByWelchsTest) {
+  constexpr int last = 8;
+  const auto night_of = [](const std::function<std::pair<int, int>(int)>& ns_of) {
+    Campaign made = campaign("1", {});
+    for (int i = 0; i <= last; ++i) {
+      const CountsKey key{"mine", Kind::edge_edge, "f" + std::to_string(i)};
+      const auto [fast, slow] = ns_of(i);
+      for (const int ns : {fast, slow})
+        made.statistics.counts[key].times.add(key.kind, key.family,
+                                              {10, 10 * static_cast<std::uint64_t>(ns)});
+    }
+    return made;
+  };
+  const std::vector before{night_of([](int) { return std::pair(50, 100); }),
+                           night_of([](int i) { return std::pair(60, i == last ? 140 : 110); })};
+  const Campaign now =
+      night_of([](int i) { return i == last ? std::pair(300, 700) : std::pair(100 + i, 200 + 3 * i); });
+  constexpr double any = 1000;  // a risk at which every time has changed
+  const ComparedTimes found = compare_times(now, before, any);
+  ASSERT_THAT(found.changed, SizeIs(10));
+  EXPECT_EQ(found.compared, 10);
+  const auto expect = [](const ChangedTime& time, const std::string& family, double now_ns, double expected,
+                         double before_ns, double p) {
+    EXPECT_EQ(time.family, family);
+    EXPECT_EQ(time.kind, "ee");
+    EXPECT_NEAR(time.now, now_ns, 1e-9);
+    EXPECT_NEAR(time.expected, expected, 1e-9);
+    EXPECT_NEAR(time.before, before_ns, 1e-9);
+    EXPECT_NEAR(time.p, p, 1e-9);
+  };
+  expect(found.changed[0], "all families", 167.3455060391121, 85.4196797754686, 85.4196797754686,
+         0.0010529724732505831);
+  expect(found.changed[1], "f0", 141.42135623730957, 148.48568954616474, 75.79289311365562,
+         0.918215418808471);
+  expect(found.changed[9], "f8", 458.2575694955841, 157.71334311073448, 80.5030477585033,
+         0.17851038048928758);
 }
 
 TEST(ChangedTimes, OfAnotherProcessorAreNotCompared) {

@@ -1,5 +1,5 @@
 // Which values of factors the missed collisions have in common.
-#include "reports/sections/common_factors_table.hpp"
+#include "reports/sections/sections.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

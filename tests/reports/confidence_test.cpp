@@ -32,9 +32,6 @@ TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
   EXPECT_EQ(clopper_pearson(0, 9, 0.01).lo, 0);
   EXPECT_EQ(clopper_pearson(9, 9, 0.01).hi, 1);
   EXPECT_EQ(clopper_pearson(0, 0), (ConfidenceInterval{0, 1}));
-}
-
-TEST(Confidence, OneWhereNothingIsKnown) {
   EXPECT_EQ(clopper_pearson_upper(0, 0), 1);
   EXPECT_EQ(clopper_pearson_upper(5, 5), 1);
 }

@@ -1,8 +1,9 @@
-// Every declared counter merges, and appears in the store, report.json and statistics.csv.
+// Every declared counter appears in the store, report.json and statistics.csv.
 #include "reports/statistics/counter.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -69,58 +70,6 @@ Counts filled_counts(std::uint64_t last = 0) {
   counts.times_promised = 30000;
   counts.committed = 10000;
   return counts;
-}
-
-void expect_sum(std::uint64_t sum, std::uint64_t a, std::uint64_t b) { EXPECT_EQ(sum, a + b); }
-
-template <std::size_t size>
-void expect_sum(const std::array<std::uint64_t, size>& sum, const std::array<std::uint64_t, size>& a,
-                const std::array<std::uint64_t, size>& b) {
-  for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(sum[i], a[i] + b[i]) << i;
-}
-
-void expect_sum(const Histogram& sum, const Histogram& a, const Histogram& b) {
-  expect_sum(sum.bins, a.bins, b.bins);
-}
-
-void expect_sum(const TimeHistogram& sum, const TimeHistogram& a, const TimeHistogram& b) {
-  expect_sum(sum.bins, a.bins, b.bins);
-}
-
-void expect_sum(const BatchesByFamily& sum, const BatchesByFamily& a, const BatchesByFamily& b) {
-  const std::pair key{Kind::edge_edge, std::string("f")};
-  EXPECT_EQ(sum.at(key).queries(), a.at(key).queries() + b.at(key).queries());
-}
-
-template <class Case>
-void expect_sum(const std::vector<Case>& sum, const std::vector<Case>& a, const std::vector<Case>& b) {
-  for (const Case& each : {a.front(), b.front()}) EXPECT_EQ(std::count(sum.begin(), sum.end(), each), 1);
-}
-
-template <class Owner>
-requires requires { Owner::counters(); }
-void expect_sum(const Owner& sum, const Owner& a, const Owner& b) {
-  for_each_counter<Owner>([&](const auto& counter) {
-    SCOPED_TRACE(counter.name);
-    expect_sum(sum.*counter.member, a.*counter.member, b.*counter.member);
-  });
-}
-
-template <class Owner>
-void expect_that_it_merges() {
-  const auto a = filled<Owner>();
-  const auto b = filled<Owner>(5000);
-  Owner sum = a;
-  sum.merge(b);
-  expect_sum(sum, a, b);
-}
-
-TEST(Counters, EachMerges) {
-  expect_that_it_merges<Counts>();
-  expect_that_it_merges<OracleCounts>();
-  expect_that_it_merges<Funnel>();
-  expect_that_it_merges<SimulatedStep>();
-  expect_that_it_merges<Statistics>();
 }
 
 class CountersTest : public testing::TemporaryFolder {};
@@ -262,6 +211,30 @@ TEST(Counters, EachNumberStandsInTheCsvFile) {
     SCOPED_TRACE(counter.name);
     ASSERT_NO_THROW(expect_in_csv(fields, counts, counter));
   });
+  const auto json = counts_json({counts});
+  EXPECT_EQ(fields.at("median_ns"), std::to_string(std::lround(json["times"]["median_ns"].get<double>())));
+}
+
+TEST(Counters, EachMeasureStandsInTheCsvFileAsInTheJson) {
+  Statistics statistics;
+  const Counts counts = statistics.counts[{"wang", Kind::edge_edge, "f"}] = filled_counts();
+  const Fields fields = fields_of(statistics_csv(statistics));
+  const auto json = rates_json({counts});
+  const auto expect = [&](const std::string& heading, const nlohmann::ordered_json& value) {
+    EXPECT_DOUBLE_EQ(std::stod(fields.at(heading)), value.is_null() ? HUGE_VAL : value.get<double>())
+        << heading;
+  };
+  for (const Measure& each : rate_measures()) {
+    const std::string key(each.key);
+    if (each.csv_after.empty()) continue;
+    if (json[key].is_array())
+      for (const int end : {0, 1}) expect(key + (end == 0 ? "_from" : "_to"), json[key][end]);
+    else
+      expect(key, json[key]);
+  }
+  for (const int end : {0, 1})
+    expect(end == 0 ? "false_positive_rate_from" : "false_positive_rate_to",
+           json["false_positive_rate_interval_95"][end]);
 }
 
 }  // namespace

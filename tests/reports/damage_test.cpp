@@ -95,11 +95,11 @@ class DamageTest : public testing::TemporaryFolder {
 
 TEST_F(DamageTest, OfAnyBitIsNoticedOrDoesNotMatter) {
   const std::string bytes = read("a.db");
-  std::set<std::uint64_t> bits;  // one in each byte of the header, and 600 others
+  std::set<std::uint64_t> bits;  // one in each second byte of the header, and 200 others
   Random random(1, 0, 0);
   constexpr std::uint64_t header = 100;
-  for (std::uint64_t byte = 0; byte < header; ++byte) bits.insert(8 * byte + random.bits() % 8);
-  while (bits.size() < header + 600) bits.insert(random.bits() % (8 * bytes.size()));
+  for (std::uint64_t byte = 0; byte < header; byte += 2) bits.insert(8 * byte + random.bits() % 8);
+  while (bits.size() < header / 2 + 200) bits.insert(random.bits() % (8 * bytes.size()));
   int refused = 0;
   for (const std::uint64_t bit : bits) {
     SCOPED_TRACE("bit " + std::to_string(bit) + " of " + std::to_string(8 * bytes.size()));
@@ -108,8 +108,7 @@ TEST_F(DamageTest, OfAnyBitIsNoticedOrDoesNotMatter) {
     write("b.db", damaged);
     refused += is_refused("b.db") ? 1 : 0;
   }
-  RecordProperty("refused", refused);
-  EXPECT_GT(refused, 200);
+  EXPECT_GT(refused, 70);
   EXPECT_LT(refused, bits.size());
 }
 
@@ -202,17 +201,14 @@ void claim_rows(const std::filesystem::path& store, const std::string& table, co
                           std::to_string(checksum("contents", key, value)) + " WHERE key = '" + key + "'");
 }
 
+// No more rows are looked for than the file can hold.
 TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
-  claim_rows(file("a.db"), "seen", "4611686018427387904");
-  EXPECT_REFUSED(load_campaign(file("a.db")), "some rows are not as they were saved");
-  EXPECT_EQ(salvage_campaign(file("a.db")).lost, "4611686018427387901 of 4611686018427387904 rows of seen");
-}
-
-TEST_F(DamageTest, NoMoreRowsAreLookedForThanTheFileCanHold) {
   for (const char* table : {"run", "shard", "finding", "picture", "campaign", "counts", "oracle", "funnel",
                             "factor", "simulated", "version", "seen", "extreme"})
     claim_rows(file("a.db"), table, "4611686018427387904");
   EXPECT_REFUSED(load_campaign(file("a.db")), "some rows are not as they were saved");
+  EXPECT_THAT(salvage_campaign(file("a.db")).lost,
+              HasSubstr("4611686018427387901 of 4611686018427387904 rows of seen"));
 }
 
 TEST_F(DamageTest, RowsDoNotShareALongValue) {

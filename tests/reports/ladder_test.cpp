@@ -1,15 +1,19 @@
 // The ladder of precisions.
 #include "reports/sections/ladder.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "ccd/query/scalar_name.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/text/json.hpp"
 
 namespace nearmiss {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// Statistics in which the farthest false positive of each subject is at a given fraction of its bound.
 Statistics farthest_at(const std::map<std::string, double>& parts) {
@@ -19,6 +23,12 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
     statistics.counts[{subject, Kind::edge_edge, "uniform"}].add(outcome, {}, [] { return "uniform:1:1"; });
   }
   return statistics;
+}
+
+/// The fit over all families; null if there is none.
+nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
+  const auto all = ladder_json(farthest_at(parts))["fits"];
+  return all.empty() ? nlohmann::ordered_json() : all[0];
 }
 
 TEST(ScalarName, GivesEpsilon) {
@@ -32,15 +42,15 @@ TEST(ScalarName, GivesEpsilon) {
 }
 
 TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
-  const auto all = rungs(farthest_at(
-      {{"wang", 0.5}, {"wang:float", 1}, {"wang-tight:p53", 1}, {"basic", 1}, {"wang:p40@7", 1}}));
+  const auto all = ladder_json(farthest_at(
+      {{"wang", 0.5}, {"wang:float", 1}, {"wang-tight:p53", 1}, {"basic", 1}, {"wang:p40@7", 1}}))["rungs"];
   ASSERT_EQ(all.size(), 3);
-  EXPECT_EQ(all[0].subject, "wang:float");
-  EXPECT_NEAR(all[0].claimed(), 41 * std::exp2(-23 / 4.0), 5e-3);
-  EXPECT_EQ(all[1].scalar, "double");
-  EXPECT_NEAR(all[1].claimed(), 40.963 * 0x1p-13, 1e-7);
-  EXPECT_EQ(all[1].farthest(), all[1].claimed() / 2);
-  EXPECT_NEAR(all[2].claimed(), 11.9336 * 0x1p-13, 1e-7);
+  EXPECT_EQ(all[0]["subject"], "wang:float");
+  EXPECT_NEAR(all[0]["claimed"], 41 * std::exp2(-23 / 4.0), 5e-3);
+  EXPECT_EQ(all[1]["scalar"], "double");
+  EXPECT_NEAR(all[1]["claimed"], 40.963 * 0x1p-13, 1e-7);
+  EXPECT_EQ(all[1]["farthest"], all[1]["claimed"].get<double>() / 2);
+  EXPECT_NEAR(all[2]["claimed"], 11.9336 * 0x1p-13, 1e-7);
 }
 
 TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
@@ -59,89 +69,77 @@ TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
 }
 
 TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
-  const auto exactly =
-      rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p128", 1}}));
-  const auto line = fit(exactly, "wang");
-  ASSERT_TRUE(line.has_value());
-  EXPECT_EQ(line->precisions, 4);
-  EXPECT_NEAR(line->exponent, 0.25, 1e-6);
-  EXPECT_NEAR(line->standard_error, 0, 1e-6);
-  EXPECT_EQ(line->points, 4);
-  EXPECT_EQ(line->least_part, 1);
-  EXPECT_EQ(line->greatest_part, 1);
-  EXPECT_EQ(describe(*line),
-            "wang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions");
+  const std::map<std::string, double> parts{
+      {"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p128", 1}};
+  const auto line = fit(parts);
+  EXPECT_EQ(line["points"], 4);
+  EXPECT_EQ(line["precisions"], 4);
+  EXPECT_NEAR(line["exponent"], 0.25, 1e-6);
+  EXPECT_NEAR(line["standard_error"], 0, 1e-6);
+  EXPECT_EQ(line["least_part_of_claimed"], 1);
+  EXPECT_EQ(line["greatest_part_of_claimed"], 1);
+  EXPECT_EQ(line["restates_the_bound"], true);
+  EXPECT_THAT(
+      ladder_table(farthest_at(parts)),
+      HasSubstr(
+          "\nwang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions\n"));
   // If the distances halve once more for each halving of ε, the exponent grows by one.
-  const auto steeper =
-      fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
-  EXPECT_NEAR(steeper->exponent, 1.25, 1e-4);
+  EXPECT_NEAR(fit({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})["exponent"], 1.25, 1e-4);
   for (const char* no_third : {"wang:p200", "wang:float"})
-    EXPECT_FALSE(
-        fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}})), "wang").has_value());
+    EXPECT_TRUE(fit({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}}).is_null());
 }
 
 // The 0.975 quantile of t with two degrees of freedom is 0.95 √(2 / (4 · 0.975 · 0.025)).
 TEST(Ladder, TheIntervalIsStudents) {
-  const auto line =
-      fit(rungs(farthest_at({{"wang:p24", 0.5}, {"wang:float", 0.25}, {"wang:p32", 1}, {"wang:p64", 0.125}})),
-          "wang");
-  EXPECT_EQ(line->points, 4);
-  EXPECT_EQ(line->precisions, 3);
-  EXPECT_FALSE(line->restates_the_bound());
-  EXPECT_NEAR(line->half_width_95, 4.302652729749464 * line->standard_error, 1e-12);
-  EXPECT_EQ(describe(*line),
-            "wang: the farthest distance goes as epsilon^(0.2941 +- 0.16, 95 %), from 4 subjects with 3 "
-            "precisions; at "
-            "0.125 to 1 of the claimed distance");
+  const std::map<std::string, double> parts{
+      {"wang:p24", 0.5}, {"wang:float", 0.25}, {"wang:p32", 1}, {"wang:p64", 0.125}};
+  const auto line = fit(parts);
+  EXPECT_EQ(line["points"], 4);
+  EXPECT_EQ(line["precisions"], 3);
+  EXPECT_NEAR(line["half_width_95"], 4.302652729749464 * line["standard_error"].get<double>(), 1e-12);
+  EXPECT_THAT(
+      ladder_table(farthest_at(parts)),
+      HasSubstr("\nwang: the farthest distance goes as epsilon^(0.2941 +- 0.16, 95 %), from 4 subjects "
+                "with 3 precisions; at 0.125 to 1 of the claimed distance\n"));
 }
 
 // Three points are at intervals of 16; the middle one is 1 below the others. The sum of squared residuals is
 // 2/3, with one degree of freedom.
 TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
-  const auto line = fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}})), "wang");
-  EXPECT_NEAR(line->exponent, 0.25, 1e-5);
-  EXPECT_NEAR(line->standard_error, std::sqrt(2.0 / 3 / (2 * 16 * 16)), 1e-5);
+  const auto line = fit({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}});
+  EXPECT_NEAR(line["exponent"], 0.25, 1e-5);
+  EXPECT_NEAR(line["standard_error"], std::sqrt(2.0 / 3 / (2 * 16 * 16)), 1e-5);
 }
 
 TEST(Ladder, ARatioThatIsKnownFromAboveOnlyIsInNoFit) {
-  const auto with = [](double part) {
-    return fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p80", part}})),
-               "wang");
+  const auto points = [](double part) {
+    return fit({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p80", part}})["points"];
   };
-  EXPECT_EQ(with(1e-16)->points, 4);
-  EXPECT_EQ(with(0.9e-16)->points, 3);
+  EXPECT_EQ(points(1e-16), 4);
+  EXPECT_EQ(points(0.9e-16), 3);
 }
 
 TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   Statistics statistics = farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}});
   const auto families = statistics.counts;
   for (const auto& [key, counts] : families)
-    for (const char* search : {"search-far-wang:p24", "search-miss-wang:p40"}) {
-      auto own = key;
-      own.family = search;
-      statistics.counts[own] = counts;
-    }
-  const auto all = fits(statistics);
+    for (const char* search : {"search-far-wang:p24", "search-miss-wang:p40"})
+      statistics.counts[{key.subject, key.kind, search}] = counts;
+  const auto all = ladder_json(statistics)["fits"];
   ASSERT_EQ(all.size(), 3);
-  EXPECT_EQ(all[0].origin, "");
-  EXPECT_EQ(all[1].origin, "directed search");
-  EXPECT_EQ(all[2].origin, families.begin()->first.family);
-  for (const Fit& each : all) {
-    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // not exactly, because D² also has a term in ε
-    EXPECT_EQ(each.precisions, 3);
+  EXPECT_EQ(all[0]["origin"], "");
+  EXPECT_EQ(all[1]["origin"], "directed search");
+  EXPECT_EQ(all[2]["origin"], "uniform");
+  for (const auto& each : all) {
+    EXPECT_NEAR(each["exponent"], 0.25, 1e-5);  // not exactly, because D² also has a term in ε
+    EXPECT_EQ(each["precisions"], 3);
   }
 }
 
 TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
-  EXPECT_FALSE(ladder_json(farthest_at({{"wang", 1}, {"wang-tight", 1}, {"basic:float", 1}})).has_value());
-  EXPECT_EQ(ladder_table(farthest_at({{"wang", 1}})), "");
-  const auto json = ladder_json(farthest_at({{"wang:p24", 1}, {"wang", 0.5}, {"wang:p64", 1}}));
-  ASSERT_TRUE(json.has_value());
-  EXPECT_EQ((*json)["rungs"].size(), 3);
-  EXPECT_EQ((*json)["fits"].size(), 2);  // one fit over all families, and one of the only family
-  EXPECT_NE(
-      ladder_table(farthest_at({{"wang:p24", 0.5}, {"wang", 0.5}, {"wang:p64", 0.5}})).find("epsilon^(0.25"),
-      std::string::npos);
+  const Statistics one = farthest_at({{"wang", 1}, {"wang-tight", 1}, {"basic:float", 1}});
+  EXPECT_TRUE(ladder_json(one).empty());
+  EXPECT_EQ(ladder_table(one), "");
 }
 
 }  // namespace

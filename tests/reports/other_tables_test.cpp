@@ -42,14 +42,22 @@ TEST_F(OtherTables, HuntsAreReadAsTheyAreWritten) {
   expect_refusal(load_hunts, "what nearmiss power --json keeps");
 }
 
-TEST_F(OtherTables, EnvironmentsAreReadAsTheyAreWritten) {
-  const std::vector<Environment> environments{{"wang", "g++ 12.2.0", "-O2", "upward", 1000, 500, 0, 10, 0, 0},
-                                              {"exact", "clang++ 14.0.6", "-O2 -ffast-math", "nearest", 1000,
-                                               500, 3, 0, 1, 0, "false-negative f:1:0"}};
-  EXPECT_EQ(environments[0].verdict(), "keeps it");
-  EXPECT_EQ(environments[1].verdict(), "misses");
-  write("environments.json", environments_json(environments).dump());
-  EXPECT_EQ(environments_json(load_environments(file("environments.json"))), environments_json(environments));
+TEST_F(OtherTables, AnEnvironmentGetsItsVerdict) {
+  const auto row = [](int missed, int faults, const std::string& first) {
+    return R"({"subject":"wang","compiler":"g++ 12.2.0","flags":"-O2","mode":"upward","queries":1000,)"
+           R"("collisions":500,"missed":)" +
+           std::to_string(missed) + R"(,"false_positives":10,"refuted_bounds":1,"faults":)" +
+           std::to_string(faults) + "%" + R"(,"first":)" + first + "}";
+  };
+  std::string expected = "[" + row(0, 0, "null") + "," + row(3, 1, R"("false-negative f:1:0")") + "," +
+                         row(0, 1, R"("fault f:1:1")") + "]";
+  std::string written = expected;
+  for (const char* verdict : {"keeps it", "misses", "gives no answer"}) {
+    expected.replace(expected.find('%'), 1, R"(,"verdict":")" + std::string(verdict) + '"');
+    written.erase(written.find('%'), 1);
+  }
+  write("environments.json", written);
+  EXPECT_EQ(load_environments(file("environments.json")), expected);
   expect_refusal(load_environments, "the table of tools/environments");
 }
 

@@ -51,12 +51,6 @@ class ReportFolder : public testing::TemporaryFolder {
   }
 };
 
-TEST_F(ReportFolder, ItsDataNameEveryFile) {
-  write_report_of("wang");
-  EXPECT_EQ(files_of(ordered_json::parse(read("report/report.json"))), files_in("report"));
-  EXPECT_EQ(files_in("report").size(), 7 + 2 + 1);
-}
-
 TEST_F(ReportFolder, ReplacesAnEarlierReportAndNothingElse) {
   write_report_of("wang");
   const ReportPaths mine{"letter.txt",  "cases/mine.case", "farthest/mine.case",

@@ -1,5 +1,5 @@
 // At which sizes a subject is right.
-#include "reports/sections/sizes_table.hpp"
+#include "reports/sections/sections.hpp"
 
 #include <gmock/gmock.h>
 

@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "ccd/query/error.hpp"
-#include "reports/sha256.hpp"
 #include "reports/store/table.hpp"
 #include "tests/refused.hpp"
 #include "tests/reports/stored.hpp"
@@ -51,36 +50,13 @@ TEST_F(StoreTest, GivesBackWhatWasSaved) {
             (std::vector<nearmiss::Run>{{info, {shard}, findings, {{"scene:cloth", picture}}}}));
 }
 
-TEST_F(StoreTest, AChecksumIsTheFirst64BitsOfADigest) {
-  write_campaign({{{info, {shard}, {}}}, {}}, file("a.db"));
-  sqlite3* db = nullptr;
-  sqlite3_stmt* row = nullptr;
-  ASSERT_EQ(sqlite3_open(file("a.db").c_str(), &db), SQLITE_OK);
-  ASSERT_EQ(sqlite3_prepare_v2(db, "SELECT key, value, checksum FROM run", -1, &row, nullptr), SQLITE_OK);
-  ASSERT_EQ(sqlite3_step(row), SQLITE_ROW);
-  const auto text = [&](int column) {
-    return reinterpret_cast<const char*>(sqlite3_column_text(row, column));
-  };
-  const std::string key = text(0);
-  const std::string value = text(1);
-  const std::string digest = sha256_hex(std::to_string(store_version) + " run " + std::to_string(key.size()) +
-                                        ' ' + std::to_string(value.size()) + ' ' + key + value);
-  EXPECT_EQ(static_cast<std::uint64_t>(sqlite3_column_int64(row, 2)),
-            std::stoull(digest.substr(0, 16), nullptr, 16));
-  sqlite3_finalize(row);
-  sqlite3_close(db);
-}
-
 TEST_F(StoreTest, GivesBackAMergedCampaign) {
   Shard other = shard;
   other.index = 3;
   const Campaign campaign{
-      {{info, {shard, other}, {some_finding("x")}}, {{{"seed", "2"}}, {}, {some_finding("y")}}},
-      some_statistics("wang")};
+      {{info, {shard, other}, {some_finding("x")}}, {{{"seed", "2"}}, {}, {some_finding("y")}}}, {}};
   write_campaign(campaign, file("a.db"));
-  const Campaign again = load_campaign(file("a.db"));
-  EXPECT_EQ(again.runs, campaign.runs);
-  EXPECT_EQ(again.statistics, campaign.statistics);
+  EXPECT_EQ(load_campaign(file("a.db")).runs, campaign.runs);
   EXPECT_REFUSED(Store(file("a.db")), "a.db: found several shards");
 }
 

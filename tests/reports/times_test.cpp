@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
-#include "reports/csv.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/text/json.hpp"
 #include "tests/queries.hpp"
@@ -72,27 +70,6 @@ TEST(Times, TheSlowestAreKept) {
   for (std::size_t i = 0; i < SubjectTimes::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
 }
 
-/// The value below a heading in the first row of a CSV file.
-std::string first_value(const std::string& csv, const std::string& heading) {
-  std::istringstream lines(csv);
-  std::string headings, values;
-  std::getline(lines, headings);
-  std::getline(lines, values);
-  std::istringstream names(headings), row(values);
-  for (std::string name, value; std::getline(names, name, ',') && std::getline(row, value, ',');)
-    if (name == heading) return value;
-  return "";
-}
-
-TEST(Times, HaveTheirMedianInTheTable) {
-  Statistics statistics;
-  Counts& counts = statistics.counts[{"wang", Kind::edge_edge, "uniform"}];
-  for (const std::uint64_t time : {10, 10, 100, 1000, 1000})
-    counts.times.add(time, Query{}, [] { return ""; });
-  EXPECT_NEAR(std::stod(first_value(statistics_csv(statistics), "median_ns")), 100, 10);
-}
-
-// Six cases are equally slow. The first five by provenance are kept, in whatever order they come.
 TEST(Times, StandInTheReport) {
   Counts counts;
   for (int i = 0; i < 100; ++i) counts.times.add(50, testing::falling_edge(1, -1), [] { return "f:1:0"; });
@@ -101,6 +78,7 @@ TEST(Times, StandInTheReport) {
   for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
 }
 
+// Six cases are equally slow. The first five by provenance are kept, in whatever order they come.
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;

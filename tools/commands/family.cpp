@@ -13,7 +13,7 @@
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
-#include "reports/sections/common_factors_table.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

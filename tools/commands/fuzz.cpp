@@ -18,7 +18,7 @@
 #include "fuzz/simulation/simulation_family.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "tools/campaign_options.hpp"
 #include "tools/commands.hpp"
 #include "tools/values.hpp"

@@ -1,7 +1,7 @@
 // nearmiss merge: merges several stores into one.
 #include <fmt/format.h>
 
-#include "reports/sections/summary.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"

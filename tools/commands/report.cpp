@@ -10,7 +10,7 @@
 
 #include "ccd/query/error.hpp"
 #include "reports/sections/baseline.hpp"
-#include "reports/sections/summary.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/store/store.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
@@ -116,7 +116,9 @@ int run(const Options& options) {
   options.ci.expect_writable(read_files(options));
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context{.failing = options.fail_on.failures()};
-  for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
+  std::vector<Campaign> baseline;
+  for (const auto& each : options.baseline) baseline.push_back(load_campaign(each));
+  if (!baseline.empty()) context.since = changes(campaign, baseline);
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
   if (!options.audit.empty()) context.audit = load_audit(options.audit);
   if (!options.paper.empty()) context.paper = load_paper(options.paper);
@@ -124,7 +126,7 @@ int run(const Options& options) {
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics, context.failing));
-  if (!context.baseline.empty()) fmt::print("{}", describe(changes(campaign, context.baseline)));
+  if (context.since) fmt::print("{}", describe(*context.since));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
   options.ci.write(campaign, context.failing);

@@ -1,12 +1,13 @@
-#include "reports/sections/funnel_table.hpp"
-
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 #include <vector>
 
 #include "corpus/query_text.hpp"
 #include "reports/sections/counts_json.hpp"
+#include "reports/sections/sections.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 
@@ -91,8 +92,6 @@ void add_needs(const ScenePairs& scene, std::array<std::uint64_t, 2> asked, std:
 }
 
 }  // namespace
-
-std::string scene_of(const std::string& step) { return step.substr(0, step.rfind('#')); }
 
 std::string funnel_tables(const Statistics& statistics) {
   std::string text;

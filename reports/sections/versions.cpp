@@ -1,4 +1,4 @@
-#include "reports/sections/version_table.hpp"
+#include "reports/sections/sections.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/statistics/family_class.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
 

@@ -1,12 +1,15 @@
-#include "reports/sections/decider_table.hpp"
-
 #include <fmt/format.h>
 
+#include <array>
+#include <map>
 #include <numeric>
+#include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "reports/sections/counts_json.hpp"
-#include "reports/sections/funnel_table.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/sums.hpp"
 #include "reports/text/json.hpp"
@@ -17,6 +20,24 @@ namespace nearmiss {
 namespace {
 
 constexpr std::array references{"wang", "exact"};
+
+constexpr std::size_t decider_count = 4;
+
+/// Names of the deciders in files, in the order in which a subject asks them. A stage or rejection with one
+/// of the last three names belongs to that decider; every other stage or rejection belongs to "algorithm".
+constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer", "exact"};
+
+/// The queries of a family, of all kinds together, by what decided them.
+struct DeciderRow {
+  std::string subject;
+  std::string family;  ///< "" for all families; a scene is one family with all its steps
+  std::array<std::uint64_t, decider_count> queries{};
+  std::optional<double> ns_per_query;       ///< nothing if the subject was not timed
+  std::map<std::string, double> time_over;  ///< time divided by that of the subject in the key, over the same
+                                            ///< families and kinds
+
+  [[nodiscard]] std::uint64_t all() const;
+};
 
 using Deciders = std::array<std::uint64_t, decider_count>;
 
@@ -70,12 +91,12 @@ DeciderRow row(const Statistics& statistics, const std::string& subject, const s
   return result;
 }
 
-}  // namespace
-
 std::uint64_t DeciderRow::all() const {
   return std::accumulate(queries.begin(), queries.end(), std::uint64_t{0});
 }
 
+/// The rows of each subject for which both its algorithm and another stage decide something: one for all
+/// families, then one for each.
 std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
   const auto by_family = sums_by(
       statistics, [](const CountsKey& key) { return std::pair(key.subject, row_family(key.family)); });
@@ -88,8 +109,6 @@ std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
   }
   return rows;
 }
-
-namespace {
 
 std::vector<std::string> heading() {
   std::vector<std::string> cells{"decided by", "queries"};

@@ -1,0 +1,86 @@
+// The sections of a report that follow from the counters of a campaign: as text for the terminal, and as JSON for
+// report.json. Texts and lists are empty if there is nothing to show.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "reports/statistics/failure.hpp"
+
+namespace nearmiss {
+
+/// A line with the verdict on each subject (verdicts.hpp), where `failing` are the failures that count, and a
+/// line for each pair of versions. Then come a table with a row for each subject and kind, one by class with
+/// the times of impact, one by class, the sizes at which subjects are right, what misses have in common, and
+/// the oracle's counters.
+std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());
+
+/// At which lengths of edges, and how far from the origin, each subject is right (right_ranges): a row for
+/// each subject, or for each of its kinds if these differ.
+std::string sizes_table(const Statistics& statistics);
+nlohmann::ordered_json sizes_json(const Statistics& statistics);
+
+/// "89 % of the missed ones have scale=1e-6, and 20 % of all"
+std::string to_text(const CommonFactors& common);
+/// The factors that missed collisions have in common: a line, or an object, for each subject, kind and family
+/// with factors and misses.
+std::string common_factors_lines(const Statistics& statistics);
+nlohmann::ordered_json common_factors_json(const Statistics& statistics);
+
+/// Versions of a CCD, compared query by query: a line for each pair, "new against old: 12 fixed, 3 broken, 41
+/// both fail, of 5,000 queries (ordinary vt 3 broken; ...)". It names the kinds that are not compared because
+/// only one version was asked about them.
+std::string version_lines(const Statistics& statistics);
+/// A list with an object for each pair of versions, class of families and kind.
+nlohmann::ordered_json versions_json(const Statistics& statistics);
+
+/// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line for
+/// each fate and a column for each kind.
+std::string funnel_tables(const Statistics& statistics);
+/// An object by step, then by kind, whose values are funnel_json (counts_json.hpp).
+nlohmann::ordered_json funnels_json(const Statistics& statistics);
+
+/// A table for each simulated scene, with a line for each subject.
+std::string simulation_tables(const Statistics& statistics);
+/// An object by scene, then by subject. Each value has a list for each counter of SimulatedStep, with an entry
+/// for each step, and the list "step" with the numbers of the steps.
+nlohmann::ordered_json simulations_json(const Statistics& statistics);
+
+/// A table for each sweep and subject with a row for each value, then one for each sweep of an option with a
+/// row for each class and value, and its cliff: the neighbouring values between which the rate of misses
+/// changes most.
+std::string sweep_tables(const Statistics& statistics);
+/// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
+/// increasing order.
+nlohmann::ordered_json sweeps_json(const Statistics& statistics);
+/// An object with a list for each pattern NAME:KEY=*, in the order of classes and values.
+nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
+/// An object for each cliff.
+nlohmann::ordered_json cliffs_json(const Statistics& statistics);
+
+/// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. For each of
+/// them, these have a row for all families, then one for each family, which say which stage decides, and its
+/// time divided by that of wang and of exact, if these are in the statistics.
+std::string decider_tables(const Statistics& statistics);
+nlohmann::ordered_json deciders_json(const Statistics& statistics);
+
+/// The ladder of precisions, if an algorithm has at least two: a row for each rung, and the fits over all
+/// origins.
+std::string ladder_table(const Statistics& statistics);
+/// An object with "rungs" and "fits".
+nlohmann::ordered_json ladder_json(const Statistics& statistics);
+
+/// Error against run time, over the kinds and families that all compared subjects were asked about:
+///   "left_out"            the names of the timed subjects that are not compared
+///   "subjects"            for each subject ns_per_query, rates, the farthest distance, the sort of its
+///                         times, and the median, the 99 % quantile and the largest magnitude of time - t*;
+///                         for a sound lower bound this magnitude is how early the time is
+///   "front_by_distance"   the Pareto front by the farthest distance
+///   "front_by_rate"       the Pareto front by the rate of false positives
+///   "front_by_earliness"  that by the 99 % quantile of earliness, among subjects with lower bounds as times
+///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
+///                         B, because fractions of different bounds cannot be compared, and the
+///                         "paper_bound" of double
+nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
+
+}  // namespace nearmiss
