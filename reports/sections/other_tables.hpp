@@ -28,9 +28,9 @@ nlohmann::ordered_json hunts_json(const std::vector<Hunt>& hunts);
 std::vector<Hunt> load_hunts(const std::filesystem::path& file);
 
 /// Reads the table that tools/environments writes: the results of CCDs in environments, which are a compiler,
-/// flags, and the processor's mode of arithmetic. Returns it as JSON with a verdict for each row: the guarantee is
-/// that no collision is missed, and "gives no answer" means that some queries got no answer. Returns "" for an
-/// empty table. Throws Error.
+/// flags, and the processor's mode of arithmetic. Returns it as JSON with a verdict for each row: the
+/// guarantee is that no collision is missed, and "gives no answer" means that some queries got no answer.
+/// Returns "" for an empty table. Throws Error.
 std::string load_environments(const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-// The sections of a report that follow from the counters of a campaign: as text for the terminal, and as JSON for
-// report.json. Texts and lists are empty if there is nothing to show.
+// The sections of a report that follow from the counters of a campaign: as text for the terminal, and as JSON
+// for report.json. Texts and lists are empty if there is nothing to show.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -34,16 +34,16 @@ std::string version_lines(const Statistics& statistics);
 /// A list with an object for each pair of versions, class of families and kind.
 nlohmann::ordered_json versions_json(const Statistics& statistics);
 
-/// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line for
-/// each fate and a column for each kind.
+/// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line
+/// for each fate and a column for each kind.
 std::string funnel_tables(const Statistics& statistics);
 /// An object by step, then by kind, whose values are funnel_json (counts_json.hpp).
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 /// A table for each simulated scene, with a line for each subject.
 std::string simulation_tables(const Statistics& statistics);
-/// An object by scene, then by subject. Each value has a list for each counter of SimulatedStep, with an entry
-/// for each step, and the list "step" with the numbers of the steps.
+/// An object by scene, then by subject. Each value has a list for each counter of SimulatedStep, with an
+/// entry for each step, and the list "step" with the numbers of the steps.
 nlohmann::ordered_json simulations_json(const Statistics& statistics);
 
 /// A table for each sweep and subject with a row for each value, then one for each sweep of an option with a

@@ -105,8 +105,8 @@ Proportion missed(const CountsSum& sum) { return {sum.counts.false_negatives, su
 
 double difference(const Cliff& cliff) { return std::abs(cliff.missed.rate() - cliff.missed_next.rate()); }
 
-/// The neighbouring values between which the rate of misses changes most, in the least exotic class in which a
-/// rate changes by more than chance explains; nothing without such a change.
+/// The neighbouring values between which the rate of misses changes most, in the least exotic class in which
+/// a rate changes by more than chance explains; nothing without such a change.
 std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   constexpr double improbable = 1e-3;
   std::optional<Cliff> best;

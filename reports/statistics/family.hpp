@@ -1,5 +1,5 @@
-// Families in reports: which are random samples, how near their queries are to those of a simulation, and which
-// are shown together as one.
+// Families in reports: which are random samples, how near their queries are to those of a simulation, and
+// which are shown together as one.
 #pragma once
 
 #include <compare>
