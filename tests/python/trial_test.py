@@ -2,7 +2,10 @@
 Usage: trial_test.py NEARMISS
 """
 
+import contextlib
+import io
 import json
+import pathlib
 import signal
 import subprocess
 import sys
@@ -13,6 +16,7 @@ import numpy as np
 import nearmiss
 
 NEARMISS = sys.argv.pop()
+PLUGINS = pathlib.Path(NEARMISS).parent / 'plugins'
 
 
 def sampled(kind, x, separation):
@@ -56,9 +60,9 @@ class Trial(unittest.TestCase):
     def test_shrinks_findings_to_simple_queries_that_still_fail(self):
         findings = nearmiss.trial(sampled, 1000, shrunk=2).findings
         self.assertTrue(findings.is_shrunk.any())
-        for signature in set(findings.signature):
-            of_signature = findings[findings.signature == signature].is_shrunk
-            self.assertEqual(of_signature.sum(), min(2, len(of_signature)))
+        for signature, class_ in set(zip(findings.signature, findings.class_)):
+            of_way = (findings.signature == signature) & (findings.class_ == class_)
+            self.assertEqual(findings[of_way].is_shrunk.sum(), min(2, of_way.sum()))
         for kind in ('vt', 'ee'):
             shrunk = findings[findings.is_shrunk & (findings.kind == kind)]
             self.assertTrue(nearmiss.collides(kind, shrunk.shrunk).all())
@@ -82,8 +86,9 @@ class Trial(unittest.TestCase):
             self.assertEqual(counts.false_positives, 0)
 
     def test_counts_as_the_command_line_does(self):
-        result = nearmiss.trial(['basic', 'wang'], 3000, seed=7)
-        command = [NEARMISS, 'fuzz', '--subject', 'basic,wang', '--family', 'all']
+        subjects = ['basic', 'wang', 'fcl', f'{PLUGINS}/cautious.so']
+        result = nearmiss.trial(subjects, 3000, seed=7)
+        command = [NEARMISS, 'fuzz', '--subject', ','.join(subjects), '--family', 'all']
         command += ['--cases', '3000', '--seed', '7', '--json', '-']
         report = json.loads(subprocess.run(command, capture_output=True).stdout)
         for subject, by_kind in report['subjects'].items():
@@ -93,6 +98,24 @@ class Trial(unittest.TestCase):
                 self.assertEqual(counts.collisions, expected['collisions'])
                 self.assertEqual(counts.missed, expected['false_negatives'])
                 self.assertEqual(counts.false_positives, expected['false_positives'])
+
+        self.assertGreater(result.counts('always').beyond_contract, 500)
+
+    def test_a_plugin_that_hangs_is_not_waited_for_again_and_again(self):
+        plugin = f'hangs={PLUGINS}/hang.so'
+        counts = nearmiss.trial(plugin, 1000, 'uniform', shrunk=0).counts('hangs')
+        self.assertEqual((counts.queries, counts.no_answer), (1000, 6))  # three of each kind
+
+    def test_shows_its_progress_on_request(self):
+        line = io.StringIO()
+        with contextlib.redirect_stderr(line):
+            nearmiss.trial('basic', 60000, shrunk=0, progress=True)
+        self.assertRegex(line.getvalue(), r'\r\d+ s left, [\d,]+ of 60,000 cases, [\d,]+ missed')
+        self.assertTrue(line.getvalue().endswith('\r'))
+
+    def test_the_farthest_may_be_infinite(self):
+        always = nearmiss.trial(lambda kind, x, h: np.ones(len(x), bool), 3000, 'overflow')
+        self.assertEqual(always.counts('<lambda>').farthest, np.inf)
 
     def test_counts_families_and_kinds(self):
         result = nearmiss.trial([sampled, 'wang'], 500, ['uniform', 'aspect@8'])
@@ -355,7 +378,7 @@ import nearmiss
     def test_refuses_what_it_does_not_know(self):
         for message, arguments in (
             ('unknown subject', ['bassic']),
-            ("found the plug-in './mine.so', expected a function", ['./mine.so']),
+            ('./mine.so: cannot load the plug-in', ['./mine.so']),
             ('unknown family', [never, 100, ['unifrom']]),
             (r"found the family 'uniform\\x00', expected printable", [never, 1, 'uniform\0']),
             ('expected different ones', [[never, never]]),

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,17 +22,17 @@
 
 #include "ccd/query/arithmetic.hpp"
 #include "ccd/query/error.hpp"
-#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
-#include "fuzz/subjects/built_in.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/exact.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/case_order.hpp"
 #include "fuzz/trial/families_asked.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
+#include "fuzz/trial/so_far.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "oracle/explanation.hpp"
 #include "tools/python/ending.hpp"
@@ -40,15 +43,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// The subject for an object of the Python class Subject, or the built-in subject for a name.
-std::unique_ptr<Subject> subject_of(const py::object& each) {
-  if (py::isinstance<py::str>(each)) {
-    const auto name = each.cast<std::string>();
-    if (plugin_named(name))
-      throw Error("found the plug-in '" + excerpt(name) +
-                  "', expected a function or the name of a built-in subject; nearmiss fuzz runs plug-ins");
-    return make_built_in(name);
-  }
+/// The subject for an object of the Python class Subject.
+std::unique_ptr<Subject> function_of(const py::object& each) {
   DetectorInfo info;
   info.name = each.attr("name").cast<std::string>();
   if (const std::string fault = fault_of_name(info.name); !fault.empty()) throw Error("found " + fault);
@@ -59,10 +55,25 @@ std::unique_ptr<Subject> subject_of(const py::object& each) {
   return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
 }
 
-Subjects subjects_of(const py::list& of) {
+/// The subjects for objects of the Python class Subject and names, which are those of `nearmiss fuzz`.
+Subjects subjects_of(const py::list& of, const Stop& stop) {
+  isolation::PluginLimits limits;
+  limits.most_late = most_slow;
+  limits.stop = &stop;
+  Subjects made;
+  for (const auto& each : of) {
+    if (!py::isinstance<py::str>(each)) {
+      made.push_back(function_of(py::reinterpret_borrow<py::object>(each)));
+      continue;
+    }
+    const auto text = each.cast<std::string>();
+    const py::gil_scoped_release others_run;
+    for (auto& subject : make_any_subjects(text, std::nullopt, limits)) made.push_back(std::move(subject));
+  }
+  tell_apart(made);
   Subjects subjects;
-  for (const auto& each : of) subjects.push_back(subject_of(py::reinterpret_borrow<py::object>(each)));
-  tell_apart(subjects);
+  for (auto& subject : made)
+    for (auto& kept : keep_contract(std::move(subject), false)) subjects.push_back(std::move(kept));
   return subjects;
 }
 
@@ -93,19 +104,38 @@ void let_python_handle_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// Receives the number of cases that are decided, and that of the misses so far.
+using Report = std::function<void(std::uint64_t cases, std::uint64_t missed)>;
+
+/// What is known of each subject before a batch.
+std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, const SoFar& so_far) {
+  std::vector<Known> known;
+  for (const auto& subject : subjects)
+    known.push_back(so_far.of(CountsKey{subject->name(), batch.kind, batch.family}));
+  return known;
+}
+
 /// Asks the subjects the queries of a campaign's plan, in its order.
-TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const Stop& stop) {
+TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const Stop& stop,
+                       const Report& report) {
   TrialResult result;
   CasesOfShard cases(plan, 0);
   Pace pace;
+  SoFar so_far;
+  std::uint64_t decided = 0;
   while (const auto block = cases.next(pace)) {
     const auto start = Stop::Clock::now();
     for (const Kind kind : kinds_asked(*block->family)) {
       Batch batch = batch_of(plan, *block, kind, stop);
       if (batch.queries.empty()) continue;
       batch.timed = false;
-      result.merge(hold_trial(subjects, batch, plan.comparison));
+      TrialResult of_batch =
+          hold_trial(subjects, batch, plan.comparison, known_before(batch, subjects, so_far));
+      so_far.take(of_batch.statistics.counts);
+      result.merge(std::move(of_batch));
     }
+    decided += block->cases();
+    report(decided, result.statistics.false_negatives());
     pace.took(block->family->name, block->cases(), Stop::Clock::now() - start);
     let_python_handle_signals();
     stop.check();
@@ -113,16 +143,22 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   return result;
 }
 
-/// Shrinks the first findings of each signature.
-void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each_signature,
+/// Shrinks the first findings of each signature and class.
+void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each,
             const Stop& stop) {
   const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);
-  std::map<Signature, std::uint64_t> seen;
+  std::map<std::pair<Signature, QueryClass>, std::uint64_t> seen;
   for (Finding& finding : findings) {
-    if (++seen[signature_of(finding)] > of_each_signature) continue;
+    if (++seen[{signature_of(finding), finding.query_class}] > of_each) continue;
     shrinker.shrink(finding);
     let_python_handle_signals();
   }
+}
+
+/// The farthest false positive, by its bound: infinite where only double ends.
+double farthest(const Counts& counts) {
+  const double ratio = counts.max_ratio();
+  return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;
 }
 
 /// The counters of each subject, kind and family.
@@ -131,7 +167,9 @@ py::list counts_of(const Statistics& statistics) {
   for (const auto& [key, counts] : statistics.counts)
     rows.append(py::make_tuple(key.subject, short_name(key.kind), key.family, counts.queries,
                                counts.collisions, counts.false_negatives, counts.false_positives, counts.late,
-                               counts.committed, counts.faults_total(), counts.max_ratio()));
+                               counts.committed,
+                               counts.faults_total() - counts.without_answer(Fault::contract),
+                               counts.without_answer(Fault::contract), farthest(counts)));
   return rows;
 }
 
@@ -171,10 +209,21 @@ py::dict columns(const std::vector<Finding>& findings) {
   return of;
 }
 
+/// Passes reports on to a Python function, or to nobody.
+Report report_to(const py::object& function) {
+  if (function.is_none()) return [](std::uint64_t /*cases*/, std::uint64_t /*missed*/) {};
+  return [&function](std::uint64_t cases, std::uint64_t missed) {
+    const py::gil_scoped_acquire lock;
+    function(cases, missed);
+    make_arithmetic_plain();
+  };
+}
+
 py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& families, std::uint64_t cases,
-               std::uint64_t seed, std::uint64_t shrunk_of_each_signature) {
+               std::uint64_t seed, std::uint64_t shrunk_of_each, const py::object& progress) {
   const PlainArithmetic guard;
-  const Subjects subjects = subjects_of(of_subjects);
+  const Stop stop(ending());
+  const Subjects subjects = subjects_of(of_subjects, stop);
   CampaignPlan plan;
   plan.families = families_of(families, subjects);
   expect_all_asked(subjects, plan.families);
@@ -183,11 +232,10 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   TrialResult result;
   try {
     const Running this_one;
-    const Stop stop(ending());
     const py::gil_scoped_release others_run;
-    result = decide_all(plan, subjects, stop);
+    result = decide_all(plan, subjects, stop, report_to(progress));
     std::erase_if(result.findings, [](const Finding& each) { return is_only_shown(each.what); });
-    shrink(result.findings, subjects, shrunk_of_each_signature, stop);
+    shrink(result.findings, subjects, shrunk_of_each, stop);
   } catch (const Stopped&) {
     end_silently();  // only the end of the interpreter stops a trial
   }

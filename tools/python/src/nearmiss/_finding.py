@@ -2,7 +2,7 @@
 
 import html
 import importlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, Literal
 
 import numpy as np
@@ -41,7 +41,7 @@ class Finding:
     family: str
     signature: str
     provenance: str
-    _explain: Callable[..., str]
+    _explain: Callable[..., str] = field(repr=False)
 
     @property
     def explanation(self) -> str:

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nearmiss._finding import Finding, finding_of
+from nearmiss._progress import Progress
 from nearmiss._queries import KindLike, _expect_no_mask, kind_of
 
 _TIME_SORTS = ('none', 'estimate', 'lower-bound', 'free-step')
@@ -113,6 +114,7 @@ class Counts:
     late: int = 0  # times promised as lower bounds that are after the earliest time
     committed: int = 0  # sound times for which the rounded step to them has contact before its end
     no_answer: int = 0  # queries without an answer, such as a collision without a time
+    beyond_contract: int = 0  # queries that it was not asked, because its contract leaves them out
     farthest: float = 0.0  # largest distance of a false positive / bound (its own, or wang's)
 
     def __add__(self, other: 'Counts') -> 'Counts':
@@ -238,19 +240,22 @@ def trial(
     seed: int = 1,
     *,
     shrunk: int = 1,
+    progress: Optional[bool] = None,
 ) -> TrialResult:
     """Asks subjects hard random queries, and compares their answers with the exact ones.
 
-    subjects: a Subject or a function like that of a Subject, the name of a built-in subject ('wang',
-              'basic'), or several of these
+    subjects: a Subject or a function like that of a Subject, a name or a plug-in as in `nearmiss fuzz` ('wang',
+              'fcl', './mine.so'), or several of these. Plug-ins and published CCDs run in processes of their
+              own, which needs the program nearmiss of the same version
     cases:    total number of queries, divided among the families
     families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By
               default, all that ask for contact, and those of vertices and edges with drawn
               separations, as far as one of the functions decides their kinds
     seed:     seed of the random queries, which are those of `nearmiss fuzz` with the same families, cases and
               seed
-    shrunk:   how many findings of each signature are shrunk; to shrink one may ask a subject thousands of
-              queries
+    shrunk:   how many findings of each signature and class are shrunk; to shrink one may ask a subject
+              thousands of queries
+    progress: whether a line on stderr shows the progress; by default, if it is a terminal or a notebook
 
     Exceptions of a function end the trial, and are passed on.
     """
@@ -268,7 +273,10 @@ def trial(
         raise ValueError(
             f'found {cases} cases of {"no" if names == [] else "some"} families, expected at least one'
         )
-    rows, columns = _extension().hold(chosen, names or [], cases, seed, shrunk)
+    with Progress(cases, progress) as line:
+        rows, columns = _extension().hold(
+            chosen, names or [], cases, seed, shrunk, line.show if line.is_shown else None
+        )
     return TrialResult(
         [(subject, kind, family, Counts(*counts)) for subject, kind, family, *counts in rows],
         Findings(
