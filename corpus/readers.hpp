@@ -17,8 +17,9 @@ using CaseSink = std::function<void(Case&&)>;
 /// format:
 ///  - *.case: one case (case.hpp);
 ///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the
-///    truth. The folder, edge-edge or vertex-face, determines the kind. Every coordinate must be exactly a
-///    double;
+///    truth. Every coordinate must be exactly a double. The folder, edge-edge or vertex-face, determines the
+///    kind, or the end of the file's name, ee or vf. FOLDER/NAME.csv may have no truths, or have them in
+///    FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as CCD-Query-IO reads them;
 ///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. A file that is named itself, not
 ///    found in a folder, may have any name if it begins as a recording;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.

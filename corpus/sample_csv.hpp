@@ -1,4 +1,5 @@
-// The sample-query CSV format: coordinates as rational numbers, with a recorded truth.
+// The sample-query CSV format: coordinates as rational numbers, with recorded truths in a column, in a file of
+// their own, or without.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +12,20 @@
 
 namespace nearmiss {
 
-/// See read_cases. The folder in `path` determines the kind; errors name `path`.
+/// See read_cases. `path` determines the kind; errors name it.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
 /// The folder of the files of a kind; nothing for a kind that the format does not have.
 std::optional<std::string_view> sample_folder(Kind kind);
 
-/// The eight lines of a query without a separation, of a kind that the format has.
-std::string to_sample_csv(const Query& query, bool truth);
+/// How a file's name ends that is not in such a folder; nothing for a kind that the format does not have.
+std::optional<std::string_view> sample_ending(Kind kind);
+
+/// The file with the truths of a file of queries without a column for them.
+std::filesystem::path sample_truths(const std::filesystem::path& csv);
+
+/// The eight lines of a query without a separation, of a kind that the format has, with a column for its truth
+/// if it is given.
+std::string to_sample_csv(const Query& query, std::optional<bool> truth);
 
 }  // namespace nearmiss

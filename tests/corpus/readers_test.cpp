@@ -225,6 +225,30 @@ TEST_F(Files, SampleQueriesAreRationalNumbers) {
   EXPECT_EQ(cases[0].query.end(3), Vector3<double>(0.875, -0.75, 5));
 }
 
+TEST_F(Files, TruthsOfSampleQueriesMayStandInAFileOfTheirOwn) {
+  std::string rows = "# a query\n";
+  for (int i = 0; i < 16; ++i) rows += "1,2,1,4,0,1\n";
+  const auto csv = write("cloth/queries/92ee.csv", rows);
+  EXPECT_EQ(read_all(csv).at(1).truth, std::nullopt);
+  const auto truths = [&](const std::string& text) {
+    return write("cloth/mma_bool/92ee_mma_bool.json", text);
+  };
+  truths("[ true,\n false ]\n");
+  const auto cases = read_all(csv);
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0].query.kind, Kind::edge_edge);
+  EXPECT_EQ(cases[0].truth, true);
+  EXPECT_EQ(cases[1].truth, false);
+  truths("[true]");
+  expect_error(csv, "92ee_mma_bool.json: found 1 truths, but more queries, expected one for each");
+  truths("[true, false, true]");
+  expect_error(csv, "92ee_mma_bool.json: found 3 truths, but fewer queries, expected one for each");
+  for (const char* bad : {"", "[true, 1]", "[true, false] x", "[true false]", "[true,", "[,true]"}) {
+    truths(bad);
+    expect_error(csv, "expected an array of true and false in JSON");
+  }
+}
+
 TEST_F(Files, NamesTheLineOfABadSampleQuery) {
   const std::string row = "1,2,1,2,1,2,0\n";
   std::string seven;

@@ -31,13 +31,13 @@ TEST_F(Convert, EveryFormatIsReadBackExactly) {
   for (const char* name : {"q.vt", "q.ee"}) std::filesystem::rename(file(name), file("q") / name);
   const std::string all = plain("q");
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 2 * 200);
-  for (const char* format : {"csv", "case", "plain"}) {
+  for (const char* format : {"csv", "json", "case", "plain"}) {
     const std::string to = std::string("as-") + format;
     expect_code(0, "convert q -o " + to + " --as " + format);
     EXPECT_EQ(plain(to), all) << format;
   }
   // The truths are recorded, and the oracle confirms them.
-  EXPECT_EQ(run("replay as-csv as-case as-plain --subject exact").code, 0);
+  EXPECT_EQ(run("replay as-csv as-json as-case as-plain --subject exact").code, 0);
   EXPECT_EQ(read("as-csv/vertex-face/queries.csv")
                 .substr(0, read("as-csv/vertex-face/queries.csv").find('\n'))
                 .find(' '),

@@ -1,10 +1,12 @@
 // nearmiss convert: writes cases in another format.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -76,7 +78,7 @@ class NewFiles {
   std::map<fs::path, File> files_;
 };
 
-/// The query, with its exact truth, as lines of "plain" or "csv"; its file.
+/// The query, with its exact truth, as lines of "plain", "csv" or "json"; its file.
 std::pair<fs::path, std::string> converted(const std::string& format, const Case& each, bool truth) {
   const Query& query = each.query;
   if (format == "plain")
@@ -84,15 +86,17 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
             fmt::format("# expect={:d}\n{}\n", truth, to_line(query))};
   const auto folder = sample_folder(query.kind);
   if (!folder || query.separation > 0)
-    throw Error(
-        fmt::format("{}: found a {} query{}, expected vt or ee for contact, which is all that csv has",
-                    each.name, short_name(query.kind), query.separation > 0 ? " with a separation" : ""));
-  return {fs::path(*folder) / "queries.csv", to_sample_csv(query, truth)};
+    throw Error(fmt::format("{}: found a {} query{}, expected vt or ee for contact, which is all that {} has",
+                            each.name, short_name(query.kind),
+                            query.separation > 0 ? " with a separation" : "", format));
+  if (format == "csv") return {fs::path(*folder) / "queries.csv", to_sample_csv(query, truth)};
+  return {fmt::format("queries/{}.csv", *sample_ending(query.kind)), to_sample_csv(query, std::nullopt)};
 }
 
 int run(const Options& options) {
   NewFiles files(options.folder);
   std::uint64_t count = 0;
+  std::map<fs::path, std::vector<bool>> truths;  // of the files of "json"
   for (const fs::path& path : options.paths)
     read_cases(path, [&](Case&& each) {
       ++count;
@@ -106,7 +110,10 @@ int run(const Options& options) {
       }
       const auto [file, text] = converted(options.format, each, truth);
       files.write(file, text);
+      if (options.format == "json") truths[sample_truths(file)].push_back(truth);
     });
+  for (const auto& [file, of_queries] : truths)
+    files.write(file, fmt::format("[{}]\n", fmt::join(of_queries, ", ")));
   files.finish();
   fmt::print("{} in {}\n", counted(count, "query", "queries"), options.folder.string());
   return exit_fine;
@@ -127,9 +134,9 @@ void add_convert(CLI::App& app, int& exit_code) {
   command
       ->add_option("--as", options->format,
                    "plain: queries.vt and so on, one query a line; csv: rational numbers, in vertex-face/ "
-                   "and edge-edge/, "
-                   "for contact; case: a file for each query")
-      ->check(CLI::IsMember({"plain", "csv", "case"}))
+                   "and edge-edge/, for contact; json: likewise in queries/, with the truths as JSON in "
+                   "mma_bool/; case: a file for each query")
+      ->check(CLI::IsMember({"plain", "csv", "json", "case"}))
       ->capture_default_str();
   command->footer("\nExample: nearmiss convert run.nmq -o run --as csv");
   command->callback([options, &exit_code] { exit_code = run(*options); });
