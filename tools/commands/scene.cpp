@@ -9,11 +9,13 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
+#include "fuzz/scenes/near_families.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/campaign.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/failure.hpp"
 #include "reports/statistics/sums.hpp"
@@ -38,6 +40,7 @@ struct Options {
   std::string leave_out = "all", thickness;
   SeparationOption separation;
   bool list = false, weld = false, plan_only = false, verify_plan = false;
+  std::uint64_t around = 10000;  ///< queries around the scene's pairs
   fs::path export_to;
   RecordOptions record;
 };
@@ -119,6 +122,8 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
   if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
   if (!options.thickness.empty()) note_option(info, "thickness", "--thickness", options.thickness);
+  if (options.around != Options().around)
+    note_option(info, "around", "--around", std::to_string(options.around));
   if (options.weld) {
     info["welded"] = "yes";
     info["again"] += " --weld";
@@ -209,9 +214,8 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   return held;
 }
 
-/// A line for each subject that missed nothing in so few collisions that this says little, and the command
-/// that hunts around the scene; "" if there is none.
-std::string what_few_collisions_show(const Options& options, const Statistics& statistics) {
+/// A line for each subject that missed nothing in so few collisions that this says little.
+std::string what_few_collisions_show(const Statistics& statistics) {
   constexpr double much = 0.01;  // of a miss rate
   std::string lines;
   for (const auto& [subject, sum] : sums_by(statistics, &CountsKey::subject)) {
@@ -222,14 +226,62 @@ std::string what_few_collisions_show(const Options& options, const Statistics& s
                          counted(counts.collisions, "collision", "collisions"),
                          counts.collisions == 1 ? "shows" : "show", 100 * below);
   }
-  if (lines.empty()) return "";
+  return lines;
+}
+
+/// Asks queries around the scene's pairs. Returns a line about them; "" if the scene has no pairs of a kind, or
+/// too many to collect in a few seconds.
+std::string hunt_around(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
+                        const Stop& stop) {
+  constexpr std::chrono::seconds patience(5);
+  CampaignPlan plan;
+  plan.cases = options.around;
+  plan.comparison = options.trial.comparison;
+  plan.shrink = !options.trial.no_shrink;
+  plan.jobs = options.trial.jobs;
+  try {
+    Stop until(interrupted());
+    until.limit(patience);
+    const Family family = mesh_family(scene, until);
+    plan.families.push_back(options.separation.is_given() ? with_separation(family, options.separation.text)
+                                                          : family);
+  } catch (const Error&) {
+    return "";
+  } catch (const Stopped&) {
+    return "";
+  }
+  const std::string name = plan.families.front().name;
+  Progress progress(options.record.quiet);
+  run_campaign(
+      plan, subjects,
+      [&](TrialResult&& result, const CampaignProgress& now) {
+        record.add(std::move(result));
+        if (progress.due())
+          progress.show(fmt::format("asking around the scene, {} of {} queries", with_separators(now.cases),
+                                    with_separators(now.of)));
+        return true;
+      },
+      stop);
+  std::map<std::string, Counts> around;
+  for (const auto& [key, counts] : record.statistics().counts)
+    if (key.family == name) around[key.subject].merge(counts);
+  std::string line =
+      fmt::format("around them, {} queries of the family {}:", with_separators(options.around), name);
+  for (const auto& [subject, counts] : around)
+    line += fmt::format("{} {} missed {} of {}", line.ends_with(':') ? "" : ";", subject,
+                        with_separators(counts.false_negatives),
+                        counted(counts.collisions, "collision", "collisions"));
+  return line + "\n";
+}
+
+/// The command that hunts around a scene for longer.
+std::string longer_hunt(const Options& options) {
   std::string scene;
   for (const std::string& each : options.scene) scene += " " + printable_argument(each);
   const std::string within =
       options.separation.is_given() ? " --separation " + shell_quoted(options.separation.text) : "";
-  return fmt::format(
-      "{}to hunt around this mesh: nearmiss fuzz --subject {} --mesh{}{} --family mesh --time 1m\n", lines,
-      shell_quoted(fmt::format("{}", fmt::join(options.trial.subjects, ","))), scene, within);
+  return fmt::format("to hunt for longer: nearmiss fuzz --subject {} --mesh{}{} --family mesh --time 1m\n",
+                     shell_quoted(fmt::format("{}", fmt::join(options.trial.subjects, ","))), scene, within);
 }
 
 int run(Options options) {
@@ -255,8 +307,11 @@ int run(Options options) {
   if (record.statistics().counts.empty())
     fmt::print(text, "no subject was asked: the plan decides all pairs\n");
   if (!stop.is_requested()) record.add_unasked(all.subjects);
+  std::string few = options.plan_only ? "" : what_few_collisions_show(record.statistics());
+  if (!few.empty() && options.around > 0 && !stop.is_requested())
+    few += hunt_around(options, scene, all.subjects, record, stop);
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
-  fmt::print(text, "{}", what_few_collisions_show(options, record.statistics()));
+  if (!few.empty()) fmt::print(text, "{}{}", few, longer_hunt(options));
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = held.asking.count();
   const double verifying = held.verification.seconds;
@@ -279,6 +334,12 @@ void add_scene_options(CLI::App& command, Options& options) {
       ->expected(1, 2);
   command.add_flag("--list", options.list, "List the built-in scenes and their sizes");
   command.add_flag("--weld", options.weld, "Merge points that coincide in the first frame");
+  command
+      .add_option("--around", options.around,
+                  "If the collisions are so few that they show little, also ask this many queries around the "
+                  "scene's pairs (the family mesh of nearmiss fuzz --mesh); 0 asks none")
+      ->capture_default_str()
+      ->type_name("N");
 }
 
 void add_bound_options(CLI::App& command, Options& options) {
