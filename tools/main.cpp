@@ -65,16 +65,39 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Throws Error if the first word is not a subcommand; the message names the nearest subcommand.
+/// Throws Error if the word is not among the names; the message has the nearest name.
+void expect_known(const std::string& what, std::string_view word, const std::vector<std::string>& names,
+                  const std::string& help) {
+  if (std::ranges::count(names, word) > 0) return;
+  const auto nearest =
+      std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(name, word); });
+  throw nearmiss::Error(fmt::format("found the {} '{}', expected one such as '{}' (see {})", what,
+                                    nearmiss::excerpt(word), *nearest, help));
+}
+
+/// Throws Error if the first word is not a subcommand.
 void expect_subcommand(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (word.starts_with('-') || std::ranges::count(names, word) > 0) return;
-  const auto nearest =
-      std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(name, word); });
-  throw nearmiss::Error(
-      fmt::format("found the subcommand '{}', expected one such as '{}' (see nearmiss --help)",
-                  nearmiss::excerpt(word), *nearest));
+  if (!word.starts_with('-')) expect_known("subcommand", word, names, "nearmiss --help");
+}
+
+/// The command whose --help tells more about these arguments.
+std::string help_for(int argc, char** argv) {
+  return argc > 1 && argv[1][0] != '-' ? fmt::format("nearmiss {} --help", argv[1]) : "nearmiss --help";
+}
+
+/// Throws Error for the first option that the subcommand does not have.
+void expect_options(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_subcommand(argv[1])->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.starts_with("--") && word != "--")
+      expect_known("option", word.substr(0, word.find('=')), names, help_for(argc, argv));
+  }
 }
 
 /// The message of the command line's parser, in which long words that the user typed are cut short.
@@ -176,7 +199,9 @@ int run(int argc, char** argv) {
       expect_output();
       return exit_code;
     }
-    throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", with_short_words(error.what())));
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
+      expect_options(app, argc, argv);
+    throw nearmiss::Error(fmt::format("{} (see {})", with_short_words(error.what()), help_for(argc, argv)));
   }
   expect_output();
   if (exit_code == exit_interrupted) print_continuation(*app.get_subcommands().front(), argc, argv);
