@@ -29,12 +29,12 @@ struct Options {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
   bool factors = false, coverage = false, classes = false;
-  std::string subject;
+  std::string only_class, subject;
   PluginLimitOptions limits;
 };
 
 /// Prints a line for each of `count` queries of one kind, from the index `first` on: the query or, with
-/// --factors, its factors.
+/// --factors, its factors. With --class, leaves out queries of other classes.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
   expect_kind(family, kind, "--kind");
@@ -42,9 +42,11 @@ void print_queries(const Options& options, const Family& family) {
   for (std::uint64_t index = options.first; printed < options.count; ++index) {
     if (kind_of(family, index) != kind) continue;
     ++printed;
+    const Query query = make_query(family, options.seed, index);
+    if (!options.only_class.empty() && name(classify(query)) != options.only_class) continue;
     fmt::print("{}\n", options.factors
                            ? fmt::format("{}", fmt::join(factors_of(family, options.seed, index), " "))
-                           : to_line(make_query(family, options.seed, index)));
+                           : to_line(query));
   }
 }
 
@@ -173,6 +175,11 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
   command
       ->add_flag("--factors", options->factors,
                  "Print each query's factors instead of the query, in a family with factors")
+      ->needs(kind);
+  command
+      ->add_option("--class", options->only_class,
+                   "Of the --count queries, print only those of this class (fuzz/families/README.md)")
+      ->check(CLI::IsMember({"ordinary", "degenerate", "extreme"}))
       ->needs(kind);
   add_seed_option(*command, options->seed);
   add_count_option(
