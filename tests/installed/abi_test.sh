@@ -28,15 +28,8 @@ if $write; then
   exit
 fi
 
-# is_kept REFERENCE: whether the library has all that is in the reference. abidiff's exit codes: 4 and 8 are
-# changes.
-is_kept() {
-  local code=0
-  abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added-syms "$1" "$library" >"$folder/changes" 2>&1 || code=$?
-  ((code == 0 || code == 4 || code == 8 || code == 12)) || fail "abidiff: exit code $code: $(cat "$folder/changes")"
-  ((code == 0))
-}
-is_kept nearmiss.abi || fail "$(cat "$folder/changes")"
+abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added-syms nearmiss.abi "$library" >"$folder/changes" 2>&1 ||
+  fail "$(cat "$folder/changes")"
 missing=$(comm -23 constants.txt <(constants))
 [[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
 
@@ -46,17 +39,4 @@ known=$(sed -nE 's/^ (nearmiss_\w+)@NEARMISS_1 .*/\1/p' ../../tools/debian/symbo
 exported=$(nm -D --defined-only "$library" | sed -nE 's/.* T (\w+)@@NEARMISS_1$/\1/p' | sort)
 [[ $known == "$exported" ]] || fail "tools/debian/symbols has: $known; the library: $exported"
 
-# Checks that the comparison notices changes of the library, by changing the reference instead.
-# differs EDIT: writes an edited copy of the reference, as if of another library.
-differs() {
-  sed -E "$1" nearmiss.abi >"$folder/other.abi"
-  ! cmp -s nearmiss.abi "$folder/other.abi" || fail "$1 changes nothing"
-}
-for edit in "s/(layout-offset-in-bits=')576/\1640/; s/size-in-bits='640'/size-in-bits='704'/" "/var-decl name='type'/s/95e97e5e/b59d7dce/" \
-  "/<parameter type-id='7408d286' name='bounds'/d" "s/nearmiss_message/nearmiss_text/g" "s/NEARMISS_1/NEARMISS_0/" "s/libnearmiss.so.1/libnearmiss.so.0/"; do
-  differs "$edit"
-  ! is_kept "$folder/other.abi" || fail "unnoticed: $edit"
-done
-differs "/elf-symbol name='nearmiss_message'/d; /<function-decl name='nearmiss_message'/,/<\/function-decl>/d"
-is_kept "$folder/other.abi" || fail "a function cannot be added: $(cat "$folder/changes")"
 echo "the interface keeps $(grep -c '<function-decl' nearmiss.abi) functions, their types, and $(wc -l <constants.txt) constants"

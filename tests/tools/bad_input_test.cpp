@@ -1,4 +1,4 @@
-// Tests the command line with bad input: one line says what is wrong, and no file is left.
+// Tests the command line with bad input: one short line says what is wrong, and no file is left.
 #include <algorithm>
 
 #include "tests/tools/command_line.hpp"
@@ -6,7 +6,9 @@
 namespace nearmiss {
 namespace {
 
+using nlohmann::json;
 using testing::CommandLine;
+using ::testing::HasSubstr;
 
 TEST_F(CommandLine, BadQueries) {
   const std::string numbers = hit.substr(hit.find(' '));
@@ -54,12 +56,13 @@ TEST_F(CommandLine, FilesThatAreNone) {
 
 TEST_F(CommandLine, AWrongNumberOfLanes) {
   for (const char* wrong : {"3", "16", "x", "-2", "8 "}) {
-    const Output output = expect_code(2, "subjects", std::string("NEARMISS_LANES='") + wrong + "'");
+    const Output output =
+        expect_code(2, "oracle --kind vt hit.vt", std::string("NEARMISS_LANES='") + wrong + "'");
     EXPECT_EQ(output.error,
               "nearmiss: NEARMISS_LANES: found '" + std::string(wrong) + "', expected 2, 4 or 8\n");
   }
-  for (const char* right : {"", "2"})
-    EXPECT_EQ(run("subjects", std::string("NEARMISS_LANES=") + right).code, 0);
+  for (const std::string right : {"", "2"})
+    expect_code(0, "oracle --kind vt hit.vt", "NEARMISS_LANES=" + right);
 }
 
 TEST_F(CommandLine, ArgumentsWithoutAValue) {
@@ -77,7 +80,6 @@ TEST_F(CommandLine, ArgumentsWithoutAValue) {
 }
 
 TEST_F(CommandLine, BadShrinks) {
-  write("hit.vt", hit);
   write("two.vt", hit + miss);
   write("nan.vt", "nan" + hit.substr(hit.find(' ')));
   const std::string never = " --subject " + plugin("never");
@@ -92,9 +94,8 @@ TEST_F(CommandLine, BadShrinks) {
 }
 
 TEST_F(CommandLine, BadNames) {
-  write("q.vt", hit);
-  expect_refused("replay q.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang", "exact"});
-  expect_refused("replay q.vt --subject wang,wang --db new.db", {"two subjects named 'wang'"});
+  expect_refused("replay hit.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang", "exact"});
+  expect_refused("replay hit.vt --subject wang,wang --db new.db", {"two subjects named 'wang'"});
   expect_refused("fuzz --cases 10 --family plantet --db new.db", {"unknown family 'plantet'", "planted"});
   expect_refused("fuzz --cases 10 --family planted,all --db new.db", {"the family 'planted' twice"});
   expect_refused("fuzz --cases 10 --family aspect@17 --db new.db", {"'aspect@17'", "from 0 to 16"});
@@ -102,12 +103,15 @@ TEST_F(CommandLine, BadNames) {
   expect_refused("fuzz --cases 10 --sweep aspekt --db new.db", {"unknown family 'aspekt'", "aspect"});
   expect_refused("fuzz --cases 10 --sweep uniform --db new.db", {"'uniform'", "with a parameter"});
   expect_refused("fuzz --cases 10 --sweep aspect,aspect --db new.db", {"'aspect@0' twice in --sweep"});
-  expect_refused("verdict --kind vt --subject wong q.vt", {"unknown subject 'wong'"});
-  expect_refused("oracle --kind vf q.vt", {"--kind", "vf"});
+  expect_refused("verdict --kind vt --subject wong hit.vt", {"unknown subject 'wong'"});
+  expect_refused("oracle --kind vf hit.vt", {"--kind", "vf"});
+  expect_refused("oracle --kind vt hit.vt --method sturm", {"'sturm' is gone", "--method certificate"});
+  expect_refused("verdict --kind vt --bound 0.5 hit.vt",
+                 {"the given bound B = 0.5", "is smaller than a pair's own"});
+  expect_refused("verdict --kind vt --bound=-1 hit.vt", {"--bound: found '-1', expected a positive number"});
 }
 
 TEST_F(CommandLine, BadUsage) {
-  write("q.vt", hit);
   expect_refused("", {"subcommand"});
   expect_refused("fuzz --db new.db", {"--cases", "--time"});
   expect_refused("fuzz --cases 0 --db new.db", {"--cases"});
@@ -119,19 +123,17 @@ TEST_F(CommandLine, BadUsage) {
   expect_refused("fuzz --cases 10 --shard 2/2 --db new.db", {"--shard: found '2/2'"});
   expect_refused("fuzz --cases 10 --shard 0/18446744073709551615",
                  {"--shard: found '0/18446744073709551615', expected I/N with 0 <= I < N <= 1000000"});
-  expect_refused("replay q.vt --json no/folder/new.json", {"no/folder"});
-  expect_refused("replay q.vt --db no/folder/new.db", {"no/folder/new.db"});
+  expect_refused("replay hit.vt --json no/folder/new.json", {"no/folder"});
+  expect_refused("replay hit.vt --db no/folder/new.db", {"no/folder/new.db"});
   expect_refused("replay", {"PATH"});
 }
 
 TEST_F(CommandLine, BadPlugins) {
-  write("q.vt", hit);
-  const auto refused = [&](const std::string& name, const std::vector<std::string>& words) {
-    expect_refused("replay q.vt --db new.db --json new.json --subject " + plugin(name), words);
-  };
-  refused("no_function", {"no_function.so", "nearmiss_get_subject"});
-  refused("version_1", {"version_1.so", "found version 1 of the plug-in interface", "expected 2"});
-  refused("absent", {"absent.so", "cannot load"});
+  for (const auto& [name, words] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"no_function", {"no_function.so", "nearmiss_get_subject"}},
+           {"version_1", {"version_1.so", "found version 1 of the plug-in interface", "expected 2"}},
+           {"absent", {"absent.so", "cannot load"}}})
+    expect_refused("replay hit.vt --db new.db --json new.json --subject " + plugin(name), words);
 }
 
 TEST_F(CommandLine, BadMeshes) {
@@ -169,6 +171,88 @@ TEST_F(CommandLine, BadStores) {
   expect_refused("merge new.db absent.db", {"absent.db: no such file"});
   expect_refused("fuzz --cases 10 --db taken.db", {"taken.db: exists already"});
   EXPECT_EQ(read("taken.db"), "precious");
+}
+
+class Messages : public CommandLine {
+ protected:
+  /// Expects that a command is refused with these words, in a short line.
+  void expect_short(const std::string& arguments, const std::string& words) const {
+    expect_refused(arguments, {words});
+    EXPECT_LT(read("error.txt").size(), 1200) << arguments;
+  }
+};
+
+TEST_F(Messages, ALongWordOfAFileIsCut) {
+  const std::string word(1'000'000, 'x');  // a line may have 1 MiB
+  const std::string forty(40, 'x');
+  const std::string cut = "'" + forty + "...'";
+  write("q.vt", word);
+  write("a.case", "kind " + word);
+  write("b.case", "truth " + word);
+  write("c.case", word + " 1");
+  write("edge-edge/a.csv", word + ",1,1,1,1,1,0");
+  write("edge-edge/b.csv", "1,1,1,1,1,1," + word);
+  for (const char* ending : {".obj", ".off", ".ply"}) write("mesh" + std::string(ending), word);
+  write("mesh.stl", "solid\n" + word);
+  write("power.json", "[\"" + word);
+  EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
+  for (const char* file : {"q.vt", "a.case", "b.case", "c.case", "edge-edge/b.csv"})
+    expect_short("replay " + std::string(file), cut);
+  expect_short("replay edge-edge/a.csv", "'" + forty + "...,1'");
+  for (const char* ending : {".obj", ".off", ".ply", ".stl"})
+    expect_short("scene mesh" + std::string(ending) + " mesh" + ending, cut);
+  expect_short("report a.db -o new --power power.json", "..., expected what nearmiss power --json keeps");
+}
+
+TEST_F(Messages, AWordIsCutBetweenCharacters) {
+  std::string word = "x";
+  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // byte 41 is the second byte of a character
+  write("q.vt", word);
+  expect_short("replay q.vt", std::string("'").append(word, 0, 39).append("...'"));
+}
+
+TEST_F(Messages, ALongWordOfTheCommandLineIsCut) {
+  const std::string word(100'000, 'x');
+  for (const std::string command :
+       {"", "subjects ", "fuzz --cases ", "fuzz --time ", "fuzz --cases 1 --shard ",
+        "fuzz --cases 1 --family ", "fuzz --cases 1 --family aspect@", "fuzz --cases 1 --subject ",
+        "fuzz --cases 1 --subject wang:", "fuzz --cases 1 --subject defect:", "tightness --tolerance ",
+        "oracle --kind ", "replay --bound "})
+    expect_short(command + word + (command == "replay --bound " ? " hit.vt" : ""), "x...");
+}
+
+TEST_F(Messages, ANameDoesNotWriteToTheTerminal) {
+  const std::string odd = "'a\x1b[31mb\nc'";
+  expect_refused("fuzz --cases 10 --subject " + odd, {"a?[31mb c"});
+  expect_refused("report " + odd + " -o new", {"a?[31mb c: no such file"});
+}
+
+TEST_F(Messages, ANanIsCalledOne) {
+  expect_refused("replay hit.vt --bound nan", {"--bound: found 'nan', expected a finite number"});
+  expect_refused("scene flying@100 --bound pair,nan", {"--bound: found 'nan'"});
+  expect_refused("scene flying@100 --thickness nan", {"--thickness: found 'nan'"});
+  for (const char* bound : {"nan", "inf", "-1", "0", "1e999"})
+    for (const char* name : {"wang", "wang:float", "basic"})
+      expect_refused(std::string("replay hit.vt --subject ") + name + "@" + bound,
+                     {std::string("'") + name + "@" + bound + "': found the bound '" + bound +
+                      "', expected a positive finite number"});
+  for (const std::string width : {"nan", "-1", "1e999", "x"})
+    expect_refused("oracle --kind vt --width " + width + " hit.vt",
+                   {"--width: found '" + width + "', expected a number from 0 to 1"});
+  const auto bound_of = [&](const std::string& name, const std::string& words) {
+    expect_refused("verdict --kind vt --distance-bound miss.vt --subject " + plugin(name), {words});
+  };
+  bound_of("bound_nan", "always: found the distance bound NaN, expected 0 or more");
+  bound_of("bound_negative", "always: found the distance bound -1, expected 0 or more");
+  bound_of("bound_abort", "always: no distance bound: vt crash ABRT");
+}
+
+TEST_F(Messages, AStoreThatExistsNamesResumeWhereThereIsOne) {
+  const std::string fuzz = "fuzz --cases 4 --db a.db";
+  expect_code(0, fuzz);
+  expect_refused(fuzz,
+                 {"a.db: exists already, expected a new file, or --resume to continue the campaign in it"});
+  expect_refused("replay hit.vt --db a.db", {"a.db: exists already, expected a new file\n"});
 }
 
 }  // namespace

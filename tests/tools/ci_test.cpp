@@ -1,9 +1,10 @@
-// Results for systems of continuous integration, and campaigns that a file describes.
+// Results for other programs, such as systems of continuous integration, and campaigns that a file describes.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
 namespace {
 
+using nlohmann::json;
 using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
@@ -12,7 +13,7 @@ using ::testing::StartsWith;
 
 class Ci : public CommandLine {
  protected:
-  const std::string campaign = "fuzz --subject basic,wang --family uniform,planted --cases 2000 ";
+  const std::string campaign = "fuzz --subject basic,wang --family uniform,planted --cases 1000 ";
 };
 
 TEST_F(Ci, JUnitHasATestForEachSubjectKindAndClass) {
@@ -21,14 +22,14 @@ TEST_F(Ci, JUnitHasATestForEachSubjectKindAndClass) {
   EXPECT_THAT(xml, StartsWith("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"wang\" tests=\"4\" failures=\"0\""));
   EXPECT_THAT(xml, HasSubstr("<testcase classname=\"nearmiss.wang\" name=\"vt, ordinary families\"/>"));
-  EXPECT_THAT(xml, HasSubstr("<testsuite name=\"basic\" tests=\"4\" failures=\"2\""));
+  EXPECT_THAT(xml, HasSubstr("<testsuite name=\"basic\" tests=\"4\" failures=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"missed "));
   EXPECT_THAT(xml, HasSubstr("again: nearmiss fuzz --subject basic,wang"));
   // The query in the failure is one that the subject misses.
   const std::size_t line = xml.find("; vt query:\n") + 12;
   write("q.vt", xml.substr(line, xml.find('\n', line) - line) + "\n");
-  EXPECT_EQ(run("replay q.vt --subject basic").code, 1);
-  EXPECT_EQ(run("replay q.vt --subject wang").code, 0);
+  expect_code(1, "replay q.vt --no-shrink --subject basic");
+  expect_code(0, "replay q.vt --subject wang");
   // A report writes the same.
   expect_code(1, "report a.db -o report --junit report.xml");
   EXPECT_EQ(read("report.xml"), xml);
@@ -75,35 +76,68 @@ TEST_F(Ci, ACampaignRunsAgainWhenThePluginIsCompiled) {
 
 TEST_F(Ci, AFileDescribesACampaign) {
   write("trial.toml",
-        "# our trial\nsubject = [\"basic\", \"wang\"]\nfamily = [\"uniform\", \"planted\"]\ncases = 2000\n");
-  expect_code(1, campaign + "--json a.json");
-  expect_code(1, "fuzz --config trial.toml --json b.json");
-  const auto results = [&](const std::string& name) {
-    auto all = read_json(name)["subjects"];
+        "# our trial\nsubject = [\"basic\", \"wang\"]\nfamily = [\"uniform\", \"planted\"]\ncases = 1000\n");
+  const auto results = [&](const std::string& command) {
+    auto all = json_of(1, command + " --no-shrink")["subjects"];
     for (auto& subject : all)
       for (auto& kind : subject) kind = kind["families"]["planted"]["false_negatives"];
-    return all.dump();
+    return all;
   };
-  EXPECT_EQ(results("a.json"), results("b.json"));
+  const auto expected = results(campaign);
+  EXPECT_EQ(results("fuzz --config trial.toml"), expected);
   // The command line counts more than the file.
-  expect_code(0, "fuzz --config trial.toml --subject wang --json c.json");
-  EXPECT_EQ(read_json("c.json")["subjects"].size(), 1);
+  EXPECT_EQ(json_of(0, "fuzz --config trial.toml --subject wang")["subjects"].size(), 1);
   expect_refused("fuzz --config nowhere.toml", {"nowhere.toml"});
   write("bad.toml", "subjects = \"wang\"\ncases = 10\n");
   expect_refused("fuzz --config bad.toml", {"subjects"});
   // Everything that a list and a number may have in TOML.
   write("odd.toml",
         "\xEF\xBB\xBFsubject = [  # \"never\", [\n  \"basic\" ,\n\n  'wang',  # ]\n]  # two\r\n"
-        "family = [ \"uniform\", \"planted\", ]\ncases = 2_000\n");
-  expect_code(1, "fuzz --config odd.toml --json d.json");
-  EXPECT_EQ(results("d.json"), results("a.json"));
+        "family = [ \"uniform\", \"planted\", ]\ncases = 1_000\n");
+  EXPECT_EQ(results("fuzz --config odd.toml"), expected);
   // Within quotes, '#' and brackets are letters.
   write("a#[b.vt", hit);
   write("near.toml", "subject = \"wang\"\nnear = \"a#[b.vt\"\nfamily = [\"near\"]\ncases = 10\n");
-  expect_code(0, "fuzz --config near.toml --json e.json");
-  EXPECT_EQ(read_json("e.json")["subjects"]["wang"]["vt"]["families"]["near"]["queries"], 10);
+  const auto near = json_of(0, "fuzz --config near.toml")["subjects"]["wang"]["vt"]["families"]["near"];
+  EXPECT_EQ(near["queries"], 10);
   write("open.toml", "cases = 10\nsubject = [\n  \"wang\",\n");
   expect_refused("fuzz --config open.toml", {"--config:2: found '[' without ']'"});
+}
+
+class JsonToStdout : public CommandLine {};
+
+TEST_F(JsonToStdout, IsAnErrorIfItCannotBeWritten) {
+  EXPECT_THAT(expect_code(2, "replay hit.vt --json -", "", ">/dev/full").error,
+              HasSubstr("nearmiss: standard output cannot be written: No space left on device\n"));
+}
+
+/// "M?", where the second character is a byte that is no UTF-8.
+const std::string no_utf8 = "M\xe4";
+
+TEST_F(JsonToStdout, OfFilesWhoseNamesAreNoUtf8) {
+  for (const std::string& folder : {no_utf8, std::string("N\xe4")}) write(folder + "/q.vt", hit);
+  write(no_utf8 + "1.obj", two_triangles("1"));
+  write(no_utf8 + "2.obj", two_triangles("-1"));
+  const std::string quoted = "'" + no_utf8 + "'";
+  const auto asked = [](const json& results) { return results["oracle"]["total"]["queries"]; };
+  EXPECT_EQ(asked(json_of(0, "replay " + quoted + " 'N\xe4' --db a.db")), 2);
+  EXPECT_THAT(std::string(report_of("a.db")["runs"][0]["again"]), HasSubstr("replay $'M\\344' $'N\\344' "));
+  const std::string mesh = " " + quoted + "1.obj " + quoted + "2.obj ";
+  EXPECT_EQ(json_of(0, "scene" + mesh)["scenes"].size(), 1);
+  EXPECT_THAT(read("error.txt"), HasSubstr("scene:M?"));
+  const std::string fuzz = "fuzz --cases 100 --mesh" + mesh + "--family mesh --db c.db --resume";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(asked(json_of(0, fuzz)), 100);
+  EXPECT_EQ(json_of(0, "bench " + quoted + "/q.vt --queries 5 --runs 1 --history h.json").size(), 1);
+  EXPECT_FALSE(std::filesystem::exists(file("-")));
+}
+
+TEST_F(JsonToStdout, APluginWhoseNameIsNoUtf8IsRefused) {
+  std::filesystem::copy_file(plugin("example"), file(no_utf8 + ".so"));
+  for (const std::string command : {"fuzz --cases 100 --db new.db", "bench --json new.json"})
+    expect_refused(command + " --subject './" + no_utf8 + ".so'",
+                   {"--subject: found './M?.so', expected a path in UTF-8"});
+  expect_refused("subjects --targets wang './p\nlate x/p.so'",
+                 {"--subject: found './p late x/p.so', expected"});
 }
 
 }  // namespace

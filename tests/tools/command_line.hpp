@@ -29,6 +29,12 @@ class CommandLine : public testing::TemporaryFolder {
   static inline const std::string miss =
       "0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p0  0 0 0  1 0 0  0 1 0\n";
 
+  /// Writes these queries to hit.vt and miss.vt.
+  CommandLine() {
+    write("hit.vt", hit);
+    write("miss.vt", miss);
+  }
+
   static std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
   /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder. `before` precedes the command, such as
@@ -47,6 +53,12 @@ class CommandLine : public testing::TemporaryFolder {
     Output output = run(arguments, before, redirections);
     EXPECT_EQ(output.code, code) << before << " nearmiss " << arguments << ": " << output.error;
     return output;
+  }
+
+  /// The JSON that a command prints with --json -; it must end with this exit code.
+  [[nodiscard]] nlohmann::json json_of(int code, const std::string& arguments,
+                                       const std::string& before = "") const {
+    return nlohmann::json::parse(expect_code(code, arguments + " --json -", before).out);
   }
 
   /// The report.json of "nearmiss report STORES", which must end with this exit code.

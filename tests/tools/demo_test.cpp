@@ -1,4 +1,8 @@
-// nearmiss demo and nearmiss completion.
+// nearmiss demo, nearmiss completion, and the first example of README.md.
+#include <algorithm>
+#include <fstream>
+#include <string>
+
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -38,22 +42,36 @@ TEST_F(DemoTest, SaysThatItCannotWrite) {
 }
 
 TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
-  EXPECT_EQ(completed("nearmiss shr"), "shrink\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subj"), "--subject\n");
-  EXPECT_EQ(completed("nearmiss fuzz --cas"), "--cases\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subject basic,wang-t"), "basic,wang-tight basic,wang-time\n");
-  EXPECT_EQ(completed("nearmiss fuzz --family uniform-e"), "uniform-end\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subject = ba"), "basic basic-plain\n");  // as in --subject=ba
+  for (const auto& [words, completions] : std::vector<std::pair<std::string, std::string>>{
+           {"shr", "shrink"},
+           {"fuzz --subj", "--subject"},
+           {"fuzz --subject basic,wang-t", "basic,wang-tight basic,wang-time"},
+           {"fuzz --family uniform-e", "uniform-end"},
+           {"fuzz --subject = ba", "basic basic-plain"},  // as in --subject=ba
+           {"fuzz --sweep asp", "aspect"},
+           {"fuzz --sweep uniform-e", ""},  // it has no parameter
+           {"fuzz --subject wang,./compl", "wang,./completion"}})
+    EXPECT_EQ(completed("nearmiss " + words), completions + "\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject ="), completed("nearmiss fuzz --subject \"\""));
-  EXPECT_EQ(completed("nearmiss fuzz --sweep asp"), "aspect\n");
-  EXPECT_EQ(completed("nearmiss fuzz --sweep uniform-e"), "\n");  // uniform-end has no parameter
-  EXPECT_EQ(completed("nearmiss fuzz --subject ./compl"), "./completion\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subject wang,./compl"), "wang,./completion\n");
-}
-
-TEST_F(DemoTest, KnowsTwoShells) {
   EXPECT_THAT(run("completion zsh").out, ::testing::StartsWith("#compdef nearmiss\n"));
   expect_refused("completion fish", {"found 'fish', expected bash or zsh"});
+}
+
+class ReadmeTest : public testing::CommandLine {};
+
+TEST_F(ReadmeTest, TheFirstExamplePrintsWhatItSays) {
+  const std::string indent(4, ' ');
+  const std::string prompt = indent + "$ nearmiss ";
+  std::ifstream readme(NEARMISS_README);
+  std::string line, expected;
+  while (std::getline(readme, line) && !line.starts_with(prompt)) {
+  }
+  const std::string arguments = line.substr(prompt.size());
+  while (std::getline(readme, line) && line.starts_with(indent))
+    expected += line.substr(indent.size()) + '\n';
+  ASSERT_THAT(arguments, ::testing::StartsWith("fuzz "));
+  ASSERT_EQ(std::count(expected.begin(), expected.end(), '\n'), 2) << expected;
+  EXPECT_THAT(run(arguments).out, ::testing::StartsWith(expected)) << "nearmiss " << arguments;
 }
 
 }  // namespace

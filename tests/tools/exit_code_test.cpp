@@ -8,10 +8,8 @@ using testing::CommandLine;
 using ::testing::HasSubstr;
 
 TEST_F(CommandLine, AMissGivesExitCodeOne) {
-  write("q.vt", hit);
-  const Output output = expect_code(1, "replay q.vt --subject " + plugin("never"));
-  EXPECT_THAT(output.out, HasSubstr("MISSED vt 1 of 1;"));
-  EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
+  EXPECT_THAT(expect_code(1, "replay hit.vt --subject " + plugin("never")).out,
+              ::testing::AllOf(HasSubstr("MISSED vt 1 of 1;"), HasSubstr("hit.vt:1")));
 }
 
 /// A subject, and the exit code of all subcommands that show the results of this subject.
@@ -48,17 +46,16 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
     EXPECT_EQ(output.out.find("FAIL") == std::string::npos, shown.code == 0) << output.out;
     EXPECT_EQ(run("merge b.db a.db").code, shown.code) << trial;
     EXPECT_EQ(run("report b.db -o report --baseline a.db").code, shown.code) << trial;
-    EXPECT_EQ(run("report b.db -o report").code, shown.code) << trial;
-    EXPECT_EQ(read_json("report/report.json")["headline"]["clean"], shown.code == 0) << trial;
-    EXPECT_EQ(read_json("report/report.json")["headline"]["alarms"].empty(), shown.code == 0) << trial;
-    for (const auto& each : read_json("report/report.json")["verdicts"])
+    const auto report = report_of("b.db", shown.code);
+    EXPECT_EQ(report["headline"]["clean"], shown.code == 0) << trial;
+    EXPECT_EQ(report["headline"]["alarms"].empty(), shown.code == 0) << trial;
+    for (const auto& each : report["verdicts"])
       EXPECT_TRUE(!each["clean"] || each["finding"].is_null()) << trial;
     if (*shown.fails_on != '\0') {
       const std::string option = std::string(" --fail-on ") + shown.fails_on;
       EXPECT_EQ(run(trial + option, environment).code, 1) << trial;
       EXPECT_EQ(run("merge c.db a.db" + option).code, 1) << trial;
-      EXPECT_EQ(run("report b.db -o report" + option).code, 1) << trial;
-      EXPECT_EQ(read_json("report/report.json")["headline"]["clean"], false) << trial;
+      EXPECT_EQ(report_of("b.db" + option, 1)["headline"]["clean"], false) << trial;
     }
     for (const char* name : {"a.db", "b.db", "c.db", "mark"}) std::filesystem::remove(file(name));
   }
@@ -87,10 +84,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(each.param.what); });
 
 TEST_F(CommandLine, FailOnTakesNamesOfFailures) {
-  write("q.vt", hit);
-  expect_refused("replay q.vt --fail-on unknown,speed --db new.db", {"--fail-on: found 'speed'", "slow"});
+  expect_refused("replay hit.vt --fail-on unknown,speed --db new.db", {"--fail-on: found 'speed'", "slow"});
   for (const std::string always : {"miss", "crash"})
-    expect_refused("replay q.vt --fail-on " + always + " --db new.db",
+    expect_refused("replay hit.vt --fail-on " + always + " --db new.db",
                    {"found '" + always + "', which always gives exit code 1"});
 }
 
@@ -98,8 +94,7 @@ TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {
   write("a.case",
         "# deliberately wrong\nkind vt\ntruth 0\nx0 0.25 0.25 1\nx1 0 0 0\nx2 1 0 0\nx3 0 1 0\n"
         "y0 0.25 0.25 -1\ny1 0 0 0\ny2 1 0 0\ny3 0 1 0\n");
-  expect_code(1, "replay a.case --json new.json");
-  EXPECT_EQ(read_json("new.json")["oracle"]["mismatches_with_recorded_truth"], 1);
+  EXPECT_EQ(json_of(1, "replay a.case")["oracle"]["mismatches_with_recorded_truth"], 1);
 }
 
 }  // namespace

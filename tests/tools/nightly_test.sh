@@ -12,7 +12,8 @@ if ((EUID != 0)) && unshare --map-root-user --mount true 2>/dev/null; then exec 
 nearmiss=$(realpath "${arguments[0]}")
 source=$(realpath "$(dirname "$0")/../..")
 folder=$(mktemp -d)
-trap 'kill $(jobs -pr) 2>/dev/null || true; umount "$folder/disk" 2>/dev/null || true; rm -rf "$folder"' EXIT
+trap 'cd /; kill $(jobs -pr) 2>/dev/null || true; umount --recursive "$folder" 2>/dev/null || true; rm -rf "$folder"' EXIT
+mount -t tmpfs none "$folder" 2>/dev/null || true  # only faster
 
 fail() { echo "failed: $1"; tail -n 20 "$folder/said" "$folder"/*/last/log 2>/dev/null || true; exit 1; }
 expect() { "${@:2}" || fail "$1"; }
@@ -54,8 +55,8 @@ expect_said '^not in the baseline: basic$'
 expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 "$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
-night 0 --subject wang
 # A night with lasting failures fails. The baseline has these failures, although the night before does not.
+night 0 --subject wang
 night 1 --subject=wang,basic
 expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z .version .*., last seen 20.*Z .version .*.$'
 seen=$(sed -nE 's/^lasting: .*, first seen ([^ ]*) .*, last seen .*/\1/p' "$folder/said" | sort -u)
@@ -64,26 +65,23 @@ expect "expected that all were first seen in the second night, at $began, found 
 night 0 --subject wang,parity
 expect "expected no sample for root parity" test ! -e "$folder/the nights/last/parity.db"
 # With --baseline 1, the baseline is only the night before.
-night 0 --subject wang
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
-# Lasting faults: a subject that sometimes crashes raises an alarm only once. A new way to fail raises one
+# Lasting faults: a subject that sometimes fails to answer raises an alarm only once. A new way to fail raises one
 # again.
-plugins=$(dirname "$nearmiss")/plugins
-NEARMISS_ONE_IN=5 night 1 --subject "wang,$plugins/crash.so" --results "$folder/faults"
+fails=$(dirname "$nearmiss")/plugins/fail.so
+export NEARMISS_ONE_IN=5
+night 1 --subject "wang,$fails" --results "$folder/faults"
 expect_said '^FAIL misbehaving: .*NO ANSWER '
 expect_said '^alarm: misbehaving failed to answer '
-NEARMISS_ONE_IN=5 night 0 --subject "wang,$plugins/crash.so" --results "$folder/faults"
+night 0 --subject "wang,$fails" --results "$folder/faults"
 expect_said '^FAIL misbehaving: '
-NEARMISS_ONE_IN=5 night 0 --subject "wang,$plugins/crash.so" --results "$folder/faults"
-NEARMISS_ONE_IN=5 night 1 --subject "wang,$plugins/crash.so,basic" --results "$folder/faults"
+night 1 --subject "wang,$fails,basic" --results "$folder/faults"
 expect_said '^alarm: basic missed '
 expect "expected no alarm for what lasts" test -z "$(grep '^alarm: .*misbehaving' "$folder/said")"
 # A night that cannot be read is left out. Its name may be in the future, because a clock can be ahead.
 mkdir "$folder/the nights/2999-01-01T000000Z"
 echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"
-night 1 --subject wang,basic
-expect_said '^lasting: '
 # The latest night is kept, although another name comes after its name.
 night 0 --subject wang --keep 2
 expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2*Z" | wc -l)" = 2
@@ -113,16 +111,12 @@ expect "expected three nights beside the killed one, found $(ls "$folder/the nig
 mkdir "$folder/shards"
 cp "$folder/the nights/last/families.db" "$folder/shards/shard-0.db"
 cp "$folder/shards/shard-0.db" "$folder/shards/shard-1.db"
+: >"$folder/shards/shard-2.db"
 code=0
 "$source/tools/slurm/report" "$nearmiss" "$folder/shards" &>"$folder/said" || code=$?
 expect "expected exit code 2, found $code" test $code = 2
-expect_said '^left out: 1 of 2 shards, which cannot be read or are copies$'
+expect_said '^left out: 2 of 3 shards, which cannot be read or are copies$'
 expect "expected a report of the other shard" test -s "$folder/shards/report/index.html"
-: >"$folder/shards/shard-1.db"
-code=0
-"$source/tools/slurm/report" "$nearmiss" "$folder/shards" &>"$folder/said" || code=$?
-expect "expected exit code 2, found $code" test $code = 2
-expect_said '^left out: 1 of 2 shards, which cannot be read or are copies$'
 # libFuzzer hunts equally long for each way to break a promise.
 cat >tools/libfuzzer <<END_OF_SCRIPT
 #!/bin/sh

@@ -1,4 +1,5 @@
-// The tests that `nearmiss shrink --as c++` and `--as python` print run in other projects.
+// Certificates as a user sees them: of findings and recorded truths, and in the tests that `nearmiss shrink --as c++`
+// and `--as python` print, which run in other projects.
 #include <sstream>
 
 #include "corpus/query_text.hpp"
@@ -7,6 +8,7 @@
 namespace nearmiss {
 namespace {
 
+using testing::CommandLine;
 using ::testing::HasSubstr;
 
 class PastedTest : public testing::CommandLine {
@@ -90,23 +92,20 @@ class PastedTest : public testing::CommandLine {
   }
 };
 
-TEST_F(PastedTest, PassesInCppIfTheDetectorIsRight) {
+TEST_F(PastedTest, PassesIfTheDetectorIsRight) {
   const std::string arguments = NEARMISS_CORPUS "/rounding/vt-planted.case --subject basic";
-  const Output test = expect_code(0, "shrink " + arguments + " --as c++");
-  EXPECT_THAT(test.out, HasSubstr("// basic reported no collision.\n"));
-  EXPECT_THAT(test.out, HasSubstr("// The primitives touch, first "));
-  EXPECT_TRUE(passes_in_cpp(test.out, "test_vertex_triangle", "true"));
-  EXPECT_EQ(printed_numbers(), numbers_of_case(arguments));
-  EXPECT_FALSE(passes_in_cpp(test.out, "test_vertex_triangle", "false"));
-}
-
-TEST_F(PastedTest, PassesInPythonIfTheDetectorIsRight) {
-  const std::string arguments = NEARMISS_CORPUS "/rounding/vt-planted.case --subject basic";
-  EXPECT_EQ(run("shrink " + arguments + " --as python -o new.py").code, 0);
-  EXPECT_THAT(read("new.py"), HasSubstr("# basic reported no collision.\n"));
-  EXPECT_TRUE(passes_in_python(read("new.py"), "test_vertex_triangle", "True"));
-  EXPECT_EQ(printed_numbers(), numbers_of_case(arguments));
-  EXPECT_FALSE(passes_in_python(read("new.py"), "test_vertex_triangle", "False"));
+  const Tests tests = tests_of(arguments);
+  for (const auto& [test, mark] : {std::pair{tests.cpp, "// "}, std::pair{tests.python, "# "}}) {
+    EXPECT_THAT(test, HasSubstr(std::string(mark) + "basic reported no collision.\n"));
+    EXPECT_THAT(test, HasSubstr(std::string(mark) + "The primitives touch, first "));
+  }
+  const std::string numbers = numbers_of_case(arguments);
+  EXPECT_TRUE(passes_in_cpp(tests.cpp, "test_vertex_triangle", "true"));
+  EXPECT_EQ(printed_numbers(), numbers);
+  EXPECT_FALSE(passes_in_cpp(tests.cpp, "test_vertex_triangle", "false"));
+  EXPECT_TRUE(passes_in_python(tests.python, "test_vertex_triangle", "True"));
+  EXPECT_EQ(printed_numbers(), numbers);
+  EXPECT_FALSE(passes_in_python(tests.python, "test_vertex_triangle", "False"));
   EXPECT_THAT(read("error.txt"), HasSubstr("AssertionError"));
 }
 
@@ -116,9 +115,8 @@ std::string with(std::string text, const std::string& old, const std::string& pa
   return text.replace(text.find(old), old.size(), part);
 }
 
-TEST_F(PastedTest, ProvesItsOwnExpectationInPython) {
-  write("q.vt", hit);
-  const std::string test = tests_of("q.vt --subject " + plugin("never")).python;
+TEST_F(PastedTest, ProvesItsOwnExpectation) {
+  const auto [cpp, test] = tests_of("hit.vt --subject " + plugin("never"));
   EXPECT_THAT(test, HasSubstr("# Copy check.py, the checker of certificates, beside"));
   EXPECT_THAT(test, HasSubstr("    proven = 'vt', x, 0.0, 'meets', 0.0, 1.0, False, False\n"));
   const auto passes = [&](const std::string& changed) {
@@ -130,14 +128,10 @@ TEST_F(PastedTest, ProvesItsOwnExpectationInPython) {
   EXPECT_THAT(read("error.txt"), HasSubstr("assert check.check(CERTIFICATE) == check.Statement(*proven)"));
   EXPECT_FALSE(passes(with(test, "'meets', 0.0, 1.0", "'meets', 0.0, 0.75")));  // another claim
   EXPECT_FALSE(passes(with(test, R"("h":"0")", R"("h":"1")")));                 // another certificate
-}
-
-TEST_F(PastedTest, HasTheCertificateInACommentInCpp) {
-  write("q.vt", hit);
-  const std::string test = tests_of("q.vt --subject " + plugin("never")).cpp;
+  // In C++, the certificate is in a comment.
   const std::string beginning = "\n// {";
-  const auto first = test.find(beginning) + beginning.size() - 1;
-  write("certificate.jsonl", test.substr(first, test.find('\n', first) + 1 - first));
+  const auto first = cpp.find(beginning) + beginning.size() - 1;
+  write("certificate.jsonl", cpp.substr(first, cpp.find('\n', first) + 1 - first));
   EXPECT_TRUE(succeeds("python3 check.py certificate.jsonl"));
   EXPECT_EQ(read("text.txt"), "accepted 1 of 1\n");
 }
@@ -152,14 +146,15 @@ TEST_F(PastedTest, ExpectsNoCollisionAfterAReportBeyondTheBound) {
 }
 
 TEST_F(PastedTest, PassesTheSeparation) {
-  write("q.vt", hit);
-  const auto [cpp, python] = tests_of("q.vt --separation 0.5 --subject " + plugin("never"));
-  EXPECT_THAT(cpp, HasSubstr("// The primitives come within 1 of each other, first "));
-  EXPECT_THAT(cpp, HasSubstr("(&end)[4][3], double separation);\n"));
-  EXPECT_THAT(cpp, HasSubstr("  return detects(start, end, 1.0) == true;\n"));
-  EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end, separation) that returns whether "));
-  EXPECT_THAT(python, HasSubstr("    proven = 'vt', x, 1.0, 'meets', 0.0, 1.0, False, True\n"));
-  EXPECT_THAT(python, HasSubstr("    assert detects(start, end, 1.0)\n"));
+  const auto [cpp, python] = tests_of("hit.vt --separation 0.5 --subject " + plugin("never"));
+  for (const char* line :
+       {"// The primitives come within 1 of each other, first ", "(&end)[4][3], double separation);\n",
+        "  return detects(start, end, 1.0) == true;\n"})
+    EXPECT_THAT(cpp, HasSubstr(line));
+  for (const char* line : {"# Write a function detects(start, end, separation) that returns whether ",
+                           "    proven = 'vt', x, 1.0, 'meets', 0.0, 1.0, False, True\n",
+                           "    assert detects(start, end, 1.0)\n"})
+    EXPECT_THAT(python, HasSubstr(line));
 }
 
 TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
@@ -167,55 +162,83 @@ TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
   const std::string arguments = "q.vt --subject " + plugin("promises");
   const Tests tests = tests_of(arguments);
   EXPECT_THAT(tests.python, HasSubstr("# always gave a later time as one before which nothing happens.\n"));
-  const auto passes = [&](const std::string& time) {
-    write("test.py", "import math\n" + tests.python + "def time_of_impact(start, end):\n    return " + time +
-                         "\ntest_vertex_triangle()\n");
-    return succeeds("python3 test.py 2>error.txt");
-  };
+  EXPECT_THAT(tests.cpp, HasSubstr("  return time_of_impact(start, end) <= "));
   write("shrunk.vt", numbers_of_case(arguments));
   std::istringstream truth(run("oracle --kind vt --toi shrunk.vt").out);
   std::string collides, lo, hi;
   truth >> collides >> lo >> hi;
+  const auto passes = [&](const std::string& time) {
+    return passes_in_python(tests.python, "test_vertex_triangle", "True", time);
+  };
   EXPECT_TRUE(passes("float.fromhex('" + lo + "')"));
-  EXPECT_FALSE(passes("math.nextafter(float.fromhex('" + hi + "'), 2)"));
-  EXPECT_THAT(
-      tests.cpp,
-      HasSubstr("\ndouble time_of_impact(const double (&start)[4][3], const double (&end)[4][3]);\n"));
-  EXPECT_THAT(tests.cpp, HasSubstr("  return time_of_impact(start, end) <= "));
+  EXPECT_FALSE(passes("__import__('math').nextafter(float.fromhex('" + hi + "'), 2)"));
 }
 
-TEST_F(PastedTest, ExpectsATimeInTheStepWithACollision) {
-  write("q.vt", hit);
-  const Tests tests = tests_of("q.vt --subject " + plugin("invalid_time"));
-  EXPECT_THAT(tests.python, HasSubstr("# always gave no answer (vt invalid time).\n"));
-  EXPECT_THAT(tests.python, HasSubstr("# Write a function detects(start, end) that returns "));
-  EXPECT_THAT(tests.python, HasSubstr("# Write a function time_of_impact(start, end) that returns "));
-  for (const char* time : {"0", "1"}) expect_both(true, tests, "test_vertex_triangle", true, time);
-  for (const char* time : {"2", "-1e-300", "nan"})
-    expect_both(false, tests, "test_vertex_triangle", true, time);
-  expect_both(false, tests, "test_vertex_triangle", false);
-}
-
-TEST_F(PastedTest, ExpectsATimeInTheStepWithAFalsePositive) {
-  write("q.vt", miss);
-  const Tests tests = tests_of("q.vt --subject " + plugin("invalid_time_above"));
-  EXPECT_THAT(tests.python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
-  expect_both(true, tests, "test_vertex_triangle", true, "0.5");
-  expect_both(false, tests, "test_vertex_triangle", true, "2");
-  expect_both(true, tests, "test_vertex_triangle", false, "2");
-}
-
-TEST_F(PastedTest, AsksForNoTimeOfASubjectThatGivesNone) {
-  write("q.vt", hit);
-  const std::string python = tests_of("q.vt --subject " + plugin("several") + ":told:answer=3").python;
+TEST_F(PastedTest, ExpectsATimeInTheStep) {
+  const std::string name = "test_vertex_triangle";
+  const Tests of_collision = tests_of("hit.vt --subject " + plugin("invalid_time"));
+  EXPECT_THAT(of_collision.python, HasSubstr("# always gave no answer (vt invalid time).\n"));
+  for (const char* function : {"detects", "time_of_impact"})
+    EXPECT_THAT(of_collision.python,
+                HasSubstr(std::string("# Write a function ") + function + "(start, end) that returns "));
+  for (const char* time : {"0", "1"}) expect_both(true, of_collision, name, true, time);
+  for (const char* time : {"-1e-300", "nan"}) expect_both(false, of_collision, name, true, time);
+  expect_both(false, of_collision, name, false);
+  const Tests of_false_positive = tests_of("miss.vt --subject " + plugin("invalid_time_above"));
+  expect_both(true, of_false_positive, name, true, "0.5");
+  expect_both(false, of_false_positive, name, true, "2");
+  expect_both(true, of_false_positive, name, false, "2");
+  // A subject that gives no time is asked for none.
+  const std::string python = tests_of("hit.vt --subject " + plugin("several") + ":told:answer=3").python;
   EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid answer).\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
 }
 
 TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
-  write("q.vt", hit);
-  expect_refused("shrink q.vt --as rust --subject " + plugin("never"),
+  expect_refused("shrink hit.vt --as rust --subject " + plugin("never"),
                  {"--as", "'rust'", "case, c++ or python"});
+}
+
+class Certified : public CommandLine {
+ protected:
+  /// The output of check.py for certificates, one a line.
+  [[nodiscard]] std::string checked(const std::string& certificates) const {
+    write("certificates.jsonl", certificates);
+    const std::string command = "cd " + file("").string() + " && python3 " NEARMISS_CHECKER;
+    EXPECT_EQ(std::system((command + " certificates.jsonl >said.txt").c_str()), 0);
+    return read("said.txt");
+  }
+};
+
+TEST_F(Certified, ReplayDemandsACertificateOfEachRecordedTruth) {
+  const std::string command = "replay " NEARMISS_CORPUS "/rounding --subject wang --json new.json";
+  EXPECT_THAT(expect_code(0, command).out, Not(HasSubstr("certified")));
+  const std::uint64_t cases = read_json("new.json")["oracle"]["total"]["queries"];
+  ASSERT_GT(cases, 1);
+  EXPECT_THAT(expect_code(0, command + " --certify").out,
+              HasSubstr("\n" + std::to_string(cases) + " recorded truths are certified\n"));
+  const auto json = read_json("new.json");
+  EXPECT_EQ(json["oracle"]["total"]["certified"], cases);
+  EXPECT_THAT(json["runs"][0]["again"], HasSubstr(" --certify"));
+}
+
+TEST_F(Certified, AReportHasTheCertificatesOfItsFindings) {
+  const std::string subjects = "basic," + plugin("promises") + "," + plugin("bounded");
+  for (const char* shrinking : {"", " --no-shrink"}) {
+    const std::string trial = "--family uniform,parallel --cases 400 -q --subject " + subjects;
+    expect_code(1, "fuzz " + trial + shrinking + " --db a.db");
+    std::string certificates;
+    std::set<std::string> sorts;
+    const auto json = report_of("a.db", 1);
+    for (const auto& each : json["findings"]) {
+      certificates += each["certificate"].get<std::string>() + "\n";
+      sorts.insert(each["what"]);
+    }
+    EXPECT_THAT(sorts, ::testing::ElementsAre("false-negative", "late", "refuted-bound"));
+    const std::string all = std::to_string(json["findings"].size());
+    EXPECT_EQ(checked(certificates), "accepted " + all + " of " + all + "\n");
+    std::filesystem::remove(file("a.db"));
+  }
 }
 
 }  // namespace

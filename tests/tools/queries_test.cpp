@@ -1,4 +1,8 @@
-// Tests the commands that print queries, and the bounds by which subjects are judged, as a user runs them.
+// Queries on the command line: of families, with separations and times of impact, and of vertices and edges.
+#include <map>
+#include <regex>
+#include <set>
+
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -6,7 +10,9 @@ namespace {
 
 using nlohmann::json;
 using testing::CommandLine;
+using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 
 TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
@@ -31,22 +37,14 @@ TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
 
 TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   const auto lines = [&](const std::string& options) {
-    const Output output = expect_code(0, "family parallel --seed 5 " + options);
-    return output.out;
+    return expect_code(0, "family parallel --seed 5 " + options).out;
   };
-  const auto count = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
-  for (const char* kind : {"--kind vt ", "--kind ee "}) {
-    const std::string of_kind = kind;
-    EXPECT_EQ(count(lines(of_kind + "--first 2 --count 5")), 5);
-    EXPECT_EQ(lines(of_kind + "--count 8"),
-              lines(of_kind + "--count 4") + lines(of_kind + "--first 8 --count 4"));
-  }
+  for (const std::string kind : {"--kind vt ", "--kind ee "})
+    EXPECT_EQ(lines(kind + "--count 8"), lines(kind + "--count 4") + lines(kind + "--first 8 --count 4"));
   // The printed queries are those of a campaign, and give the same counts.
-  EXPECT_EQ(run("fuzz --family parallel --seed 5 --cases 1000 --json fuzz.json").code, 0);
   write("q.ee", lines("--kind ee --count 500"));
-  EXPECT_EQ(run("replay q.ee --json replay.json").code, 0);
-  const json campaign = read_json("fuzz.json")["subjects"]["wang"]["ee"];
-  const json replay = read_json("replay.json")["subjects"]["wang"]["ee"];
+  const json campaign = json_of(0, "fuzz --family parallel --seed 5 --cases 1000")["subjects"]["wang"]["ee"];
+  const json replay = json_of(0, "replay q.ee")["subjects"]["wang"]["ee"];
   for (const char* each : {"queries", "collisions", "positives", "false_positives"})
     EXPECT_EQ(replay[each], campaign[each]) << each;
   ASSERT_FALSE(campaign["farthest"].empty());
@@ -85,6 +83,270 @@ TEST_F(CommandLine, FamilyShowsTheFactorsOfCrossedQueries) {
   EXPECT_THAT(missed, ::testing::HasSubstr(" % of the missed ones have "));
   EXPECT_THAT(run("family crossed --missed-by exact --count 100").out,
               ::testing::HasSubstr("exact vt: 0 of "));
+}
+
+class SeparationOption : public testing::CommandLine {
+ protected:
+  /// The vertex of `hit` comes within 1/2 of the triangle at t = 1/4; that of `miss` never does.
+  void SetUp() override { write("q.vt", hit + miss); }
+
+  /// A query with its separation as the 25th number.
+  static std::string with(const std::string& query, const std::string& separation) {
+    return query.substr(0, query.size() - 1) + " " + separation + "\n";
+  }
+
+  /// A subject that reports every pair, and promises that nothing happens before t = 1/2.
+  const std::string promises = " --subject " + plugin("promises");
+};
+
+TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
+  const std::string expected = "1 0x1p-2 0x1p-2\n0 inf inf\n";
+  EXPECT_EQ(run("oracle --kind vt --toi --separation 0.5 q.vt").out, expected);
+  EXPECT_EQ(run("oracle --kind vt --toi --separation 0x1p-1 --method all q.vt").out, expected);
+  EXPECT_EQ(run("oracle --kind vt --rational --separation 0.5 q.vt").out,
+            "1 0x1p-2 0x1p-2 1/4\n0 inf inf -\n");
+  write("own.vt", with(hit, "0.5") + with(miss, "0.5"));
+  EXPECT_EQ(run("oracle --kind vt --toi own.vt").out, expected);
+  EXPECT_EQ(run("oracle --kind vt --toi --separation 0 own.vt").out, run("oracle --kind vt --toi q.vt").out);
+}
+
+TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
+  for (const std::string method : {"filtered", "exact", "certificate", "all"})  // it falls from 2 to 1
+    EXPECT_EQ(run("oracle --kind vt --toi --separation 1 miss.vt --method " + method).out,
+              "1 0x1p+0 0x1p+0\n")
+        << method;
+  EXPECT_EQ(run("oracle --kind vt --separation 0x1.fffffffffffffp-1 miss.vt").out, "0\n");
+}
+
+TEST_F(SeparationOption, VerdictPrintsTheTime) {
+  EXPECT_THAT(run("verdict --kind vt --subject exact --separation 0.5 q.vt").out,
+              MatchesRegex("1 [a-z]+ 0x1p-2\n0\n"));
+  EXPECT_EQ(run("verdict --kind vt --separation 0.5 q.vt" + promises).out,
+            "1 unspecified 0x1p-1\n1 unspecified 0x1p-1\n");
+}
+
+TEST_F(SeparationOption, IsRefusedIfItIsNoDistanceOrIfASubjectTakesNone) {
+  for (const std::string command :
+       {"oracle --kind vt q.vt", "verdict --kind vt --subject exact q.vt", "bench q.vt --subject exact",
+        "replay q.vt", "shrink hit.vt --subject exact", "fuzz --cases 10 --subject exact"})
+    for (const char* other : {"-1", "nan", "inf", "x", "0.5,1"})
+      expect_refused(command + " --separation=" + other, {"--separation", other});
+  for (const std::string command : {"verdict --kind vt q.vt", "bench q.vt --json new.json", "shrink hit.vt",
+                                    "fuzz --cases 10 --kind vt --db new.db", "replay q.vt --db new.db"})
+    expect_refused(command + " --subject wang --separation 0.5", {"wang: answers for contact only"});
+  write("own.vt", hit + with(hit, "0.5"));
+  expect_refused("bench own.vt --subject exact,wang", {"wang: answers for contact only"});
+  expect_refused("verdict --kind vt --subject wang own.vt", {"wang: answers for contact only"});
+}
+
+TEST_F(SeparationOption, ReplaySaysWhoIsNotAsked) {
+  write("own.vt", hit + with(hit, "0.5"));
+  EXPECT_THAT(
+      run("replay own.vt --subject exact,wang").out,
+      HasSubstr("wang: not asked about 1 case with a separation, because it answers for contact only\n"));
+  EXPECT_THAT(run("replay own.vt --subject exact").out, Not(HasSubstr("not asked")));
+  EXPECT_THAT(run("replay own.vt --separation 0 --subject wang").out, Not(HasSubstr("not asked")));
+}
+
+TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
+  const std::string bench = "bench q.vt --subject exact --queries 5 --runs 1";
+  const json results = json_of(0, bench + " --separation 1.5")["results"];
+  ASSERT_EQ(results.size(), 7);
+  EXPECT_EQ(results[0]["input"], "q.vt~1.5");
+  EXPECT_EQ(results[0]["queries"], 2);  // boxes meet if they are at most 1.5 apart
+  EXPECT_EQ(results[1]["input"], "uniform~1.5");
+  const json of_contact = json_of(0, bench)["results"][0];
+  EXPECT_EQ(of_contact["input"], "q.vt");
+  EXPECT_EQ(of_contact["queries"], 1);
+}
+
+TEST_F(SeparationOption, ZeroAsksForContact) {
+  const auto collisions = [&](const std::string& option) {
+    const std::string fuzz = "fuzz --subject wang --family uniform --cases 100 ";
+    return json_of(0, fuzz + option)["subjects"]["wang"]["vt"]["collisions"];
+  };
+  for (const std::string zero : {"0", "0x0p+0"})
+    EXPECT_EQ(collisions("--separation " + zero), collisions(""));
+}
+
+TEST_F(SeparationOption, ShrinkKeepsALateTime) {
+  expect_code(2, "shrink hit.vt" + promises);  // contact begins at t = 1/2, so this time is not late
+  expect_code(0, "shrink hit.vt -o late.case --separation 0.5" + promises);
+  EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
+  const json counts = json_of(1, "replay late.case --no-shrink" + promises)["subjects"]["always"]["vt"];
+  EXPECT_THAT(read("error.txt"), HasSubstr("FAIL always: no miss in 1 collision; LATE vt 1 of 1;"));
+  EXPECT_EQ(counts["late"], 1);
+  EXPECT_EQ(counts["times_promised"], 1);
+  EXPECT_EQ(counts["time_sort"], "lower-bound");
+}
+
+TEST_F(SeparationOption, AReportSaysThatOfEachRun) {
+  for (const std::string each : {"0.25", "drawn"})
+    expect_code(0, "fuzz --family uniform --cases 8 --compare 1000000 --subject exact --db " + each +
+                       ".db --separation " + each);
+  const json report = report_of("0.25.db drawn.db");
+  std::vector<std::string> separations;
+  for (const json& each : report["runs"]) separations.push_back(each["separation"].get<std::string>());
+  EXPECT_THAT(separations, ::testing::UnorderedElementsAre("0.25", "drawn"));
+  const json& families = report["subjects"]["exact"]["vt"]["families"];
+  EXPECT_TRUE(families.contains("uniform~0.25") && families.contains("uniform~drawn"));
+}
+
+class Vertices : public testing::CommandLine {
+ protected:
+  /// A vertex that passes the edge from (1, -1, 0) to (1, 1, 0), and its first end, at a distance of 1 and of
+  /// √2.
+  void SetUp() override {
+    write("q.ve", "0 0 1  1 -1 0  1 1 0   2 0 1  1 -1 0  1 1 0\n");
+    write("q.vv", "0 0 1  1 -1 0   2 0 1  1 -1 0\n");
+  }
+
+  /// A subject that finds nothing.
+  const std::string never = " --subject " + plugin("never_vertices");
+};
+
+TEST_F(Vertices, AreDecidedProvedAndMeasured) {
+  EXPECT_EQ(run("oracle --kind ve --toi --separation 1.25 q.ve").out, "1 0x1p-3 0x1p-3\n");
+  EXPECT_EQ(run("oracle --kind ve --separation 0.5 --method all q.ve").out, "0\n");
+  EXPECT_EQ(run("oracle --kind vv --separation 1.5 q.vv").out, "1\n");
+  EXPECT_EQ(run("oracle --kind vv --separation 1.25 q.vv").out, "0\n");
+  const auto line = json::parse(run("certify --kind vv --separation 1.5 q.vv").out);
+  EXPECT_EQ(line["kind"], "vv");
+  EXPECT_EQ(line["x"].size(), 12);
+  EXPECT_EQ(line["weights"], json({"1", "1"}));
+}
+
+TEST_F(Vertices, OnlySomeSubjectsDecideThem) {
+  EXPECT_EQ(run("verdict --kind ve --separation 1.25 --subject wang q.ve").out.substr(0, 2), "1 ");
+  EXPECT_EQ(run("verdict --kind vv --separation 1.25 --subject wang-tight q.vv").out, "0\n");
+  expect_refused("verdict --kind ve --subject adaptive q.ve", {"adaptive", "found queries of kind ve"});
+  expect_refused("fuzz --family vertices --subject adaptive --cases 100", {"adaptive"});
+  expect_refused("family v-uniform --kind vt --count 1", {"found vt, expected vv or ve"});
+  expect_refused("oracle --kind ve q.vv", {"q.vv:1: found 12 numbers, expected 18, or 19 with a separation"});
+}
+
+TEST_F(Vertices, ACampaignAsksTheKindsThatSubjectsDecide) {
+  const auto asked = [&](const std::string& options, int code = 0) {
+    const json counts = json_of(code, "fuzz --cases 400 --no-shrink " + options)["subjects"];
+    std::map<std::string, std::set<std::string>> kinds_of;
+    for (const auto& [subject, by_kind] : counts.items())
+      for (const auto& [kind, count] : by_kind.items())
+        if (count["queries"] > 0) kinds_of[subject].insert(kind);
+    return kinds_of;
+  };
+  using Kinds = std::map<std::string, std::set<std::string>>;
+  EXPECT_EQ(asked("--subject wang"), (Kinds{{"wang", {"vt", "ee", "vv", "ve"}}}));
+  EXPECT_EQ(asked("--subject adaptive,exact"), (Kinds{{"adaptive", {"vt", "ee"}}, {"exact", {"vt", "ee"}}}));
+  EXPECT_EQ(asked("--subject exact"), (Kinds{{"exact", {"vt", "ee"}}}));
+  EXPECT_EQ(asked("--subject wang --kind ve,ee"), (Kinds{{"wang", {"ee", "ve"}}}));
+  EXPECT_EQ(asked("--subject exact --separation drawn --kind vt"), (Kinds{{"exact", {"vt"}}}));
+  EXPECT_EQ(asked("--subject wang,exact --separation drawn"),
+            (Kinds{{"wang", {"vv", "ve"}}, {"exact", {"vv", "ve"}}}));
+  // It decides vv without a separation, and ve with one.
+  const std::string rows = "--subject " + plugin("rows") + ",wang-plain";
+  EXPECT_EQ(asked(rows, 1)["rows"], std::set<std::string>{"ve"});
+  EXPECT_EQ(asked(rows + " --separation 0 --kind vv", 1)["rows"], std::set<std::string>{"vv"});
+}
+
+TEST_F(Vertices, ACampaignCanBeRepeatedByItsRecord) {
+  const auto of_run = [&](const std::string& options) {
+    return json_of(0, "fuzz --cases 40 " + options)["runs"][0];
+  };
+  const json run_of_exact = of_run("--subject exact --family v-uniform");
+  EXPECT_EQ(run_of_exact["kinds"], "vv,ve");
+  EXPECT_THAT(run_of_exact["again"].get<std::string>(), HasSubstr("--family v-uniform --kind vv,ve"));
+  EXPECT_EQ(of_run("--subject wang --kind ve,vt")["again"], of_run("--subject wang --kind vt,ve")["again"]);
+}
+
+TEST_F(Vertices, ACampaignRefusesKindsThatItsFamiliesDoNotHave) {
+  expect_refused("fuzz --subject wang --cases 10 --kind vv --family uniform",
+                 {"--kind: found vv, expected vt or ee for the family uniform"});
+  expect_refused("fuzz --subject wang --cases 10 --kind vt,vt", {"--kind: found vt twice"});
+  expect_refused("fuzz --subject wang,advance --cases 10 --kind vt,vv --separation 0.5",
+                 {"wang: answers for contact only in queries of kind vt"});
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n");
+  expect_refused("fuzz --subject wang --cases 10 --kind vv --mesh a.obj a.obj", {"--kind: found vv", "mesh"});
+}
+
+TEST_F(Vertices, ACampaignFindsShrinksAndProvesWhatIsMissed) {
+  const Output output =
+      expect_code(1, "fuzz --family vertices --cases 100 --db new.db" + never + ",wang,exact");
+  EXPECT_THAT(output.out, HasSubstr("always: MISSED"));
+  const json report = report_of("new.db", 1);
+  for (const char* kind : {"vv", "ve"}) {
+    EXPECT_GT(report["subjects"]["always"][kind]["false_negatives"], 0);
+    EXPECT_EQ(report["subjects"]["wang"][kind]["false_negatives"], 0);
+  }
+  ASSERT_FALSE(report["findings"].empty());
+  for (const json& finding : report["findings"]) {
+    const std::size_t coordinates = finding["kind"] == "vv" ? 12 : 18;
+    EXPECT_EQ(finding["shrunk"].size(), coordinates + 1);
+    EXPECT_EQ(json::parse(finding["certificate"].get<std::string>())["x"].size(), coordinates);
+  }
+  expect_code(1, "replay report/cases --quiet --no-shrink" + never);
+}
+
+TEST_F(Vertices, BecomeTests) {
+  const std::string test = run("shrink q.ve --separation 1.25 --as c++" + never).out;
+  EXPECT_THAT(test, HasSubstr("// A vertex (the first point) and an edge (the other two)"));
+  EXPECT_THAT(test, HasSubstr("bool test_vertex_edge() {\n  const double start[3][3] = {\n"));
+  EXPECT_THAT(run("shrink q.vv --separation 1.5 --as python" + never).out,
+              HasSubstr("def test_vertex_vertex():"));
+}
+
+class Convert : public CommandLine {
+ protected:
+  /// The queries and truths that a folder or file holds, in plain form.
+  [[nodiscard]] std::string plain(const std::string& path) const {
+    std::filesystem::remove_all(file("again"));
+    expect_code(0, "convert " + path + " -o again");
+    std::string all;
+    for (const char* kind : {"vt", "ee", "vv", "ve"}) all += read(std::string("again/queries.") + kind);
+    // Rational numbers have no -0, which is the same place as 0.
+    return std::regex_replace(all, std::regex("-0x0p"), "0x0p");
+  }
+};
+
+TEST_F(Convert, EveryFormatIsReadBackExactly) {
+  for (const std::string kind : {"vt", "ee"})
+    write("q/q." + kind, run("family decimals --count 20 --kind " + kind).out +
+                             run("family near-underflow --count 20 --kind " + kind).out);
+  const std::string all = plain("q");
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 2 * 80);
+  for (const std::string format : {"csv", "json", "case", "plain"}) {
+    expect_code(0, "convert q -o as-" + format + " --as " + format);
+    EXPECT_EQ(plain("as-" + format), all) << format;
+  }
+  // The truths are recorded, and the oracle confirms them.
+  expect_code(0, "replay as-csv as-json as-case as-plain --subject exact");
+  EXPECT_THAT(read("as-csv/vertex-face/queries.csv"), ::testing::MatchesRegex("[^ \n]*\n.*"));
+}
+
+TEST_F(Convert, OtherKindsAndSeparationsAreInPlainFilesAndCases) {
+  write("w.ve", "0 0 0  0 0 1  0 0 2   0 0 1  0 0 1  0 0 2   0.5\n");
+  expect_code(0, "convert w.ve -o plain");
+  EXPECT_THAT(read("plain/queries.ve"), HasSubstr("# expect=1\n"));
+  EXPECT_EQ(plain("plain"), read("plain/queries.ve"));
+  expect_code(0, "convert w.ve -o cases --as case");
+  EXPECT_EQ(plain("cases"), read("plain/queries.ve"));
+  expect_refused("convert w.ve -o new --as csv", {"w.ve:1", "ve query with a separation", "vt or ee"});
+}
+
+TEST_F(Convert, ThereMayBeMoreCasesThanOpenFiles) {
+  std::string all;
+  for (int i = 0; i < 300; ++i) all += hit;
+  write("q.vt", all);
+  expect_code(0, "convert q.vt -o cases --as case", "ulimit -n 100;");
+  EXPECT_THAT(read("cases/000001.case"), HasSubstr("truth 1\n"));
+  EXPECT_EQ(plain("cases"), plain("q.vt"));
+}
+
+TEST_F(Convert, NothingIsOverwritten) {
+  for (const auto& [format, name] : {std::pair{"plain", "queries.vt"}, std::pair{"case", "000001.case"}}) {
+    const std::string convert = std::string("convert hit.vt -o to --as ") + format;
+    expect_code(0, convert);
+    expect_refused(convert, {std::string("to/") + name, "exists already"});
+  }
 }
 
 }  // namespace

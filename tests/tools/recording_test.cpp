@@ -22,15 +22,16 @@ class Recording : public CommandLine {
     return std::system(command.c_str());
   }
 
-  /// The counters of the vt answers in what --json printed.
-  static nlohmann::json read_json_of(const std::string& text) {
-    return nlohmann::json::parse(text)["subjects"]["recorded"]["vt"];
+  /// The counters of the recorded vt answers.
+  [[nodiscard]] nlohmann::json judged(int code, const std::string& files = "run.nmq") const {
+    return json_of(code, "replay " + files + " --as-answered")["subjects"]["recorded"]["vt"];
   }
 
-  /// The counters of the recorded answers.
-  [[nodiscard]] nlohmann::json judged(int code, const std::string& files = "run.nmq") const {
-    expect_code(code, "replay " + files + " --as-answered --json new.json");
-    return read_json("new.json")["subjects"]["recorded"]["vt"];
+  /// The counters of the answers in these lines (falling).
+  [[nodiscard]] nlohmann::json judged_lines(int code, const std::string& lines) const {
+    write("lines", lines);
+    EXPECT_EQ(record("0 lines <lines"), 0);
+    return judged(code);
   }
 };
 
@@ -42,26 +43,17 @@ TEST_F(Recording, IsJudgedAsTheSimulationWasAnswered) {
   EXPECT_EQ(counts["times_given"], 90);
   EXPECT_EQ(counts["late"], 0);
   EXPECT_NEAR(counts["max_early"], 0.25, 1e-9);  // contact is at t = 1/2
-  const Output output = run("replay run.nmq --as-answered");
-  EXPECT_THAT(output.out, HasSubstr("FAIL recorded: MISSED"));
-  EXPECT_THAT(output.out, HasSubstr("false-negative recorded run.nmq:"));
+  EXPECT_THAT(read("error.txt"), ::testing::AllOf(HasSubstr("FAIL recorded: MISSED"),
+                                                  HasSubstr("false-negative recorded run.nmq:")));
   // Any CCD can be asked the same queries, and one that missed them has its findings shrunk.
   EXPECT_THAT(expect_code(0, "replay run.nmq --subject wang").out, HasSubstr("no miss in 100 collisions"));
-}
-
-TEST_F(Recording, NothingIsWrittenUnlessTheUserAsks) {
-  ASSERT_EQ(record("100", ""), 0);
-  ASSERT_EQ(record("100", "NEARMISS_RECORD="), 0);
-  EXPECT_EQ(read("recorder.txt"), "");
-  EXPECT_FALSE(fs::exists(file("run.nmq")));
 }
 
 TEST_F(Recording, HasTheLatestQueriesAndThoseThatAreKept) {
   ASSERT_EQ(record("1000 kept", "NEARMISS_RECORD=run.nmq NEARMISS_RECORD_BYTES=20480"), 0);
   EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 20480);
-  const Output output = run("replay run.nmq --as-answered --json -");
-  EXPECT_THAT(output.error, Not(HasSubstr("left out")));
-  const auto counts = nlohmann::json::parse(output.out)["subjects"]["recorded"]["vt"];
+  const auto counts = judged(1);
+  EXPECT_THAT(read("error.txt"), Not(HasSubstr("left out")));
   EXPECT_EQ(counts["queries"], 60 + 1);  // a quarter of the 80 records is for those that are kept
   EXPECT_EQ(counts["false_negatives"], 6);
   expect_code(0, "convert run.nmq -o converted");
@@ -75,17 +67,17 @@ TEST_F(Recording, OfAProgramThatIsKilledIsWhole) {
 }
 
 TEST_F(Recording, OfManyThreadsHasEveryQuery) {
-  ASSERT_EQ(record("5000 threads"), 0);
+  ASSERT_EQ(record("1000 threads"), 0);
   const auto counts = judged(1);
-  EXPECT_EQ(counts["queries"], 20'000);
-  EXPECT_EQ(counts["false_negatives"], 2000);
+  EXPECT_EQ(counts["queries"], 4000);
+  EXPECT_EQ(counts["false_negatives"], 400);
 }
 
 TEST_F(Recording, OfAForkHasBothProcesses) {
   ASSERT_EQ(record("100 fork"), 0);
   for (int wait = 0; wait < 100 && judged(1)["queries"] < 201; ++wait) ::usleep(50'000);
   EXPECT_EQ(judged(1)["queries"], 201);
-  EXPECT_EQ(std::distance(fs::directory_iterator(file("")), fs::directory_iterator()), 5);  // one recording
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("")), fs::directory_iterator()), 6);  // one recording
 }
 
 TEST_F(Recording, OfASecondProcessIsAnotherFile) {
@@ -115,23 +107,15 @@ TEST_F(Recording, AnEarlierOneIsKeptOnce) {
 TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
   ASSERT_EQ(record("100", "NEARMISS_RECORD=run.nmq NEARMISS_RECORD_BYTES=65536"), 0);
   fs::resize_file(file("run.nmq"), 4096 + 256 * 50 + 100);
-  const Output output = run("replay run.nmq --as-answered --json new.json");
+  EXPECT_EQ(judged(1)["queries"], 50);
   EXPECT_THAT(
-      output.error,
+      read("error.txt"),
       HasSubstr("run.nmq: 50 records left out: they were being written when the program or the file ended"));
-  EXPECT_EQ(read_json("new.json")["subjects"]["recorded"]["vt"]["queries"], 50);
   // A record with a changed byte is not judged, either.
   std::fstream(file("run.nmq"), std::ios::in | std::ios::out | std::ios::binary)
       .seekp(4096 + 256 * 4 + 80)
       .put('x');
   EXPECT_EQ(judged(1)["queries"], 49);
-}
-
-TEST_F(Recording, OfAProgramInFloatIsExact) {
-  ASSERT_EQ(record("1 float"), 0);
-  EXPECT_EQ(judged(0)["false_negatives"], 0);
-  expect_code(0, "convert run.nmq -o converted");
-  EXPECT_THAT(read("converted/queries.vt"), HasSubstr("\n0x1.99999ap-4 0x1.99999ap-4 0x1p+0 "));
 }
 
 TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
@@ -157,22 +141,12 @@ std::string falling(const std::string& z0, const std::string& z1, const std::str
          "  0.25 0.25 " + z0 + " 0 0 0 1 0 0 0 1 0  0.25 0.25 " + z1 + " 0 0 0 1 0 0 0 1 0\n";
 }
 
-TEST_F(Recording, TimesAreJudgedBesideCollisionsWithoutOne) {
-  write("lines", falling("1", "-1", "1", 1, "0.9") + falling("1", "-1", "1", 1, "nan"));
-  ASSERT_EQ(record("0 lines <lines"), 0);
-  const auto counts = judged(1);
-  EXPECT_EQ(counts["queries"], 2);
-  EXPECT_EQ(counts["times_given"], 1);
-  EXPECT_EQ(counts["late"], 1);
-}
-
 TEST_F(Recording, EachAnswerToTheSameQueryIsJudged) {
-  // A line search asks about shorter and shorter steps.
-  write("lines", falling("1.1", "-1.2", "0.7", 1, "0.3") + falling("1.1", "-1.2", "0.61", 1, "0.55") +
-                     falling("1.1", "-1.2", "0.61", 1, "0.55") + falling("1", "0.5", "0.3", 1, "nan") +
-                     falling("1", "0.5", "1", 0, "nan"));
-  ASSERT_EQ(record("0 lines <lines"), 0);
-  const auto counts = judged(1);
+  // A line search asks about shorter and shorter steps. Some collisions have no time.
+  const auto counts =
+      judged_lines(1, falling("1.1", "-1.2", "0.7", 1, "0.3") + falling("1.1", "-1.2", "0.61", 1, "0.55") +
+                          falling("1.1", "-1.2", "0.61", 1, "0.55") + falling("1", "0.5", "0.3", 1, "nan") +
+                          falling("1", "0.5", "1", 0, "nan"));
   EXPECT_EQ(counts["queries"], 5);
   EXPECT_EQ(counts["late"], 2);
   EXPECT_EQ(counts["false_positives"], 1);
@@ -182,41 +156,39 @@ TEST_F(Recording, EachAnswerToTheSameQueryIsJudged) {
 
 TEST_F(Recording, ATimeIsLateByOneUlpWhateverTmaxIs) {
   // Contact is at t = 1/2, exactly.
-  for (const char* tmax : {"1", "0.875", "0.61", "0x1.8p-1"}) {
-    write("lines", falling("1", "-1", tmax, 1, "0x1.0000000000001p-1") + falling("1", "-1", tmax, 1, "0.5"));
-    ASSERT_EQ(record("0 lines <lines"), 0);
-    EXPECT_EQ(judged(1)["late"], 1) << tmax;
-  }
+  for (const std::string tmax : {"1", "0.61", "0x1.8p-1"})
+    EXPECT_EQ(
+        judged_lines(1, falling("1", "-1", tmax, 1, "0x1.0000000000001p-1") +
+                            falling("1", "-1", tmax, 1, "0.5") + falling("1", "-1", tmax, 1, "nan"))["late"],
+        1)
+        << tmax;
 }
 
 TEST_F(Recording, StepsOfAProgramInFloatAreTakenInFloat) {
   // In float, the step to 0.1 from 1 to -9 ends just below the plane at 0: 1 - 0.1F * 10 < 0.
-  write("lines", falling("1", "-9", "1", 1, "0x1.99999ap-4", 1));
-  ASSERT_EQ(record("0 lines <lines"), 0);
-  const auto in_float = read_json_of(run("replay run.nmq --as-answered --fail-on committed --json -").out);
-  write("lines", falling("1", "-9", "1", 1, "0x1.9999999999999p-4", 0));
-  ASSERT_EQ(record("0 lines <lines"), 0);
-  const auto in_double = read_json_of(run("replay run.nmq --as-answered --fail-on committed --json -").out);
+  const auto in_float = judged_lines(1, falling("1", "-9", "1", 1, "0x1.99999ap-4", 1));
   EXPECT_EQ(
       in_float["late"].get<int>() + in_float["committed"].get<int>() + in_float["touch_at_end"].get<int>(),
       1);
-  EXPECT_EQ(in_double["late"], 0);
+  EXPECT_EQ(judged_lines(0, falling("1", "-9", "1", 1, "0x1.9999999999999p-4"))["late"], 0);
 }
 
 TEST_F(Recording, NumbersThatFitNoRecordAreInvalid) {
-  write("lines", falling("1", "-1", "1", 256, "nan") + falling("1", "-1", "1", 1, "0.25"));
-  ASSERT_EQ(record("0 lines <lines"), 0);
-  const auto counts = judged(1);
+  const auto counts =
+      judged_lines(1, falling("1", "-1", "1", 256, "nan") + falling("1", "-1", "1", 1, "0.25"));
   EXPECT_EQ(counts["false_negatives"], 0);
   EXPECT_EQ(counts["faults"]["error"], 1);
 }
 
 TEST_F(Recording, HarmsNoOtherFile) {
+  for (const char* not_asked : {"", "NEARMISS_RECORD="}) EXPECT_EQ(record("100", not_asked), 0);
+  EXPECT_EQ(read("recorder.txt"), "");
+  EXPECT_FALSE(fs::exists(file("run.nmq")));
   ASSERT_EQ(std::system(("mkfifo " + file("fifo").string()).c_str()), 0);
   ASSERT_EQ(record("1", "NEARMISS_RECORD=fifo"), 0);
   EXPECT_THAT(read("recorder.txt"), HasSubstr("fifo: no regular file; nothing is recorded"));
   EXPECT_TRUE(fs::is_fifo(file("fifo")));
-  for (const char* bytes : {"-1", "1e9", "64X", "18446744073709551615", "99999999999999999999999", "100"}) {
+  for (const char* bytes : {"-1", "64X", "99999999999999999999999", "100"}) {
     ASSERT_EQ(record("1", std::string("NEARMISS_RECORD=run.nmq NEARMISS_RECORD_BYTES=") + bytes), 0) << bytes;
     EXPECT_THAT(read("recorder.txt"), HasSubstr("the size is not between 16 KiB and 1 TiB")) << bytes;
   }
@@ -239,9 +211,8 @@ TEST_F(Recording, ACampaignAroundOtherQueriesIsAnotherOne) {
 TEST_F(Recording, ThatIsNoneIsRefused) {
   write("none.nmq", "no recording");
   expect_refused("replay none.nmq --as-answered", {"none.nmq", "found no recording", "nearmiss_record.h"});
-  write("q.vt", hit);
-  expect_refused("replay q.vt --as-answered", {"q.vt", "found no recording"});
-  expect_refused("replay q.vt --as-answered --subject wang", {"--as-answered", "--subject"});
+  expect_refused("replay hit.vt --as-answered", {"hit.vt", "found no recording"});
+  expect_refused("replay hit.vt --as-answered --subject wang", {"--as-answered", "--subject"});
   ASSERT_EQ(record("0", "NEARMISS_RECORD=run.nmq"), 0);  // it never recorded, so there is no file
   EXPECT_FALSE(fs::exists(file("run.nmq")));
   ASSERT_EQ(record("1", "NEARMISS_RECORD=/nowhere/run.nmq"), 0);
@@ -262,28 +233,24 @@ TEST_F(Recording, WithoutAUsableRecordIsRefused) {
 }
 
 TEST_F(Recording, MayHaveAnyName) {
-  write("none", "no recording");
-  expect_refused("replay none --subject wang", {"none: found an unknown kind of file"});
   ASSERT_EQ(record("20", "NEARMISS_RECORD=run"), 0);
   EXPECT_THAT(expect_code(0, "replay run --subject wang").out, HasSubstr("no miss in 20 collisions"));
-  EXPECT_EQ(judged(1, "run")["queries"], 20);
+  write("none", "no recording");
+  expect_refused("replay none --subject wang", {"none: found an unknown kind of file"});
 }
 
 TEST_F(Recording, IsWhereACampaignHunts) {
   ASSERT_EQ(record("100"), 0);
-  const Output output =
-      expect_code(1, "fuzz --subject never=" + plugin("never") +
-                         " --near run.nmq --family near --cases 400 --json new.json --db new.db");
-  const auto counts = read_json("new.json")["subjects"]["never"];
+  const auto counts = json_of(1, "fuzz --subject never=" + plugin("never") +
+                                     " --near run.nmq --family near --cases 400")["subjects"]["never"];
   EXPECT_EQ(counts.size(), 1);  // only vertices and triangles were recorded
   EXPECT_EQ(counts["vt"]["families"]["near"]["queries"], 400);
   EXPECT_GT(counts["vt"]["families"]["near"]["false_negatives"], 100);
-  EXPECT_THAT(output.out, HasSubstr("ordinary"));
   write("w.ve", "0 0 0  0 0 1  0 0 2   0 0 1  0 0 1  0 0 2   0.5\n");
-  expect_code(
-      0,
-      "fuzz --subject wang --near run.nmq --near w.ve --family near,v-near-within --cases 400 --json n.json");
-  EXPECT_EQ(read_json("n.json")["subjects"]["wang"]["ve"]["families"]["v-near-within"]["queries"], 200);
+  const std::string both = "fuzz --subject wang --near run.nmq --near w.ve --family near,v-near-within";
+  EXPECT_EQ(
+      json_of(0, both + " --cases 400")["subjects"]["wang"]["ve"]["families"]["v-near-within"]["queries"],
+      200);
 }
 
 }  // namespace

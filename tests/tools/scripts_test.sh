@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs every script of the tree with --help, -h and --nonsense in a copy of the tree. Checks that it prints
+# Runs every script of the tree with --help and --nonsense in a copy of the tree. Checks that it prints
 # its usage or refuses, and changes nothing. Programs that would change something, such as cmake and sbatch,
 # are replaced by a program that only records the call.
 # Usage: scripts_test.sh NEARMISS
-# shellcheck disable=SC2086  # two words in $options
+# shellcheck disable=SC2086  # several words in $command
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
@@ -44,40 +44,43 @@ expect_said() { [[ ${said,,} == *"${1,,}"* ]] || fail "expected '$1', found '$sa
 mapfile -t scripts < <(find . \( -path ./build -o -path './.git*' \) -prune -o \( -type f -executable -o -name chart.mjs \) -print | sort)
 ((${#scripts[@]} >= 20)) || fail "found only the scripts ${scripts[*]}"
 for each in "${scripts[@]}"; do
-  for option in --help -h; do
-    try 0 "$each" $option
-    [[ $said ]] || fail "$each $option: expected the usage, found nothing"
-  done
+  try 0 "$each" --help
+  [[ $said ]] || fail "$each --help: expected the usage, found nothing"
   try 2 "$each" --nonsense
   [[ $said ]] || fail "$each --nonsense: expected a line that says why, found nothing"
 done
+try 0 tools/run -h
 
 # An option's value follows a blank or an equals sign. A missing or wrong value is refused at once.
-for options in "--keep 0" --keep=0; do try 2 tools/nightly $options; expect_said "found --keep '0'"; done
-for options in "--time 9s" --time=9s; do try 2 tools/nightly $options; expect_said "found the time '9s'"; done
-try 2 tools/nightly --subject ''; expect_said "found --subject '', expected CCDs"
-try 2 tools/nightly --subject; expect_said "found --subject without a value"
-try 2 tools/nightly tonight; expect_said "found 'tonight'"
-try 2 tools/bench-commits; expect_said "found 0 commits, expected one or two"
-try 2 tools/bench-commits --pairs 5 HEAD; expect_said "found --pairs '5'"
-try 2 tools/run soon; expect_said "found the time 'soon'"
-for options in "--only none" --only=none; do try 2 tools/environments $options; expect_said "matches 'none'"; done
 try 0 tools/environments --list --only='^wang g[+][+] -O2 nearest$'
 [[ $said == "wang g++ -O2 nearest" ]] || fail "expected one environment, found '$said'"
-try 2 tools/environments --list=all; expect_said "expected --list without a value"
-for options in "--jobs none" --jobs=none; do try 2 tools/libfuzzer $options false_negative 60s; expect_said "found --jobs 'none'"; done
-for options in "--shards none" --shards=none; do try 2 tools/slurm/campaign $options; expect_said "found --shards 'none'"; done
-try 2 tools/subject; expect_said "found no adapter"
-try 2 tools/subject none.cpp; expect_said "found no file 'none.cpp'"
-try 2 tools/subject fuzz/subjects/peers/fcl.cpp -lfcl; expect_said "unknown option '-lfcl'"
-try 2 tools/subject fuzz/subjects/peers/fcl.cpp fcl.so; expect_said "found 'fcl.so', expected -- before the compiler's flags"
-for options in "-o none/a.so" "-o a.so --pkg-config=none"; do
-  try 2 tools/subject $options fuzz/subjects/peers/fcl.cpp; expect_said none
-done
-try 2 tools/subject -o; expect_said "found -o without a value"
-try 2 tools/slurm/campaign --cases=10 --nonsense; expect_said nonsense
-try 2 tools/slurm/campaign --cases=10 --db=a.db; expect_said "found --db=a.db"
-try 2 tools/test --output-on-failure -R oracle --nonsense; expect_said "unknown option '--nonsense'"
+while IFS='|' read -r words command; do  # the command's words are separated by blanks
+  try 2 $command
+  expect_said "$words"
+done <<'END'
+found --keep '0'|tools/nightly --keep 0
+found --keep '0'|tools/nightly --keep=0
+found the time '9s'|tools/nightly --time=9s
+found --subject without a value|tools/nightly --subject
+found 'tonight'|tools/nightly tonight
+found 0 commits, expected one or two|tools/bench-commits
+found --pairs '5'|tools/bench-commits --pairs 5 HEAD
+found the time 'soon'|tools/run soon
+matches 'none'|tools/environments --only none
+expected --list without a value|tools/environments --list=all
+found --jobs 'none'|tools/libfuzzer --jobs none false_negative 60s
+found --shards 'none'|tools/slurm/campaign --shards=none
+nonsense|tools/slurm/campaign --cases=10 --nonsense
+found --db=a.db|tools/slurm/campaign --cases=10 --db=a.db
+found no adapter|tools/subject
+found no file 'none.cpp'|tools/subject none.cpp
+unknown option '-lfcl'|tools/subject fuzz/subjects/peers/fcl.cpp -lfcl
+found 'fcl.so', expected -- before the compiler's flags|tools/subject fuzz/subjects/peers/fcl.cpp fcl.so
+none|tools/subject -o none/a.so fuzz/subjects/peers/fcl.cpp
+none|tools/subject -o a.so --pkg-config=none fuzz/subjects/peers/fcl.cpp
+found -o without a value|tools/subject -o
+unknown option '--nonsense'|tools/test --output-on-failure -R oracle --nonsense
+END
 
 ((failures == 0)) || exit 1
 echo "${#scripts[@]} scripts print their usage and refuse unknown options"

@@ -93,7 +93,7 @@ idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
 wait_until idle || skip "Slurm does not start: $(grep -h fatal "$folder"/slurm*.log || tail -qn 1 "$folder"/slurm*.log)"
 
 # Makes the report that one machine gives, with an earlier campaign as its baseline.
-fuzz=(--cases 100000 --subject basic,wang)
+fuzz=(--cases 30000 --family uniform,small-integer,planted --subject basic,wang)
 expect_code() {
   local code=0
   "${@:2}" &>"$folder/said.log" || code=$?

@@ -1,4 +1,8 @@
-// Studies as a user sees them: ladder, audit, power, tightness, and the values of a CCD's option.
+// Studies as a user sees them: ladder, audit, power, tightness, the values of a CCD's option, and the paper's claims.
+#include <fstream>
+#include <set>
+#include <sstream>
+
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -8,22 +12,21 @@ using nlohmann::json;
 using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST_F(CommandLine, TightnessGoesIntoTheReport) {
   expect_refused("tightness --tolerance nu", {"'nu'"});
-  const Output output =
-      expect_code(0, "tightness --time 1ms --tolerance D2,vertex-edge --db new.db --json new.json");
-  EXPECT_THAT(output.out, HasSubstr("D2"));
-  EXPECT_LT(read_json("new.json")["tightness"]["D2"]["value"], 1);
+  const json found = json_of(0, "tightness --time 1ms --tolerance D2,vertex-edge --db new.db");
+  EXPECT_THAT(read("error.txt"), HasSubstr("D2"));
+  EXPECT_LT(found["tightness"]["D2"]["value"], 1);
   EXPECT_GT(report_of("new.db")["tightness"]["vertex-edge"]["queries"], 0);
 }
 
 TEST_F(CommandLine, TheLadderIsACampaign) {
-  const std::string ladder = "ladder --scalar float,p60 --family uniform --cases 80 --db ladder.db";
-  EXPECT_EQ(run(ladder).code, 0);
+  const std::string ladder = "ladder --scalar float,p60 --family uniform --cases 30 --db ladder.db";
+  expect_code(0, ladder);
   EXPECT_THAT(run(ladder + " --resume").out, HasSubstr("wang-tight:p60"));
-  EXPECT_THAT(run("report ladder.db -o ladder").out, HasSubstr("wang:float"));
-  EXPECT_THAT(run("ladder --scalar p15 --cases 1").error, HasSubstr("p16 to p256"));
+  expect_refused("ladder --scalar p15 --cases 1", {"p16 to p256"});
 }
 
 TEST_F(CommandLine, TheAuditNamesConstantsThatAreTooSmall) {
@@ -31,24 +34,24 @@ TEST_F(CommandLine, TheAuditNamesConstantsThatAreTooSmall) {
   EXPECT_THAT(output.out, HasSubstr("TOO SMALL"));
   EXPECT_THAT(output.out, HasSubstr("not proven by Theorem 4.1: relative positions of edges are within 2B"));
   EXPECT_THAT(output.out, HasSubstr("33492"));
-  EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
+  expect_code(0, "fuzz --cases 4 --db a.db");
   (void)report_of("a.db --audit audit.json");
   write("other.json", "{\"constants\": []}");
-  EXPECT_THAT(run("report a.db -o report --audit other.json").error,
-              HasSubstr("expected what nearmiss audit --json keeps"));
+  expect_refused("report a.db -o report --audit other.json", {"expected what nearmiss audit --json keeps"});
 }
 
-TEST_F(CommandLine, PowerResumesWhereItStopped) {
-  const std::string command = "power --time 1s --way families,search --json new.json --subject ";
-  const Output output = expect_code(0, command + "defect:vertex-edge");
-  EXPECT_THAT(output.out, HasSubstr("found, of 1"));
-  EXPECT_EQ(run(command + "defect:vertex-edge,defect:mu*1").code, 0);
-  const json results = read_json("new.json");
+TEST_F(CommandLine, PowerResumesWhereItStoppedButDoesNotMixSettings) {
+  const std::string command = "power --way families,search --json a.json --subject defect:vertex-edge";
+  EXPECT_THAT(expect_code(0, command + " --time 1s").out, HasSubstr("found, of 1"));
+  expect_code(0, command + ",defect:mu*1 --time 1s");
+  const json results = read_json("a.json");
   ASSERT_EQ(results.size(), 4);
   EXPECT_EQ(results[0]["failure"], "false-negative");
   EXPECT_GT(results[0]["cases"], 0);
   EXPECT_EQ(results[2]["subject"], "defect:mu*1");
   EXPECT_TRUE(results[2]["failure"].is_null());
+  expect_refused(command + " --time 2s", {"a.json: found hunts with --time 1s --seed 1, expected 2s and 1"});
+  expect_refused(command + " --time 1s --seed 2", {"--seed 1"});
 }
 
 TEST_F(CommandLine, AnInterruptEndsPowersHuntWithLibFuzzer) {
@@ -78,15 +81,6 @@ TEST_F(CommandLine, PowerTakesWhateverItsCommandPrints) {
   write("much", "yes | head -c 100000000\n");
   EXPECT_THAT(expect_code(2, power + "'sh much'").error,
               HasSubstr("printed 'y', expected 'found after ...'"));
-}
-
-TEST_F(CommandLine, PowerDoesNotMixSettings) {
-  const std::string power = "power --subject defect:vertex-edge --way uniform --json a.json ";
-  expect_code(0, power + "--time 1s");
-  const Output other = expect_code(2, power + "--time 2s");
-  EXPECT_THAT(other.error, HasSubstr("a.json: found hunts with --time 1s --seed 1, expected 2s and 1"));
-  expect_code(2, power + "--time 1s --seed 2");
-  expect_code(0, power + "--time 1s");
 }
 
 TEST_F(CommandLine, PowerHuntsWithATargetOfLibFuzzerForEachPromise) {
@@ -137,30 +131,6 @@ TEST_F(OptionValues, AreAskedTheSameQueries) {
   EXPECT_GT(steps[2]["false_positives"], steps[1]["false_positives"]);
 }
 
-TEST_F(OptionValues, OfBuiltInSubjectsAreAskedToo) {
-  EXPECT_EQ(run(tightness + "bridson:thickness='*' --values 0,1e-6,0.1 --cases 4000").code, 1);
-  const json steps = read_json("new.json")["option_sweeps"]["bridson:thickness=*"];
-  EXPECT_GT(steps[0]["false_negatives"], steps[1]["false_negatives"]);
-  EXPECT_EQ(steps[2]["false_negatives"], 0);
-  EXPECT_LE(steps[0]["false_positives"], steps[1]["false_positives"]);
-  EXPECT_LT(steps[1]["false_positives"], steps[2]["false_positives"]);
-}
-
-// A short interval does not bracket roots, and a long one leaves weights too much room.
-TEST_F(OptionValues, OfTheIntervalOfVertexEdgeCullingCauseNoMiss) {
-  const std::string command =
-      "tightness --family uniform,crossed --json new.json -q --subject wang-eps:h='*'";
-  EXPECT_EQ(run(command + " --values 1e-12,1e-8,1e-3,1 --cases 4000").code, 0);
-  const json subjects = read_json("new.json")["subjects"];
-  const auto culled = [&](const char* h) {
-    return subjects[std::string("wang-eps:h=") + h]["vt"]["rejected_by"].value("culled", 0);
-  };
-  EXPECT_EQ(culled("1e-12"), 0);
-  EXPECT_GT(culled("1e-8"), culled("1e-3"));
-  EXPECT_GT(culled("1e-3"), 0);
-  EXPECT_EQ(culled("1"), 0);
-}
-
 TEST_F(OptionValues, AreSearchedOneByOne) {
   EXPECT_LE(run(tightness + sampling + " --values 0.01,0.1 --search --cases 132").code, 1);
   const json families = read_json("new.json")["subjects"]["sampling:tolerance=0.1"]["ee"]["families"];
@@ -169,11 +139,10 @@ TEST_F(OptionValues, AreSearchedOneByOne) {
 }
 
 TEST_F(OptionValues, ARunIsRepeatedByACampaign) {
-  EXPECT_EQ(run(tightness + sampling + " --values 0,0.01 --cases 200 --seed 5 --db a.db").code, 1);
+  expect_code(1, tightness + sampling + " --values 0,0.01 --cases 200 --seed 5 --db a.db");
   const std::string again = read_json("new.json")["runs"][0]["again"];
   EXPECT_THAT(again, HasSubstr(":tolerance=0,"));
-  EXPECT_EQ(run(again.substr(again.find(' ') + 1) + " --json again.json").code, 1);
-  EXPECT_EQ(read_json("again.json")["signatures"], read_json("new.json")["signatures"]);
+  EXPECT_EQ(json_of(1, again.substr(again.find(' ') + 1))["signatures"], read_json("new.json")["signatures"]);
   EXPECT_EQ(report_of("a.db", 1)["option_sweeps"].size(), 1);
 }
 
@@ -188,6 +157,81 @@ TEST_F(OptionValues, AreRefusedWithoutAnOptionToTakeThem) {
                  {"found 'h=2', expected h=NUMBER from 1e-300 to 1"});
   expect_refused(tightness + sampling + " --values 1,2 --separation 0.1", {"answers for contact only"});
   expect_refused(tightness + sampling + " --values 1,1", {"found '1' and '1', expected different numbers"});
+}
+
+class Paper : public CommandLine {
+ protected:
+  /// The result for one claim.
+  [[nodiscard]] json claim(const std::string& name) const {
+    json all = json_of(0, "paper " + name).at("claims");
+    EXPECT_EQ(all.size(), 1U) << name;
+    EXPECT_EQ(all[0].at("name"), name);
+    return all[0];
+  }
+};
+
+TEST_F(Paper, AClaimIsMeasuredByItsCommands) {
+  const json audit = json_of(0, "audit");
+  const auto too_small =
+      std::ranges::count_if(audit["constants"], [](const json& row) { return row["too_small"] == true; });
+  struct Row {
+    std::string name, verdict, measured, command;
+  };
+  for (const auto& [name, verdict, measured, command] :
+       {Row{"constants", "holds with a condition",
+            "and " + std::to_string(too_small) + " are too small where end points of edges are beyond B",
+            "audit"},
+        Row{"planes", "holds", "together 0.2", "paper planes"},
+        Row{"order", "does not hold", "ε^0.250", "audit"},  // ε^¼, where the introduction has ε^⅓
+        Row{"gpu", "cannot be measured here", "", "paper gpu"}}) {
+    const json found = claim(name);
+    EXPECT_EQ(found["verdict"], verdict);
+    EXPECT_THAT(found["measured"], HasSubstr(measured));
+    EXPECT_EQ(found["commands"], json{"nearmiss " + command});
+  }
+}
+
+TEST_F(Paper, NothingElseIsPrintedWithTheJson) {
+  const Output output = expect_code(0, "paper constants tolerances --quiet --json -");
+  EXPECT_EQ(json::parse(output.out)["claims"].size(), 2U);
+  EXPECT_THAT(output.error, Not(HasSubstr("constant  ")));  // the table of nearmiss audit
+}
+
+TEST_F(Paper, AnUnknownClaimIsRefused) { expect_refused("paper nothing", {"'nothing'", "constants"}); }
+
+TEST_F(Paper, AReportShowsTheClaims) {
+  expect_code(0, "paper gpu --json paper.json");
+  expect_code(0, "fuzz --cases 4 --db a.db");
+  EXPECT_EQ(report_of("a.db --paper paper.json")["paper"], read_json("paper.json"));
+  for (const char* other : {R"({"claims": 1})", R"([])", R"({"claims": [1]})", R"({"claims": [], "run": 1})",
+                            R"({"claims": [{"name": null}], "run": {}})"}) {
+    write("other.json", other);
+    EXPECT_THAT(expect_code(2, "report a.db -o report --paper other.json").error,
+                HasSubstr("expected what nearmiss paper --json keeps"))
+        << other;
+  }
+  json paper = read_json("paper.json");
+  paper["claims"][0]["verdict"] = "maybe";
+  write("other.json", paper.dump());
+  EXPECT_THAT(expect_code(2, "report a.db -o report --paper other.json").error,
+              HasSubstr("the verdict 'maybe'"));
+}
+
+// The table in ccd/README.md has a row for each claim, with what it says.
+TEST_F(Paper, EachClaimIsInTheTable) {
+  std::ifstream file(std::filesystem::path(NEARMISS_README).parent_path() / "ccd/README.md");
+  const std::string readme((std::istreambuf_iterator<char>(file)), {});
+  std::istringstream listed(expect_code(0, "paper --list").out);
+  int claims = 0;
+  for (std::string line; std::getline(listed, line);) {
+    if (line.starts_with(" ")) continue;  // a command
+    ++claims;
+    const auto name = line.substr(0, line.find(' '));
+    const auto says = line.substr(line.find("): ") + 3);
+    EXPECT_THAT(readme, HasSubstr("| " + name + " |")) << line;
+    EXPECT_THAT(readme, HasSubstr("| " + says + " |")) << line;
+  }
+  EXPECT_GT(claims, 20);
 }
 
 }  // namespace

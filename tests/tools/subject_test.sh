@@ -54,8 +54,6 @@ answers() {
   said=$("$nearmiss" verdict --kind "$2" --subject "$1" "${@:5}" <<<"$4" 2>&1) || said="exit code $?: $said"
   [[ $said =~ ^$3 ]] || fail "$1 $2 ${*:5}: expected $3, found '$said'"
 }
-# judged SUBJECT OPTION...: a campaign finds no miss, no late time and no other fault.
-judged() { "$nearmiss" fuzz --subject "$1" --cases 2000 "${@:2}" >said 2>&1 || fail "$*: $(cat said)"; }
 
 declare -A hit=(
   [vt]='0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0'
@@ -80,47 +78,16 @@ is ipc 'vt and ee and vv and ve; 53 bits; a lower bound of the time; takes a sep
 adapter accd '.vertex_triangle(foreign::accd::Point_Triangle_CCD<double>).edge_edge(foreign::accd::Edge_Edge_CCD<double>)'
 compile accd --cmake 'foreign foreign::foreign' ADAPTER
 is accd 'vt and ee; 53 bits; a lower bound of the time; takes a separation; batches of 1'
-# CTCD's, with a contract, and with another sort of time than the signature says.
-adapter ctcd '.vertex_triangle(foreign::CTCD::vertexFaceCTCD).edge_edge(foreign::CTCD::edgeEdgeCTCD)'
-compile ctcd ADAPTER "${by_flags[@]}"
-is ctcd 'vt and ee; 53 bits; an estimate of the time; takes a separation; batches of 1'
-adapter contract '.edge_edge(foreign::CTCD::edgeEdgeCTCD).set(&nearmiss_contract::apart_at_start, 1)
-  .set(&nearmiss_subject::time_sort, NEARMISS_TIME_LOWER_BOUND).set(&nearmiss_subject::version, "7")'
-compile contract ADAPTER "${by_flags[@]}"
-is contract 'version 7; ee; 53 bits; a lower bound of the time; takes a separation; batches of 1'
-is contract 'presumes: the primitives are apart at t = 0'
-# El Topo's, overloaded, with indices.
-adapter eltopo '.vertex_triangle(NEARMISS_CALL(foreign::eltopo::point_triangle_collision))
-  .edge_edge(foreign::eltopo::segment_segment_collision)'
-compile eltopo ADAPTER "${by_flags[@]}"
-is eltopo 'vt and ee; 53 bits; no time; batches of 1'
 # The plainest ones, on pointers, arrays and floats; C++20 compiles them, too.
 adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(foreign::plain::edge_edge)
   .vertex_vertex(foreign::plain::vertex_vertex).set(&nearmiss_subject::bits, 24)'
 compile plain ADAPTER "${by_flags[@]}" -std=c++20
 is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
-adapter timed '.edge_edge(foreign::plain::edge_edge)'
-compile timed ADAPTER "${by_flags[@]}"
-is timed 'ee; 53 bits; an estimate of the time; batches of 1'
-# Distances: with a CCD, and alone.
-adapter distances '.vertex_vertex(foreign::plain::vertex_vertex).vertex_vertex_distance(foreign::distances::vertex_vertex)
-  .vertex_edge_distance(squared(NEARMISS_CALL(foreign::distances::vertex_edge_squared)))'
-compile distances ADAPTER "${by_flags[@]}"
-is distances 'vv; 53 bits; an estimate of the time; gives distances of vv and ve; batches of 1'
-adapter alone '.vertex_vertex_distance(foreign::distances::vertex_vertex)'
-compile alone ADAPTER "${by_flags[@]}"
-is alone 'decides nothing; 53 bits; no time; gives distances of vv; batches of 1'
-for each in distances alone; do
-  "$nearmiss" distance --subject ./$each.so --cases 2000 >said 2>&1 || fail "$each: $(cat said)"
-done
-"$nearmiss" distance --subject ./distances.so --kind ve - <<<"${miss[ve]}" >said && grep -q '^right 0x1p+1 ' said || fail "distances: $(cat said)"
-# A filter of steps, which lets nothing move.
-adapter still '.vertex_vertex_step([](const Question& q, double* y) { std::copy(q.x, q.x + 6, y); return 0.0; })'
-compile still ADAPTER "${by_flags[@]}"
-is still 'decides nothing; 53 bits; no time; filters steps of vv; batches of 1'
-"$nearmiss" step --subject ./still.so --cases 2000 >said 2>&1 || fail "still: $(cat said)"
-# Two detectors, one with an option and a separation for one of its kinds.
-cat >two.cpp <<'END'
+
+# Several detectors in one plug-in: CTCD's, also with a contract and another sort of time than the signature says;
+# El Topo's, overloaded, with indices; an edge's CCD with its time; distances with a CCD, and alone; a filter of
+# steps, which lets nothing move; one with an option, and one with a separation for one of its kinds.
+cat >all.cpp <<'END'
 #include "foreign.hpp"
 #include "ccd/nearmiss_functions.hpp"
 using namespace nearmiss::plugin;
@@ -130,33 +97,60 @@ Answer within_gap(const Settings& set, const Question& q) {
   double toi = 0;
   return Answer::of(with_vertices(q, [&](auto... v) { return foreign::CTCD::edgeEdgeCTCD(v..., set.gap, toi); }));
 }
-NEARMISS_SUBJECT(detector("gap").options<settings>().edge_edge(within_gap),
-                 detector("mixed").edge_edge(foreign::CTCD::edgeEdgeCTCD).vertex_vertex(foreign::plain::vertex_vertex))
+NEARMISS_SUBJECT(
+  detector("ctcd").vertex_triangle(foreign::CTCD::vertexFaceCTCD).edge_edge(foreign::CTCD::edgeEdgeCTCD),
+  detector("contract").edge_edge(foreign::CTCD::edgeEdgeCTCD).set(&nearmiss_contract::apart_at_start, 1)
+    .set(&nearmiss_subject::time_sort, NEARMISS_TIME_LOWER_BOUND).set(&nearmiss_subject::version, "7"),
+  detector("eltopo").vertex_triangle(NEARMISS_CALL(foreign::eltopo::point_triangle_collision))
+    .edge_edge(foreign::eltopo::segment_segment_collision),
+  detector("timed").edge_edge(foreign::plain::edge_edge),
+  detector("distances").vertex_vertex(foreign::plain::vertex_vertex)
+    .vertex_vertex_distance(foreign::distances::vertex_vertex)
+    .vertex_edge_distance(squared(NEARMISS_CALL(foreign::distances::vertex_edge_squared))),
+  detector("alone").vertex_vertex_distance(foreign::distances::vertex_vertex),
+  detector("still").vertex_vertex_step([](const Question& q, double* y) { std::copy(q.x, q.x + 6, y); return 0.0; }),
+  detector("gap").options<settings>().edge_edge(within_gap),
+  detector("mixed").edge_edge(foreign::CTCD::edgeEdgeCTCD).vertex_vertex(foreign::plain::vertex_vertex))
 END
-compile two ADAPTER "${by_flags[@]}"
-is two 'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'
-answers ./two.so:gap:gap=0.5 ee 1 "${miss[ee]}"
-answers ./two.so:gap ee 0 "${miss[ee]}"
-answers ./two.so:gap:gap=2 ee "exit code 2: .*found 'gap=2', expected gap=NUMBER from 0 to 1, once" "${miss[ee]}"
-answers ./two.so:gap:gap=0:gap=1 ee "exit code 2: .*found 'gap=1', expected gap=NUMBER" "${miss[ee]}"
-answers ./ctcd.so:gap=1 ee "exit code 2: .*found the options 'gap=1', expected none" "${miss[ee]}"
+compile all ADAPTER "${by_flags[@]}"
+for each in 'vt and ee; 53 bits; an estimate of the time; takes a separation; batches of 1' \
+  'version 7; ee; 53 bits; a lower bound of the time; takes a separation; batches of 1' \
+  'presumes: the primitives are apart at t = 0' 'vt and ee; 53 bits; no time; batches of 1' \
+  'ee; 53 bits; an estimate of the time; batches of 1' \
+  'vv; 53 bits; an estimate of the time; gives distances of vv and ve; batches of 1' \
+  'decides nothing; 53 bits; no time; gives distances of vv; batches of 1' \
+  'decides nothing; 53 bits; no time; filters steps of vv; batches of 1' \
+  'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'; do
+  is all "$each"
+done
+# asked COMMAND OPTION...: a campaign finds no failure.
+asked() { "$nearmiss" "$@" --cases 2000 >said 2>&1 || fail "$*: $(cat said)"; }
+asked distance --subject ./all.so:distances,./all.so:alone
+asked step --subject ./all.so:still
+"$nearmiss" distance --subject ./all.so:distances --kind ve - <<<"${miss[ve]}" >said && grep -q '^right 0x1p+1 ' said || fail "distances: $(cat said)"
+answers ./all.so:gap:gap=0.5 ee 1 "${miss[ee]}"
+answers ./all.so:gap ee 0 "${miss[ee]}"
+answers ./all.so:gap:gap=2 ee "exit code 2: .*found 'gap=2', expected gap=NUMBER from 0 to 1, once" "${miss[ee]}"
+answers ./all.so:gap:gap=0:gap=1 ee "exit code 2: .*found 'gap=1', expected gap=NUMBER" "${miss[ee]}"
+answers ./all.so:ctcd:gap=1 ee "exit code 2: .*found the options 'gap=1', expected none" "${miss[ee]}"
 
-for each in ipc accd ctcd eltopo plain; do
-  timed=$half
-  case $each in eltopo | plain) timed=1 ;; esac
+for each in ipc accd all:ctcd all:eltopo plain; do
+  subject=./${each/:/.so:} timed=$half
+  [[ $each == *:* ]] || subject+=.so
+  case $each in all:eltopo | plain) timed=1 ;; esac
   for kind in vt ee vv ve; do
-    [[ " $("$nearmiss" subjects ./$each.so) " == *" $kind"[\ \;]* ]] || continue
-    answers ./$each.so $kind "$timed" "${hit[$kind]}"
-    answers ./$each.so $kind 0 "${miss[$kind]}"
-    case $each in ipc | accd | ctcd)  # from 2 to 0.25, it is 0.5 away at 6/7
-      answers ./$each.so $kind '1 unspecified 0x1\.b6db6db.*p-1' "${miss[$kind]}" --separation 0.5
-      answers ./$each.so $kind 0 "${miss[$kind]}" --separation 0.125 ;;
+    [[ " $("$nearmiss" subjects "$subject") " == *" $kind"[\ \;]* ]] || continue
+    answers "$subject" $kind "$timed" "${hit[$kind]}"
+    answers "$subject" $kind 0 "${miss[$kind]}"
+    case $each in ipc | accd | all:ctcd)  # from 2 to 0.25, it is 0.5 away at 6/7
+      answers "$subject" $kind '1 unspecified 0x1\.b6db6db.*p-1' "${miss[$kind]}" --separation 0.5
+      answers "$subject" $kind 0 "${miss[$kind]}" --separation 0.125 ;;
     esac
   done
-  judged ./$each.so
+  asked fuzz --subject "$subject"
 done
-for each in ipc accd ctcd; do judged ./$each.so --separation drawn; done
-judged ./contract.so
+asked fuzz --subject ./ipc.so,./accd.so,./all.so:ctcd --separation drawn
+asked fuzz --subject ./all.so:contract
 
 # One line says what is wrong.
 adapter forgotten '.vertex_triangle(foreign::forgotten)'
@@ -169,7 +163,6 @@ refused "found './precious.so', which is no plug-in" -o precious.so unusual.cpp
 [[ $(cat precious.so) == mine ]] || fail "precious.so was replaced"
 refused "expected FILE.so" -o unusual.cpp unusual.cpp
 [[ -s unusual.cpp ]] || fail "unusual.cpp was replaced"
-refused ', see ./unusual.so.log' unusual.cpp "${by_flags[@]}"
 refused 'the function has none of the signatures that nearmiss_functions.hpp lists' unusual.cpp "${by_flags[@]}"
 grep -q static_assert unusual.so.log || fail "unusual.so.log: found $(cat unusual.so.log)"
 adapter broken '.nothing()'

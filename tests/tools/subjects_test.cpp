@@ -1,4 +1,4 @@
-// nearmiss subjects.
+// Subjects on the command line: nearmiss subjects, contracts, and the names with which findings can be replayed.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -9,16 +9,16 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
-TEST_F(CommandLine, SubjectsAreListed) {
-  const Output output = run("subjects");
-  for (const char* name :
-       {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact ", "bridson ", "defect:vv "})
-    EXPECT_THAT(output.out, HasSubstr(name));
-}
-
-TEST_F(CommandLine, OnlyPluginsAndPublishedCcdsAreDescribed) {
-  expect_refused("subjects wang", {"found 'wang', expected a plug-in", "or a published CCD"});
+TEST_F(CommandLine, SubjectsAreListedAndPublishedOnesDescribed) {
+  const std::string listed = run("subjects").out;
+  for (const char* line :
+       {"basic ", "wang-eps ", "exact ", "bridson ", "defect:vv ",
+        "fcl                     FCL's CCD of deformable meshes, with its solver for cubics\n",
+        "bullet                  the CCD of Bullet's soft bodies, in single precision"})
+    EXPECT_THAT(listed, HasSubstr(line));
+  EXPECT_THAT(run("subjects --peers").out, StartsWith("fcl\nfcl-newton\nbullet\nbullet-double\n"));
   EXPECT_THAT(run("subjects fcl-newton").out, HasSubstr("vt and ee; 53 bits; an estimate of the time"));
+  expect_refused("subjects wang", {"found 'wang', expected a plug-in", "or a published CCD"});
 }
 
 TEST_F(CommandLine, SubjectsHaveALibFuzzerTargetForEachPromise) {
@@ -37,16 +37,6 @@ TEST_F(CommandLine, SubjectsHaveALibFuzzerTargetForEachPromise) {
   EXPECT_EQ(run("subjects --targets basic 'pipe:sh program.sh'").out, "false_negative basic\n");
   expect_refused("subjects --targets none", {"'none'"});
   expect_refused("subjects --targets wang wang", {"found two subjects named 'wang'"});
-}
-
-TEST_F(CommandLine, PublishedCcdsAreListedWithWhatTheyAre) {
-  const Output output = run("subjects");
-  EXPECT_THAT(
-      output.out,
-      HasSubstr("fcl                     FCL's CCD of deformable meshes, with its solver for cubics\n"));
-  EXPECT_THAT(output.out,
-              HasSubstr("bullet                  the CCD of Bullet's soft bodies, in single precision"));
-  EXPECT_THAT(run("subjects --peers").out, StartsWith("fcl\nfcl-newton\nbullet\nbullet-double\n"));
 }
 
 TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
@@ -81,9 +71,7 @@ TEST_F(CommandLine, AWorkerOfAnotherBuildIsRefused) {
 }
 
 TEST_F(CommandLine, ASubcommandForOneSubjectRefusesSeveral) {
-  const std::string miss_of_always = write("a.vt", miss).string();
-  for (const std::string& command :
-       {"shrink " + miss_of_always + " --subject ", std::string("power --time 1s --subject ")})
+  for (const std::string command : {"shrink miss.vt --subject ", "power --time 1s --subject "})
     expect_refused(command + plugin("several"), {"found several detectors, expected one of told, edges"});
 }
 
@@ -96,6 +84,125 @@ TEST_F(CommandLine, DetectorsOfAPluginAreDescribed) {
               HasSubstr("batches of 64\n                        presumes: the distance at t = 0 is more than "
                         "9.5367431640625e-07; coordinates are multiples of 0.0009765625; edges and paths are "
                         "at most 2 long\n"));
+}
+
+class ReplayOfASubject : public CommandLine {
+ protected:
+  /// The options of the command that replays the first finding of a campaign with a subject that misses
+  /// something.
+  [[nodiscard]] std::string options(const std::string& subject) const {
+    expect_code(1, "fuzz --family small-integer --cases 100 --db a.db --subject '" + subject + "'");
+    const std::string again = report_of("a.db", 1)["findings"][0]["again"];
+    expect_code(1, again.substr(9), "cd report &&");
+    return again.substr(again.find(" --subject"));
+  }
+};
+
+TEST_F(ReplayOfASubject, HasTheOptionsOfABuiltInSubject) {
+  const std::string subject = "mine=bridson:thickness=0:barycentric=1e-3";
+  EXPECT_EQ(options(subject), " --subject " + subject);
+}
+
+TEST_F(ReplayOfASubject, HasTheWholePathAndTheOptionsOfAPluginAsTheyWereGiven) {
+  const std::string answer = ":told:answer=0/../x";
+  std::filesystem::copy(plugin("several"), file("a.so"));
+  EXPECT_THAT(options("./a.so" + answer),
+              StartsWith(" --subject " + file("a.so").string() + answer + " --query-time"));
+}
+
+TEST_F(ReplayOfASubject, HasTheCommandOfAProgramAsItWasGiven) {
+  write("p.py",
+        "import sys\n"
+        "sys.stdout.write('nearmiss 3\\nname p\\nkinds vt ee\\n\\n')\n"
+        "sys.stdout.flush()\n"
+        "while sys.stdin.buffer.read(24 + 200):\n"
+        "    sys.stdout.buffer.write(bytes(16))\n"
+        "    sys.stdout.buffer.flush()\n");
+  const std::string subject = "pipe:" NEARMISS_PYTHON " " + file("p.py").string();
+  EXPECT_THAT(options(subject), StartsWith(" --subject '" + subject + "' --query-time"));
+}
+
+TEST_F(CommandLine, APluginMayBeInAnyFolder) {
+  const std::string folder = "a\nb";
+  std::filesystem::create_directory(file(folder));
+  std::filesystem::copy(plugin("never"), file(folder) / "never.so");
+  const std::string fuzz = "fuzz --family small-integer --cases 200 --db a.db --subject ./never.so ";
+  const std::string there = "cd '" + folder + "' &&";
+  for (const std::string& command : {fuzz, fuzz + "--resume", std::string("report a.db -o report")})
+    expect_code(1, command, there);
+  const std::string again = read_json(folder + "/report/report.json")["findings"][0]["again"];
+  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // a store has no line ends
+}
+
+TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
+  if (run("subjects --peers").out.find("fcl\n") == std::string::npos) GTEST_SKIP() << "found no libfcl-dev";
+  const std::string fuzz =
+      "fuzz --subject fcl --cases 100 --no-shrink --db a.db --query-memory 2G --query-time ";
+  EXPECT_LE(run(fuzz + "7s").code, 1);
+  expect_refused(fuzz + "8s --resume", {"found a run with query-time '7s', expected '8s'"});
+  EXPECT_LE(run("report a.db -o report").code, 1);
+  const std::string again = read_json("report/report.json")["runs"][0]["again"];
+  EXPECT_THAT(again, HasSubstr(" --query-time 7s --query-memory 2147483648"));
+}
+
+/// The counter of this name, or 0 if the counts do not have it.
+std::uint64_t count(const nlohmann::json& counts, const std::string& name) { return counts.value(name, 0U); }
+
+TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
+  const std::string fuzz =
+      "fuzz --family small-integer --cases 1000 --no-shrink --subject " + plugin("several") + ":narrow-apart";
+  const auto alone = json_of(1, fuzz);
+  EXPECT_EQ(alone["subjects"].size(), 1U);
+  const auto apart = json_of(1, fuzz + " --beyond-contract");
+  EXPECT_THAT(read("error.txt"), HasSubstr("narrow-apart (beyond contract)"));
+  for (const char* kind : {"vt", "ee"}) {
+    const auto& keeping = alone["subjects"]["narrow-apart"][kind];
+    EXPECT_EQ(count(keeping, "collisions"), count(apart["subjects"]["narrow-apart"][kind], "collisions"));
+    const auto& beyond = apart["subjects"]["narrow-apart (beyond contract)"][kind];
+    EXPECT_GT(count(keeping["faults"], "contract"), 0U);
+    EXPECT_EQ(count(keeping["faults"], "contract") + count(beyond["faults"], "contract"),
+              count(keeping, "queries"));
+    // Contact at the start is always a collision, and this plug-in misses all of them.
+    EXPECT_EQ(count(beyond, "false_negatives"), count(keeping["faults"], "contract"));
+  }
+}
+
+// The plug-in misses everything, but its contract requires edges that are at least 1e300 long.
+TEST_F(CommandLine, MissesBeyondAContractDoNotCount) {
+  const std::string subject = plugin("never_asked");
+  EXPECT_EQ(expect_code(0, "family crossed --count 100 --missed-by " + subject).out, "");
+  EXPECT_TRUE(json_of(0, "power --way uniform --time 1s --subject " + subject)[0]["failure"].is_null());
+}
+
+// Root parity misses contact with an even number of roots, about which it promises nothing.
+TEST_F(CommandLine, FailuresBeyondAContractAreShownButNeverCount) {
+  const std::string fuzz = "fuzz --family small-integer --cases 2000 --subject parity --beyond-contract";
+  expect_code(0, fuzz + " --seed 2 --db before.db");
+  const Output asked = expect_code(0, fuzz + " --db a.db");
+  EXPECT_THAT(asked.out, HasSubstr(" ok  parity: no miss in "));
+  EXPECT_THAT(asked.out, HasSubstr(" --  parity (beyond contract): MISSED "));
+  for (const std::string with : {"", " --baseline before.db", " --fail-on unknown,slow"}) {
+    const auto report = report_of("a.db" + with);
+    EXPECT_TRUE(report["headline"]["clean"]) << with;
+    EXPECT_TRUE(report["headline"]["alarms"].empty()) << with;
+    const auto& beyond = report["verdicts"][1];
+    EXPECT_EQ(beyond["subject"], "parity (beyond contract)");
+    EXPECT_TRUE(beyond["beyond_contract"]);
+    EXPECT_EQ(beyond["failures"], nlohmann::json{"miss"});
+    const std::string replays = report["findings"].at(beyond["finding"].get<std::size_t>())["again"];
+    EXPECT_THAT(replays, ::testing::EndsWith(" --subject parity --beyond-contract"));
+    ASSERT_THAT(replays, ::testing::StartsWith("nearmiss replay cases/"));
+    const Output replayed = run("replay report/" + replays.substr(replays.find("cases/")));
+    EXPECT_THAT(replayed.out, HasSubstr("parity (beyond contract): MISSED "));
+    EXPECT_FALSE(report["error_against_time"]["subjects"].contains("parity (beyond contract)"));
+  }
+}
+
+TEST_F(CommandLine, AResumeAsksTheSameSideOfAContract) {
+  const std::string fuzz =
+      "fuzz --family small-integer --subject " + plugin("several") + ":narrow-apart --db a.db";
+  EXPECT_EQ(run(fuzz + " --cases 200").code, 1);
+  expect_refused(fuzz + " --cases 200 --resume --beyond-contract", {"beyond contract"});
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 
 namespace {
 
-using Seconds = std::chrono::duration<double>;
-
 /// The exact answer, as a CCD without a bug.
 bool exact(const nearmiss::Question& q) {
   const nearmiss::Kind kind = *nearmiss::kind_of_bit(q.kind);
@@ -26,10 +24,8 @@ bool exact(const nearmiss::Question& q) {
 
 const auto mine = nearmiss::plugin::detector("mine").vertex_triangle(user::point_triangle_ccd);
 
-TEST(MyCcd, ABugIsFoundInASecondAndShownByAnOrdinaryQuery) {
-  const auto begin = std::chrono::steady_clock::now();
+TEST(MyCcd, ABugIsFoundAndShownByAnOrdinaryQuery) {
   const auto report = nearmiss::trial(mine);
-  const Seconds took = std::chrono::steady_clock::now() - begin;
   ASSERT_FALSE(report.clean()) << report;
   EXPECT_GT(report.counts(nearmiss::Kind::vertex_triangle).missed, 0U);
   EXPECT_EQ(report.counts(nearmiss::Kind::edge_edge).queries, 0U);
@@ -39,27 +35,25 @@ TEST(MyCcd, ABugIsFoundInASecondAndShownByAnOrdinaryQuery) {
   EXPECT_STREQ(first.query_class, "ordinary");
   EXPECT_FALSE(nearmiss::ask(mine, {first.kind, first.x, first.separation}));
   EXPECT_TRUE(exact({first.kind, first.x, first.separation}));
-  const std::string text(report.text());
-  EXPECT_NE(text.find("EXPECT_TRUE(nearmiss::ask(mine, {NEARMISS_VERTEX_TRIANGLE, x, 0}))"),
-            std::string::npos)
-      << text;
-  std::printf("%s%.2f s\n", text.c_str(), took.count());
+  EXPECT_NE(report.text().find("EXPECT_TRUE(nearmiss::ask(mine, {NEARMISS_VERTEX_TRIANGLE, x, 0}))"),
+            std::string_view::npos)
+      << report;
 }
 
 TEST(MyCcd, ARightOnePasses) {
-  const auto report = nearmiss::trial(exact, {.name = "exact", .cases = 5000});
+  const auto report = nearmiss::trial(exact, {.name = "exact", .cases = 2000});
   EXPECT_TRUE(report.clean()) << report;
-  EXPECT_EQ(report.counts().queries, 5000U);
+  EXPECT_EQ(report.counts().queries, 2000U);
   EXPECT_TRUE(report.findings().empty());
   const auto within =
-      nearmiss::trial(exact, {.name = "exact", .separation = "drawn", .kinds = 15, .cases = 5000});
+      nearmiss::trial(exact, {.name = "exact", .separation = "drawn", .kinds = 15, .cases = 2000});
   EXPECT_TRUE(within.clean()) << within;
   EXPECT_GT(within.counts(nearmiss::Kind::vertex_edge).queries, 0U);
 }
 
 TEST(MyCcd, ThreadsAndBatchesGiveTheSameCounts) {
-  const auto one = nearmiss::trial(mine, {.seed = 7, .cases = 5000});
-  const auto four = nearmiss::trial(mine, {.seed = 7, .cases = 5000, .threads = 4});
+  const auto one = nearmiss::trial(mine, {.seed = 7, .cases = 2000});
+  const auto four = nearmiss::trial(mine, {.seed = 7, .cases = 2000, .threads = 4});
   EXPECT_EQ(one.text(), four.text());
   std::atomic<std::size_t> largest = 0;
   const auto batched = nearmiss::trial(
@@ -67,7 +61,7 @@ TEST(MyCcd, ThreadsAndBatchesGiveTheSameCounts) {
         largest = std::max(largest.load(), q.size());
         for (std::size_t i = 0; i < q.size(); ++i) answers[i] = nearmiss::ask(mine, q[i]);
       },
-      {.name = "mine", .kinds = NEARMISS_VERTEX_TRIANGLE, .seed = 7, .cases = 5000});
+      {.name = "mine", .kinds = NEARMISS_VERTEX_TRIANGLE, .seed = 7, .cases = 2000});
   EXPECT_EQ(one.text(), batched.text());
   EXPECT_GT(largest, 1U);
 }
@@ -78,10 +72,10 @@ TEST(MyCcd, AnExceptionIsAFaultOfItsQuery) {
         if (q.x[0] > 0) throw std::runtime_error("not on my watch");
         return exact(q);
       },
-      {.cases = 2000});
+      {.cases = 1000});
   EXPECT_FALSE(report.clean());
   EXPECT_GT(report.counts().no_answer, 0U);
-  EXPECT_LT(report.counts().no_answer, 2000U);
+  EXPECT_LT(report.counts().no_answer, 1000U);
   EXPECT_EQ(report.counts().missed, 0U);
   EXPECT_NE(report.text().find("not on my"), std::string::npos) << report;
 }
@@ -102,7 +96,7 @@ TEST(MyCcd, TextsAreShortWhateverFails) {
   };
   for (const char* families : {"all", "decimals", "near-underflow", "v-uniform"}) {
     const auto report = nearmiss::trial(
-        loud, {.families = families, .kinds = 15, .cases = 2000, .time_sort = NEARMISS_TIME_LOWER_BOUND});
+        loud, {.families = families, .kinds = 15, .cases = 500, .time_sort = NEARMISS_TIME_LOWER_BOUND});
     EXPECT_FALSE(report.clean());
     expect_short(report);
     EXPECT_EQ(report.text().find('\x1b'), std::string_view::npos);
@@ -110,32 +104,21 @@ TEST(MyCcd, TextsAreShortWhateverFails) {
 }
 
 TEST(MyCcd, OfAnyFormMayPromiseLowerBounds) {
-  const nearmiss::TrialOptions promises{.cases = 1000, .time_sort = NEARMISS_TIME_LOWER_BOUND};
+  const nearmiss::TrialOptions promises{.cases = 500, .time_sort = NEARMISS_TIME_LOWER_BOUND};
   const auto answer = [](const nearmiss::Question& q) {
     return exact(q) ? nearmiss::plugin::Answer::of(true, 1) : nearmiss::plugin::Answer();
   };
-  EXPECT_GT(nearmiss::trial(answer, promises).counts().late, 0U);
-  EXPECT_GT(nearmiss::trial(
-                [&](const nearmiss::Question& q) { return exact(q) ? std::optional(1.0F) : std::nullopt; },
-                promises)
-                .counts()
-                .late,
-            0U);
-  EXPECT_GT(nearmiss::trial(
-                [&](std::span<const nearmiss::Question> q, std::span<nearmiss::plugin::Answer> answers) {
-                  for (std::size_t i = 0; i < q.size(); ++i) answers[i] = answer(q[i]);
-                },
-                promises)
-                .counts()
-                .late,
-            0U);
-  EXPECT_TRUE(nearmiss::trial(answer, {.cases = 1000}).clean());
+  const auto time = [](const nearmiss::Question& q) { return exact(q) ? std::optional(1.0F) : std::nullopt; };
+  const auto batch = [&](std::span<const nearmiss::Question> q, std::span<nearmiss::plugin::Answer> answers) {
+    for (std::size_t i = 0; i < q.size(); ++i) answers[i] = answer(q[i]);
+  };
+  for (const auto& report : {nearmiss::trial(answer, promises), nearmiss::trial(time, promises),
+                             nearmiss::trial(batch, promises)}) {
+    EXPECT_GT(report.counts().late, 0U);
+    EXPECT_NE(report.text().find(".time <= "), std::string_view::npos) << report;
+  }
+  EXPECT_TRUE(nearmiss::trial(answer, {.cases = 500}).clean());
   EXPECT_THROW(nearmiss::trial(exact, promises), std::invalid_argument);  // it gives no times
-}
-
-TEST(MyCcd, ThatIsAskedNothingIsNotClean) {
-  EXPECT_FALSE(nearmiss::trial(exact, {.time = std::chrono::nanoseconds(1)}).clean());
-  EXPECT_THROW(nearmiss::trial(exact, {.time = std::chrono::seconds(-1)}), std::invalid_argument);
 }
 
 TEST(MyCcd, FaultsAndUnsafeStepsHaveExamplesThatFail) {
@@ -176,20 +159,15 @@ TEST(MyCcd, FamiliesMayBeGroupsWithBlanks) {
   EXPECT_TRUE(nearmiss::trial(nearmiss::plugin::detector("d").edge_edge(exact), {.cases = 500}).clean());
 }
 
-TEST(MyCcd, TimesAreLowerBoundsIfItSaysSo) {
-  const auto late = [](const nearmiss::Question& q) { return exact(q) ? std::optional(1.0) : std::nullopt; };
-  EXPECT_TRUE(nearmiss::trial(late, {.cases = 2000}).clean());
-  const auto report = nearmiss::trial(late, {.cases = 2000, .time_sort = NEARMISS_TIME_LOWER_BOUND});
-  EXPECT_GT(report.counts().late, 0U);
-  EXPECT_NE(report.text().find(".time <= "), std::string::npos) << report;
-}
-
 TEST(MyCcd, OptionsThatMakeNoSenseAreRefused) {
-  EXPECT_THROW(nearmiss::trial(mine, {.families = "uniforms"}), std::invalid_argument);
-  EXPECT_THROW(nearmiss::trial(mine, {.cases = 0}), std::invalid_argument);
-  EXPECT_THROW(nearmiss::trial(mine, {.kinds = NEARMISS_EDGE_EDGE}), std::invalid_argument);
-  EXPECT_THROW(nearmiss::trial(mine, {.separation = "-1"}), std::invalid_argument);
+  for (const nearmiss::TrialOptions& bad :
+       {nearmiss::TrialOptions{.families = "uniforms"}, nearmiss::TrialOptions{.cases = 0},
+        nearmiss::TrialOptions{.kinds = NEARMISS_EDGE_EDGE}, nearmiss::TrialOptions{.separation = "-1"},
+        nearmiss::TrialOptions{.time = std::chrono::seconds(-1)}})
+    EXPECT_THROW(nearmiss::trial(mine, bad), std::invalid_argument);
   EXPECT_THROW(nearmiss::hard_queries("uniforms", nearmiss::Kind::edge_edge, 1, 10), std::invalid_argument);
+  // A CCD that is asked nothing is not clean.
+  EXPECT_FALSE(nearmiss::trial(exact, {.time = std::chrono::nanoseconds(1)}).clean());
 }
 
 TEST(MyCcd, HardQueriesForLoopsOfOnesOwn) {
