@@ -24,7 +24,6 @@
 #include "oracle/oracle.hpp"
 #include "reports/text/json.hpp"
 #include "tools/arguments.hpp"
-#include "tools/bench_comparison.hpp"
 #include "tools/bench_history.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"

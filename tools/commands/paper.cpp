@@ -145,7 +145,7 @@ int run(const Options& options) {
         if (!known.contains(command)) known.emplace(command, results_of(command));
         results.push_back(known.at(command));
       }
-      const Measured measured = claim->measure(results, stop);
+      const Measured measured = claim->measured(results, stop);
       print(options.json.text(), *claim, measured);
       json["claims"].push_back(json_of(*claim, measured));
     }

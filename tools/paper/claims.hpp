@@ -40,8 +40,13 @@ struct Claim {
   std::string_view section;  ///< of the paper
   std::string_view says;
   /// The subcommands of nearmiss that measure it, without --json. If there is none, `measure` does it itself.
-  std::vector<std::string_view> commands;
-  Measured (*measure)(const Results& results, const Stop& stop);
+  std::vector<std::string_view> commands = {};
+  Measured (*measure)(const Results& results, const Stop& stop) = nullptr;
+  std::string_view why_not = {};  ///< why it cannot be measured here, if `measure` is null
+
+  [[nodiscard]] Measured measured(const Results& results, const Stop& stop) const {
+    return measure == nullptr ? Measured{.text = std::string(why_not)} : measure(results, stop);
+  }
 };
 
 /// All claims, in the order of the paper's sections.
