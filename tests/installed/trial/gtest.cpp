@@ -115,7 +115,7 @@ TEST(MyCcd, OfAnyFormMayPromiseLowerBounds) {
   for (const auto& report : {nearmiss::trial(answer, promises), nearmiss::trial(time, promises),
                              nearmiss::trial(batch, promises)}) {
     EXPECT_GT(report.counts().late, 0U);
-    EXPECT_NE(report.text().find(".time <= "), std::string_view::npos) << report;
+    EXPECT_NE(report.text().find(".time <="), std::string_view::npos) << report;
   }
   EXPECT_TRUE(nearmiss::trial(answer, {.cases = 500}).clean());
   EXPECT_THROW(nearmiss::trial(exact, promises), std::invalid_argument);  // it gives no times
