@@ -23,7 +23,8 @@ Kind kind_of_file(const std::filesystem::path& path) {
   const auto folder = std::filesystem::absolute(path).parent_path().filename();
   const std::string stem = path.stem().string();
   for (const Kind kind : kinds_of_meshes)
-    if (folder == *sample_folder(kind) || stem.ends_with(*sample_ending(kind))) return kind;
+    if (const auto names = sample_names(kind); folder == names->folder || stem.ends_with(names->ending))
+      return kind;
   throw Error(
       fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, or a file's name that ends in "
                   "vf or ee, which determines the kind",
@@ -116,23 +117,12 @@ double exact_quotient(const std::string& numerator, const std::string& denominat
 
 }  // namespace
 
-std::optional<std::string_view> sample_folder(Kind kind) {
+std::optional<SampleNames> sample_names(Kind kind) {
   switch (kind) {
     case Kind::vertex_triangle:
-      return "vertex-face";
+      return SampleNames{"vertex-face", "vf"};
     case Kind::edge_edge:
-      return "edge-edge";
-    default:
-      return std::nullopt;
-  }
-}
-
-std::optional<std::string_view> sample_ending(Kind kind) {
-  switch (kind) {
-    case Kind::vertex_triangle:
-      return "vf";
-    case Kind::edge_edge:
-      return "ee";
+      return SampleNames{"edge-edge", "ee"};
     default:
       return std::nullopt;
   }

@@ -15,11 +15,12 @@ namespace nearmiss {
 /// See read_cases. `path` determines the kind; errors name it.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
-/// The folder of the files of a kind; nothing for a kind that the format does not have.
-std::optional<std::string_view> sample_folder(Kind kind);
-
-/// How a file's name ends that is not in such a folder; nothing for a kind that the format does not have.
-std::optional<std::string_view> sample_ending(Kind kind);
+/// What tells the kind of a file's queries: its folder, or the end of its name.
+struct SampleNames {
+  std::string_view folder, ending;
+};
+/// Those of a kind; nothing for a kind that the format does not have.
+std::optional<SampleNames> sample_names(Kind kind);
 
 /// The file with the truths of a file of queries without a column for them.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);

@@ -34,6 +34,10 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names) {
       ->type_name("A,B,...");
 }
 
+void add_verbose_option(CLI::App& command, bool& verbose) {
+  command.add_flag("-v,--verbose", verbose, "Show all tables, and more findings");
+}
+
 void add_jobs_option(CLI::App& command, int& jobs) {
   jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   add_count_option(command, "--jobs", jobs, 1, 4096, "Number of threads");

@@ -22,6 +22,7 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names);
 
 /// --jobs J; all cores by default.
 void add_jobs_option(CLI::App& command, int& jobs);
+void add_verbose_option(CLI::App& command, bool& verbose);
 
 /// --seed S: the seed of the random queries.
 void add_seed_option(CLI::App& command, std::uint64_t& seed);

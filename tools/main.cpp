@@ -87,12 +87,18 @@ std::string help_for(int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' ? fmt::format("nearmiss {} --help", argv[1]) : "nearmiss --help";
 }
 
+/// The options of a command and of its groups of options.
+void add_names_of_options(const CLI::App& command, std::vector<std::string>& names) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* group : command.get_subcommands({})) add_names_of_options(*group, names);
+}
+
 /// Throws Error for the first option that the subcommand does not have.
 void expect_options(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_subcommand(argv[1])->get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  add_names_of_options(*app.get_subcommand(argv[1]), names);
   for (int i = 2; i < argc; ++i) {
     const std::string_view word = argv[i];
     if (word.starts_with("--") && word != "--")
@@ -199,8 +205,7 @@ int run(int argc, char** argv) {
       expect_output();
       return exit_code;
     }
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
-      expect_options(app, argc, argv);
+    expect_options(app, argc, argv);
     throw nearmiss::Error(fmt::format("{} (see {})", with_short_words(error.what()), help_for(argc, argv)));
   }
   expect_output();

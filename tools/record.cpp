@@ -19,7 +19,9 @@
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/sections.hpp"
 #include "reports/text/json.hpp"
+#include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/commit.hpp"
 #include "tools/terminal.hpp"
@@ -28,7 +30,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-constexpr std::size_t printed_findings = 10;
+constexpr std::size_t printed_if_verbose = 10;  // findings
 constexpr auto save_interval = std::chrono::milliseconds(500);
 constexpr auto when_locked = std::chrono::seconds(5);           // a longer interval, because each try waits
 constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // rare, because it writes all findings
@@ -60,6 +62,16 @@ void print_broken(std::FILE* text, const std::vector<Finding>& findings, const S
   }
 }
 
+/// The lines as they are shown: wrapped, if that is a terminal.
+std::string shown_lines(std::FILE* text, const std::string& lines) {
+  constexpr std::size_t columns = 100, most_lines = 6;
+  if (isatty(fileno(text)) == 0) return lines;
+  std::string all;
+  std::istringstream from(lines);
+  for (std::string line; std::getline(from, line);) all += wrapped(line, "     ", most_lines, columns);
+  return all;
+}
+
 /// Saves. Waits half a minute for a process that has locked the store.
 template <class Save>
 void patiently(const Save& save) {
@@ -82,6 +94,7 @@ void RecordOptions::add_to(CLI::App& command) {
   fail_on.add_to(command);
   ci.add_to(command);
   command.add_flag("-q,--quiet", quiet, "Show no progress");
+  add_verbose_option(command, verbose);
 }
 
 RunInfo environment() {
@@ -204,6 +217,34 @@ void Record::add_unasked(const Subjects& subjects) {
   }
 }
 
+void Record::print_results(std::FILE* text, const Campaign& campaign) const {
+  const Failures failing = options_.fail_on.failures();
+  const bool verbose = options_.verbose;
+  if (options_.summary)
+    fmt::print(text, "{}",
+               verbose ? summary_table(statistics_, failing)
+                       : shown_lines(text, summary_lines(statistics_, failing)));
+  fmt::print(text, "{}{}", sweep_tables(statistics_), ladder_table(statistics_));
+  if (verbose || !options_.summary)
+    fmt::print(text, "{}{}", decider_tables(statistics_), funnel_tables(statistics_));
+  fmt::print(text, "{}", simulation_tables(statistics_));
+  const auto findings = campaign.findings();
+  print_broken(text, findings, statistics_);
+  std::set<Signature> printed;  // prints one finding of each way to fail
+  for (const Finding& each : findings) {
+    if (printed.size() == (verbose ? printed_if_verbose : 1)) break;
+    if (!verbose && is_only_shown(each.what) && failing == usual_failures()) continue;
+    if (!printed.insert(signature_of(each)).second) continue;
+    if (printed.size() == 1) fmt::print(text, "{}", verbose ? "\nthe first findings:\n" : "the simplest:\n");
+    print(text, each, statistics_.times_seen(signature_of(each)));
+  }
+  if (verbose || !options_.summary) return;
+  fmt::print(text, "more: {}-v shows tables\n",
+             options_.db.empty()
+                 ? "--db FILE keeps the results for nearmiss report; "
+                 : fmt::format("nearmiss report {} -o report; ", shell_quoted(options_.db.string())));
+}
+
 int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
   save_now();
@@ -211,18 +252,7 @@ int Record::finish(bool interrupted, bool complete) {
   end_on_signals();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
-  fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",
-             sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
-             funnel_tables(statistics_) + simulation_tables(statistics_));
-  const auto findings = campaign.findings();
-  print_broken(text, findings, statistics_);
-  std::set<Signature> printed;  // prints one finding of each way to fail
-  for (const Finding& each : findings) {
-    if (printed.size() == printed_findings) break;
-    if (!printed.insert(signature_of(each)).second) continue;
-    if (printed.size() == 1) fmt::print(text, "\nthe first findings:\n");
-    print(text, each, statistics_.times_seen(signature_of(each)));
-  }
+  print_results(text, campaign);
   std::fflush(text);  // so that the text is shown even if the file cannot be written
   options_.json.write(summary_json(campaign));
   options_.ci.write(campaign, options_.fail_on.failures(), text);

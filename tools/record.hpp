@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -18,13 +19,14 @@
 
 namespace nearmiss::tools {
 
-/// --json FILE|-, --db FILE, --fail-on A,B, --junit FILE, --github and --quiet
+/// --json FILE|-, --db FILE, --fail-on A,B, --junit FILE, --github, --quiet and --verbose
 struct RecordOptions {
   JsonOutput json = {};
   std::filesystem::path db = {};
   FailOnOption fail_on = {};
   CiOutput ci = {};
   bool quiet = false;       ///< shows no progress
+  bool verbose = false;     ///< prints all tables, and more findings
   bool summary = true;      ///< prints the table of subjects
   bool resume = false;      ///< continues the run in `db`, if the file exists
   bool can_resume = false;  ///< whether the command has the option --resume
@@ -78,6 +80,7 @@ class Record {
   void go_on();
   void save();
   void save_all();
+  void print_results(std::FILE* text, const Campaign& campaign) const;
 
   RecordOptions options_;
   RunInfo info_;

@@ -20,22 +20,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t widest = 79;  // test frameworks break longer lines, within code, too
 constexpr std::size_t most_lines = 15;
-
-/// The text in at most so many lines, of at most `widest` columns as far as blanks allow it; lines after the
-/// first are indented. What does not fit is cut off.
-std::string wrapped(std::string text, std::string_view indent, std::size_t most) {
-  std::string lines;
-  for (std::size_t line = 1; line <= most; ++line) {
-    if (text.size() <= widest) return lines + text + "\n";
-    const std::size_t blank = text.rfind(' ', widest - (line == most ? 4 : 0));
-    const std::size_t end = blank == std::string::npos || blank <= indent.size() ? widest : blank;
-    lines += text.substr(0, end) + (line == most ? " ...\n" : "\n");
-    text = std::string(indent) + text.substr(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
 
 std::size_t lines_in(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count(text, '\n'));

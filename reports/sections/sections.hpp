@@ -10,7 +10,9 @@
 namespace nearmiss {
 
 /// A line with the verdict on each subject (verdicts.hpp), where `failing` are the failures that count, and a
-/// line for each pair of versions. Then come a table with a row for each subject and kind, one by class with
+/// line for each pair of versions; and the tolerances that were measured.
+std::string summary_lines(const Statistics& statistics, const Failures& failing = usual_failures());
+/// The same lines. Then come a table with a row for each subject and kind, one by class with
 /// the times of impact, one by class, the sizes at which subjects are right, what misses have in common, and
 /// the oracle's counters.
 std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());

@@ -61,22 +61,24 @@ std::string footnote_on_units(const Statistics& statistics) {
   return is_marked ? std::string(unit_footnote) + "\n" : "";
 }
 
+std::string certified_line(const OracleCounts& oracle) {
+  if (oracle.certified == 0) return "";
+  return counted(oracle.certified, "recorded truth is", "recorded truths are") + " certified\n";
+}
+
 std::string oracle_lines(const Statistics& statistics) {
   const OracleCounts oracle = statistics.oracle_total();
   const std::string near_bounds = oracle.near_bounds == 0 ? ""
                                                           : fmt::format(", {} decided near their bounds",
                                                                         with_separators(oracle.near_bounds));
-  const std::string certified =
-      oracle.certified == 0 ? ""
-                            : fmt::format("\n{} certified", counted(oracle.certified, "recorded truth is",
-                                                                    "recorded truths are"));
   return fmt::format(
       "oracle: {} queries, {} left to exact arithmetic by the filters{}; {} decided by all exact methods: "
-      "{}, and {} of {} collisions\nhave an even number of roots, which root parity cannot see{}\n",
+      "{}, and {} of {} collisions\nhave an even number of roots, which root parity cannot see\n{}",
       with_separators(oracle.queries),
       with_separators(oracle.by_stage[static_cast<std::size_t>(FilterStage::undecided)]), near_bounds,
       with_separators(oracle.compared), statistics.oracle_disagreements == 0 ? "they agree" : "THEY DISAGREE",
-      with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions), certified);
+      with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions),
+      certified_line(oracle));
 }
 
 constexpr const char* footnotes =
@@ -114,6 +116,13 @@ std::string class_table(const Statistics& statistics) {
 }
 
 }  // namespace
+
+std::string summary_lines(const Statistics& statistics, const Failures& failing) {
+  const bool has_subjects = !statistics.counts.empty() || !oracle_complaint(statistics).empty();
+  return (has_subjects ? verdict_lines(statistics, failing) + version_lines(statistics) : "") +
+         certified_line(statistics.oracle_total()) +
+         (statistics.extremes.empty() ? "" : extremes_table(statistics.extremes));
+}
 
 std::string summary_table(const Statistics& statistics, const Failures& failing) {
   const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);

@@ -85,6 +85,18 @@ std::string marked_fraction_of_bound(double ratio, DistanceUnit unit) {
   return fraction_of_bound(ratio) + (unit == DistanceUnit::claimed_bound ? "" : "**");
 }
 
+std::string wrapped(std::string text, std::string_view indent, std::size_t most_lines, std::size_t widest) {
+  std::string lines;
+  for (std::size_t line = 1; line <= most_lines; ++line) {
+    if (text.size() <= widest) return lines + text + "\n";
+    const std::size_t blank = text.rfind(' ', widest - (line == most_lines ? 4 : 0));
+    const std::size_t end = blank == std::string::npos || blank <= indent.size() ? widest : blank;
+    lines += text.substr(0, end) + (line == most_lines ? " ...\n" : "\n");
+    text = std::string(indent) + text.substr(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
 std::string seen_text(std::uint64_t times) {
   return times == 1 ? "seen once" : fmt::format("seen {} times", with_separators(times));
 }

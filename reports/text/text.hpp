@@ -44,6 +44,12 @@ inline constexpr const char* unit_footnote =
 /// "1 query", "1,234 queries"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
+/// The text in at most so many lines, of at most `widest` columns as far as blanks allow it; lines after the
+/// first are indented. What does not fit is cut off. Test frameworks break lines beyond column 79, within code,
+/// too.
+std::string wrapped(std::string text, std::string_view indent, std::size_t most_lines,
+                    std::size_t widest = 79);
+
 /// "seen once", "seen 1,234 times"
 std::string seen_text(std::uint64_t times);
 

@@ -46,6 +46,7 @@ TEST_F(Ci, JUnitIsRefusedWhereItCannotBeWritten) {
   expect_refused("fuzz --subject wang --cases 10 --junit -", {"--junit: found '-', expected a file"});
   expect_code(0, "fuzz --subject wang --cases 10 --junit a.xml --json - --db a.db");
   expect_refused("report a.db -o new --junit a.db", {"--junit", "DB"});
+  expect_refused("report a.db -o . --junit report.json", {"--junit", "-o"});
   expect_refused("report a.db -o new --junit -", {"--junit: found '-', expected a file"});
   EXPECT_FALSE(std::filesystem::exists(file("-")));
 }
@@ -123,7 +124,7 @@ TEST_F(JsonToStdout, OfFilesWhoseNamesAreNoUtf8) {
   EXPECT_EQ(asked(json_of(0, "replay " + quoted + " 'N\xe4' --db a.db")), 2);
   EXPECT_THAT(std::string(report_of("a.db")["runs"][0]["again"]), HasSubstr("replay $'M\\344' $'N\\344' "));
   const std::string mesh = " " + quoted + "1.obj " + quoted + "2.obj ";
-  EXPECT_EQ(json_of(0, "scene" + mesh)["scenes"].size(), 1);
+  EXPECT_EQ(json_of(0, "scene" + mesh + "-v")["scenes"].size(), 1);
   EXPECT_THAT(read("error.txt"), HasSubstr("scene:M?"));
   const std::string fuzz = "fuzz --cases 100 --mesh" + mesh + "--family mesh --db c.db --resume";
   for (int i = 0; i < 2; ++i) EXPECT_EQ(asked(json_of(0, fuzz)), 100);

@@ -5,6 +5,7 @@ namespace nearmiss {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using testing::CommandLine;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -114,7 +115,7 @@ TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
 
 TEST_F(CommandLine, SceneComparesAllPairs) {
   write_falling_triangle("0.5 1");
-  const std::string scene = "scene start.obj end.obj ";
+  const std::string scene = "scene start.obj end.obj --around 0 ";
   const json subjects =
       json_of(0, scene + "--leave-out boxes --bound pair,scene,100 --export pairs")["subjects"];
   EXPECT_EQ(subjects.size(), 4);  // basic has no bound
@@ -133,6 +134,35 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   EXPECT_EQ(funnel["touching"], 3);
   EXPECT_THAT(expect_code(0, scene + "--leave-out boxes --thickness 1e9 --subject wang").out,
               HasSubstr("contact thickness 1e+09"));
+}
+
+TEST_F(CommandLine, SceneAsksAroundItsPairsIfTheyShowLittle) {
+  write_falling_triangle("0.5 1");
+  const std::string scene = "scene start.obj end.obj --leave-out boxes --subject wang";
+  const json families = json_of(0, scene)["subjects"]["wang"]["vt"]["families"];
+  EXPECT_EQ(families["mesh"]["queries"], 5000);
+  EXPECT_THAT(read("error.txt"),
+              AllOf(HasSubstr("wang: 3 collisions show little: a miss rate below 63 % at 95 % confidence\n"
+                              "around them, 10,000 queries of the family mesh: wang missed 0 of "),
+                    HasSubstr("nearmiss fuzz --subject wang --mesh start.obj end.obj --family mesh")));
+  EXPECT_FALSE(json_of(0, scene + " --around 0")["subjects"]["wang"]["vt"]["families"].contains("mesh"));
+}
+
+TEST_F(CommandLine, PrintsWhatMattersInTwelveLinesAndTheRestOnRequest) {
+  const std::string fuzz = "fuzz --subject basic,wang,exact --cases 4000";
+  const std::string brief = expect_code(1, fuzz).out;
+  EXPECT_LE(std::count(brief.begin(), brief.end(), '\n'), 12) << brief;
+  EXPECT_THAT(brief,
+              AllOf(HasSubstr("\nthe simplest:\n  false-negative basic "),
+                    HasSubstr("\nmore: --db FILE keeps the results for nearmiss report; -v shows tables\n")));
+  EXPECT_THAT(expect_code(1, fuzz + " -v").out,
+              AllOf(HasSubstr("ns/query\n"), HasSubstr("\nthe first findings:\n")));
+}
+
+TEST_F(CommandLine, NamesTheNearestOption) {
+  expect_refused("fuzz --case 5",
+                 {"found the option '--case', expected one such as '--cases' (see nearmiss fuzz --help)"});
+  expect_refused("replay", {"PATH is required (see nearmiss replay --help)"});
 }
 
 TEST_F(CommandLine, ScenesAreBuiltInToo) {

@@ -57,22 +57,5 @@ TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
   expect_refused("completion fish", {"found 'fish', expected bash or zsh"});
 }
 
-class ReadmeTest : public testing::CommandLine {};
-
-TEST_F(ReadmeTest, TheFirstExamplePrintsWhatItSays) {
-  const std::string indent(4, ' ');
-  const std::string prompt = indent + "$ nearmiss ";
-  std::ifstream readme(NEARMISS_README);
-  std::string line, expected;
-  while (std::getline(readme, line) && !line.starts_with(prompt)) {
-  }
-  const std::string arguments = line.substr(prompt.size());
-  while (std::getline(readme, line) && line.starts_with(indent))
-    expected += line.substr(indent.size()) + '\n';
-  ASSERT_THAT(arguments, ::testing::StartsWith("fuzz "));
-  ASSERT_EQ(std::count(expected.begin(), expected.end(), '\n'), 2) << expected;
-  EXPECT_THAT(run(arguments).out, ::testing::StartsWith(expected)) << "nearmiss " << arguments;
-}
-
 }  // namespace
 }  // namespace nearmiss

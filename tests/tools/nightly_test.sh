@@ -134,7 +134,7 @@ oracle_disagreement 6s
 END_OF_HUNTS
 nothing tools/libfuzzer
 # The night keeps what libFuzzer found, and replays it.
-"$nearmiss" merge "$folder/found.db" "$folder/the nights/last/found.db" >"$folder/said" || fail "expected a replay of what was found"
+"$nearmiss" merge -v "$folder/found.db" "$folder/the nights/last/found.db" >"$folder/said" || fail "expected a replay of what was found"
 expect_said '^oracle: 4 queries'
 rm -r "$folder/the nights"
 

@@ -81,11 +81,10 @@ class Commands(unittest.TestCase):
         for command in (
             'nearmiss family uniform --kind vt --count 50 >file; cp file few.vt',
             f'NEARMISS_RECORD=run.nmq {BUILD}/plugins/recording 100',
-            'for i in a.1 b.2 mine.3; do nearmiss fuzz --subject basic --family grazing --cases 300 --seed ${i#*.} --db ${i%.*}.db; done',
+            'for i in a.1 b.2 mine.3; do nearmiss fuzz --subject basic,yours=./yours.so --family grazing,uniform --cases 600 --seed ${i#*.} --db ${i%.*}.db; done',
             'nearmiss simulate cloths --steps 2 --subject basic --db c.db',
             'nearmiss report mine.db -o report',
             'cp report/cases/false-negative-basic-001.case file.case',
-            'cp file.case report/cases/false-negative-yours-001.case',
         ):
             cls.bash(command)
 
@@ -107,10 +106,10 @@ class Commands(unittest.TestCase):
 
     def test_the_first_prints_what_it_says(self):
         lines = (ROOT / 'README.md').read_text().split('\n    $ ', 1)[1].split('\n')
-        expected = [line[4:] for line in lines[1 : lines.index('')]]
-        self.assertEqual(len(expected), 2)
+        expected = ' '.join(lines[1 : lines.index('')]).split()  # a terminal wraps the lines
+        self.assertGreater(len(expected), 50)
         run = self.bash(lines[0])
-        self.assertEqual(run.stdout.splitlines()[:2], expected)
+        self.assertEqual(run.stdout.split()[: len(expected)], expected)
 
 
 if __name__ == '__main__':

@@ -25,7 +25,9 @@ class ResultTable(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        campaign = "fuzz --subject basic,wang --family uniform,planted,scale --cases 2000 --db a.db"
+        campaign = (
+            "fuzz --subject basic,wang --family uniform,planted,scale --cases 2000 --db a.db"
+        )
         run(NEARMISS, *campaign.split(), cwd=cls.folder.name)
         run(NEARMISS, "report", "a.db", "-o", "report", cwd=cls.folder.name)
         report = pathlib.Path(cls.folder.name) / "report"
@@ -61,11 +63,19 @@ class ResultTable(unittest.TestCase):
 
     def test_the_shortest_query_has_its_separation(self):
         with tempfile.TemporaryDirectory() as folder:
-            found = {"what": "false-negative", "subject": "a", "kind": "vt", "shrunk": [0] * 24 + [0.5]}
+            found = {
+                "what": "false-negative",
+                "subject": "a",
+                "kind": "vt",
+                "shrunk": [0] * 24 + [0.5],
+            }
             report = {"subjects": {}, "findings": [found]}
             (pathlib.Path(folder) / "report.json").write_text(json.dumps(report))
             said = run(TABLE, folder)
-        self.assertIn("| `a` | vt | `" + "0 0 0  " * 3 + "0 0 0   " + "0 0 0  " * 3 + "0 0 0   0.5` |", said.stdout)
+        self.assertIn(
+            "| `a` | vt | `" + "0 0 0  " * 3 + "0 0 0   " + "0 0 0  " * 3 + "0 0 0   0.5` |",
+            said.stdout,
+        )
 
     def test_a_folder_without_a_report_is_refused(self):
         said = run(TABLE, self.folder.name)

@@ -110,7 +110,7 @@ TEST_F(CommandLine, AnInterruptSavesEverything) {
     ASSERT_TRUE(wait_for_a_save(process, cases)) << command << read("error.txt");
     process.stop(SIGINT);
     EXPECT_EQ(process.code(), 130) << command << read("error.txt");
-    EXPECT_THAT(read("out.txt"), HasSubstr("\noracle: ")) << command;
+    EXPECT_THAT(read("out.txt"), HasSubstr("\nmore: ")) << command;
     EXPECT_LE(run("report a.db -o report").code, 1) << command;
     EXPECT_GE(read_json("report/report.json")["runs"][0]["cases_done"], cases) << command;
     std::filesystem::remove(file("a.db"));

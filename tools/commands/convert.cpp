@@ -84,13 +84,13 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
   if (format == "plain")
     return {fmt::format("queries.{}", short_name(query.kind)),
             fmt::format("# expect={:d}\n{}\n", truth, to_line(query))};
-  const auto folder = sample_folder(query.kind);
-  if (!folder || query.separation > 0)
+  const auto names = sample_names(query.kind);
+  if (!names || query.separation > 0)
     throw Error(fmt::format("{}: found a {} query{}, expected vt or ee for contact, which is all that {} has",
                             each.name, short_name(query.kind),
                             query.separation > 0 ? " with a separation" : "", format));
-  if (format == "csv") return {fs::path(*folder) / "queries.csv", to_sample_csv(query, truth)};
-  return {fmt::format("queries/{}.csv", *sample_ending(query.kind)), to_sample_csv(query, std::nullopt)};
+  if (format == "csv") return {fs::path(names->folder) / "queries.csv", to_sample_csv(query, truth)};
+  return {fmt::format("queries/{}.csv", names->ending), to_sample_csv(query, std::nullopt)};
 }
 
 int run(const Options& options) {

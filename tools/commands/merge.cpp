@@ -3,6 +3,7 @@
 
 #include "reports/sections/sections.hpp"
 #include "reports/store/store.hpp"
+#include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"
 
@@ -30,7 +31,7 @@ void add_merge(CLI::App& app, int& exit_code) {
   struct Options {
     std::filesystem::path out;
     std::vector<std::filesystem::path> in;
-    bool salvage = false;
+    bool salvage = false, verbose = false;
     FailOnOption fail_on;
   };
   auto options = std::make_shared<Options>();
@@ -41,10 +42,12 @@ void add_merge(CLI::App& app, int& exit_code) {
       "--salvage", options->salvage,
       "Take the intact part of damaged stores, and say what was lost; nothing can resume the result");
   options->fail_on.add_to(*command);
+  add_verbose_option(*command, options->verbose);
   command->callback([options, &exit_code] {
     const Campaign merged = options->salvage ? salvage_campaigns(options->in) : load_campaigns(options->in);
     write_campaign(merged, options->out);
-    fmt::print("{}", summary_table(merged.statistics, options->fail_on.failures()));
+    fmt::print("{}", (options->verbose ? summary_table : summary_lines)(merged.statistics,
+                                                                        options->fail_on.failures()));
     for (const Run& run : merged.runs)
       if (const std::string missing = missing_shards(run); !missing.empty())
         fmt::print("{}: {}\n", fact(run.info, "command"), missing);

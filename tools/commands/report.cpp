@@ -14,6 +14,7 @@
 #include "reports/store/store.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/json_file.hpp"
+#include "tools/arguments.hpp"
 #include "tools/ci_output.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"
@@ -29,6 +30,7 @@ struct Options {
   std::filesystem::path folder, power, audit, paper, distances, environments;
   FailOnOption fail_on;
   CiOutput ci;
+  bool verbose = false;
 };
 
 /// A list in JSON. Throws Error if there is none.
@@ -98,8 +100,8 @@ void expect_to_fit(const Options& options) {
       }
 }
 
-/// The files that the command reads.
-std::vector<OptionFile> read_files(const Options& options) {
+/// The files that the command reads or writes.
+std::vector<OptionFile> other_files(const Options& options) {
   std::vector<OptionFile> files{{options.power, "--power"},
                                 {options.audit, "--audit"},
                                 {options.paper, "--paper"},
@@ -107,13 +109,14 @@ std::vector<OptionFile> read_files(const Options& options) {
                                 {options.environments, "--environments"}};
   for (const auto& store : options.stores) files.push_back({store, "DB"});
   for (const auto& store : options.baseline) files.push_back({store, "--baseline"});
+  for (const char* written : {"index.html", "report.json"}) files.push_back({options.folder / written, "-o"});
   return files;
 }
 
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
   expect_to_fit(options);
-  options.ci.expect_writable(read_files(options));
+  options.ci.expect_writable(other_files(options));
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context{.failing = options.fail_on.failures()};
   std::vector<Campaign> baseline;
@@ -125,7 +128,7 @@ int run(const Options& options) {
   if (!options.distances.empty()) context.distances = load_distances(options.distances);
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
-  fmt::print("{}\n", summary_table(campaign.statistics, context.failing));
+  fmt::print("{}\n", (options.verbose ? summary_table : summary_lines)(campaign.statistics, context.failing));
   if (context.since) fmt::print("{}", describe(*context.since));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
@@ -165,6 +168,7 @@ void add_report(CLI::App& app, int& exit_code) {
            "Show which compilers, flags and modes keep the guarantee, from tools/environments");
   options->fail_on.add_to(*command);
   options->ci.add_to(*command);
+  add_verbose_option(*command, options->verbose);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -308,7 +308,8 @@ int run(Options options) {
     fmt::print(text, "no subject was asked: the plan decides all pairs\n");
   if (!stop.is_requested()) record.add_unasked(all.subjects);
   std::string few = options.plan_only ? "" : what_few_collisions_show(record.statistics());
-  if (!few.empty() && options.around > 0 && !stop.is_requested())
+  const bool is_own_bound = options.bounds == Options().bounds;  // another may be too small around the pairs
+  if (!few.empty() && options.around > 0 && is_own_bound && !stop.is_requested())
     few += hunt_around(options, scene, all.subjects, record, stop);
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
   if (!few.empty()) fmt::print(text, "{}{}", few, longer_hunt(options));
@@ -335,9 +336,10 @@ void add_scene_options(CLI::App& command, Options& options) {
   command.add_flag("--list", options.list, "List the built-in scenes and their sizes");
   command.add_flag("--weld", options.weld, "Merge points that coincide in the first frame");
   command
-      .add_option("--around", options.around,
-                  "If the collisions are so few that they show little, also ask this many queries around the "
-                  "scene's pairs (the family mesh of nearmiss fuzz --mesh); 0 asks none")
+      .add_option(
+          "--around", options.around,
+          "If the collisions are so few that they show little, also ask this many queries around the "
+          "scene's pairs (the family mesh of nearmiss fuzz --mesh), unless --bound is given; 0 asks none")
       ->capture_default_str()
       ->type_name("N");
 }

@@ -1,8 +1,9 @@
 """One query on which a subject fails: its numbers, its explanation and its picture."""
 
+import dataclasses
 import html
 import importlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Callable, Literal
 
 import numpy as np
@@ -41,7 +42,7 @@ class Finding:
     family: str
     signature: str
     provenance: str
-    _explain: Callable[..., str] = field(repr=False)
+    _explain: Callable[..., str] = dataclasses.field(repr=False)
 
     @property
     def explanation(self) -> str:
