@@ -11,17 +11,72 @@ function failureTitle(finding) {
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** A card with a picture and the text that belongs to it. */
-const pictureCard = (figure, content, attributes = {}) => made("article", [figure, made("div", content)], { class: "card", ...attributes });
+/** Makes a short text of any text, the same in every report. */
+function digest(text) {
+  let [a, b] = [0x9e3779b9, 0x85ebca6b];
+  for (const letter of text) {
+    a = Math.imul(a ^ letter.codePointAt(0), 0x01000193);
+    b = Math.imul(b ^ (letter.codePointAt(0) + (a >>> 16)), 0x5bd1e995);
+  }
+  return [a, b].map((each) => (each >>> 0).toString(36).padStart(7, "0")).join("");
+}
+
+/** The address of a finding on this page, the same in every report that shows it. */
+const idOf = ({ subject, kind, what, signature, class: own, provenance }) => `finding-${digest([subject, kind, what, signature, own, provenance].join("\n"))}`;
+
+/** A link to a finding, also if the filter hides it. */
+function findingLink(title, index) {
+  const link = made("a", title, { href: `#${idOf(report.findings[index])}` });
+  link.addEventListener("click", () => setTimeout(() => showFinding(index)));
+  return link;
+}
+
+/** A button that copies the address of a finding. */
+function linkButton(finding) {
+  const icon = svgMade("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" },
+    svgMade("path", { d: "M7 9.5l3-3M6.5 5l2-2a2.8 2.8 0 0 1 4 4l-2 2M9.5 11l-2 2a2.8 2.8 0 0 1-4-4l2-2" }));
+  const button = copyButton(`${location.href.replace(/#.*/, "")}#${idOf(finding)}`, icon);
+  for (const [name, value] of Object.entries({ class: "link", title: "copy the link to this finding", "aria-label": "copy the link to this finding" })) button.setAttribute(name, value);
+  return button;
+}
+
+/**
+ * A card with a picture, which opens large, and the text that belongs to it.
+ * @param shown what the picture shows (makeViewer)
+ * @param onOpen is called when the user opens it
+ */
+function pictureCard(shown, content, attributes = {}, onOpen = () => {}) {
+  const card = made("article", [], { ...attributes, class: "card" });
+  const text = made("div", content);
+  const button = (title, isOpen, name) => {
+    const node = made("button", title, { type: "button", class: name, "aria-expanded": String(!isOpen), "aria-label": isOpen ? "enlarge the picture" : "reduce the picture" });
+    node.addEventListener("click", () => {
+      draw(isOpen);
+      card.querySelector("button[aria-expanded]").focus();
+      if (isOpen) onOpen();
+    });
+    return node;
+  };
+  function draw(isOpen) {
+    card.classList.toggle("open", isOpen);
+    if (isOpen) return card.replaceChildren(...makeViewer(shown), text, button("×", false, "close"));
+    const { svg, draw: drawSmall } = makePicture(shown, [220, 220]);
+    drawSmall({ yaw: -0.6, pitch: 0.5, zoom: 1, time: shown.time });
+    return card.replaceChildren(made("figure", [button(svg, true, "thumbnail"), made("figcaption", pictureLegend(shown))]), text);
+  }
+  card.open = () => card.classList.contains("open") || draw(true);
+  draw(false);
+  return card;
+}
 
 /** A query that is shown on demand, with a button for its certificate if it has one. */
 const fold = (title, query, file, certificate) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query),
   ...(certificate ? [" ", copyButton(certificate, "copy the certificate")] : [])]);
 
 /** A finding: its picture, what failed and how often, the command that replays it, and its queries. */
-const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi), [
+const findingCard = (finding, attributes = { id: idOf(finding), tabindex: -1 }) => pictureCard({ ...finding, query: finding.shrunk }, [
   ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
-  made("h3", failureTitle(finding)),
+  made("h3", [failureTitle(finding), " ", linkButton(finding)]),
   made("div", `${finding.class} query${finding.is_shrunk ? "" : ", not shrunk"}; ${finding.signature}, ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times in all classes`}`),
   made("div", finding.explanation),
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
@@ -29,7 +84,7 @@ const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, fi
   ...(finding.is_shrunk ? [fold("the shrunk query", finding.shrunk, finding.file, finding.certificate)] : []),
   fold("the original query", finding.original, finding.original_file, finding.is_shrunk ? null : finding.certificate),
   ...(String(finding.simplest) === String(finding.shrunk) ? [] : [fold(`the simplest query of any class (${finding.simplest_class})`, finding.simplest)]),
-], { id: `finding-${index}`, tabindex: -1 });
+], attributes, () => history.replaceState(null, "", `#${idOf(finding)}`));
 
 // --- findings -------------------------------------------------------------------------------------
 
@@ -58,7 +113,7 @@ const filteredFindings = () => {
 
 function drawCards() {
   const some = filteredFindings();
-  element("findings").replaceChildren(...some.slice(0, filter.most).map(({ finding, index }) => findingCard(finding, index)));
+  element("findings").replaceChildren(...some.slice(0, filter.most).map(({ finding }) => findingCard(finding)));
   element("findings-count").textContent = `${integer(Math.min(some.length, filter.most))} of ${integer(some.length)} shown` +
     (some.length < findings.length ? `, out of ${integer(findings.length)}` : "");
   element("more-findings").toggleAttribute("hidden", some.length <= filter.most);
@@ -71,12 +126,26 @@ function filterFindings(values) {
   drawCards();
 }
 
-/** Shows one finding among those of its subject. */
+/** Opens a finding; if the filter hides it, among those of its subject. */
 function showFinding(index) {
-  const { subject } = report.findings[index];
-  const place = findings.filter((each) => each.finding.subject === subject).findIndex((each) => each.index === index);
-  filterFindings({ subject, most: Math.max(findingsAtOnce, place + 1) });
-  setTimeout(() => element(`finding-${index}`).scrollIntoView({ block: "center" }));
+  const finding = report.findings[index];
+  const id = idOf(finding);
+  if (!element(id)) {
+    const place = findings.filter((each) => each.finding.subject === finding.subject).findIndex((each) => each.index === index);
+    filterFindings({ subject: finding.subject, most: Math.max(findingsAtOnce, place + 1) });
+  }
+  element(id).open();
+  element(id).scrollIntoView();
+  element(id).focus({ preventScroll: true });
+}
+
+/** Opens the finding that the page's address names. */
+function showAddress() {
+  if (!location.hash.startsWith("#finding-")) return;
+  const index = report.findings.findIndex((finding) => `#${idOf(finding)}` === location.hash);
+  if (index >= 0) return void showFinding(index);
+  element("findings-note").prepend(made("strong", "This report does not have the finding that the page's address names. ", { class: "bad" }));
+  element("findings-section").scrollIntoView();
 }
 
 /** The controls of the filter. */
@@ -85,7 +154,7 @@ function drawFilter() {
   const titles = { what: failureTitles, kind: kindTitles, subject: { "": "the oracle" } };
   const choice = (field, title) => {
     const select = made("select", [made("option", "all", { value: "" }),
-      ...values(field).filter(Boolean).map((value) => made("option", titles[field]?.[value] ?? value, { value }))], { name: field });
+      ...values(field).filter(Boolean).map((value) => made("option", Object.hasOwn(titles[field] ?? {}, value) ? titles[field][value] : value, { value }))], { name: field });
     return made("label", [`${title} `, select]);
   };
   element("findings-filter").append(choice("subject", "subject"), choice("what", "failure"), choice("kind", "kind"), choice("class", "class"),
@@ -105,8 +174,20 @@ function drawFilter() {
   });
 }
 
+/** Draws the simplest failure of the subject that is worst, as in the first table. */
+function drawExample() {
+  const worst = inOrder(report.verdicts).find(({ clean, finding }) => !clean && finding !== null);
+  const index = worst ? worst.finding : report.findings.findIndex(({ subject }) => subject === ""); // the oracle's
+  if (report.headline.clean || index < 0) return;
+  show("example-section");
+  const card = findingCard(report.findings[index], {});
+  card.open();
+  element("example").append(card);
+}
+
 function drawFindings() {
   show("findings-section");
+  if (report.headline.clean) element("glossary").before(element("findings-section"));
   const isCommitted = ({ what }) => what === "committed";
   const failures = report.signatures.filter((each) => !isCommitted(each));
   const times = (some) => integer(some.reduce((sum, each) => sum + each.seen, 0));
@@ -129,7 +210,7 @@ function drawFarthest() {
   const rows = countRows(false).map(farthestOf).filter(Boolean);
   if (rows.length === 0) return;
   show("farthest-section");
-  element("farthest").append(...rows.map((r) => pictureCard(drawPicture(r.kind, r.query, r.time), [
+  element("farthest").append(...rows.map((r) => pictureCard(r, [
     made("h3", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio, r)), small(`from ${r.provenance}`), fold("the query", r.query, r.file),
   ])));
 }
@@ -146,7 +227,7 @@ function drawExtremeTimes() {
     return side === "after" && late === after.reduce((a, b) => a + b, 0);
   };
   const what = (r) => (isLate(r) ? "late" : r.side === "early" ? "early" : "after t*");
-  element("extreme-times").append(...rows.map((r) => pictureCard(drawPicture(r.kind, r.query, r.time, r.toi), [
+  element("extreme-times").append(...rows.map((r) => pictureCard(r, [
     made("h3", `${r.subject} ${r.kind}`, isLate(r) ? { class: "bad" } : {}), made("div", `${what(r)} by ${short(r.error)} of the step`),
     small(`from ${r.provenance}`), fold("the query", r.query),
   ])));

@@ -198,7 +198,7 @@ function drawDistances() {
   }
   const used = values.filter((v) => v.count > 0).map((v) => v.begin);
   const hue = chosenColor();
-  const first = begins[Math.max(0, begins.indexOf(Math.min(...used)) - 1)];
+  const first = begins[Math.max(0, begins.findLastIndex((begin) => begin <= Math.min(0.1, ...used)) - 1)]; // left of the bound
   const label = `datum.value < ${begins[0] * 1.1} ? '0' : datum.value > ${ends[last] * 0.9} ? '∞' : digits(datum.value, 1)`;
   const decades = borders.filter((border, i) => i % 8 === 1 && border > 1.1 * first);
   const bound = { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
@@ -224,7 +224,7 @@ function drawDistances() {
   });
   return draw("distances", "The number of false positives at each distance, and the share of false positives up to each distance.", {
     data: { values: values.filter(isChosen) },
-    hconcat: kindNames.filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
+    columns: 2, concat: kindNames.filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
       panel(kind, "count", "false positives", "step-after", { scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } }),
       panel(kind, "share", "not farther", "linear", { scale: { domain: [0, 1] }, axis: { tickCount: 5, format: "%" } }),
     ] })),
@@ -251,7 +251,7 @@ function drawStages() {
       width: panelWidth(360, 30 + 6 * Math.max(...values.map((value) => value.row.length))), height: { step: 20 },
       mark: "bar",
       encoding: {
-        y: { field: "row", type: "nominal", title: null, axis: { labelLimit: 0 }, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },
+        y: { field: "row", type: "nominal", title: null, axis: { labelLimit: 0 }, sort: chosenNames().flatMap((name) => kindNames.map((kind) => `${name} ${kind}`)) },
         x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of positives", stack: "normalize", axis: { format: "%" } },
         color: { field: "stage", type: "nominal", title: "accepted by", sort: report.stages, scale: { domain: report.stages, range: palette } },
         order: { field: "stage", sort: "ascending" },

@@ -27,6 +27,7 @@ NEARMISS_ASSET(nearmiss_page_picker, NEARMISS_PAGE "/picker.js");
 NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
 NEARMISS_ASSET(nearmiss_page_turning, NEARMISS_PAGE "/turning.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
+NEARMISS_ASSET(nearmiss_page_viewer, NEARMISS_PAGE "/viewer.js");
 NEARMISS_ASSET(nearmiss_page_mesh, NEARMISS_PAGE "/mesh.js");
 NEARMISS_ASSET(nearmiss_page_error_time, NEARMISS_PAGE "/error_time.js");
 NEARMISS_ASSET(nearmiss_page_times, NEARMISS_PAGE "/times.js");
@@ -87,6 +88,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_tables_begin, nearmiss_page_tables_end),
                                       between(nearmiss_page_turning_begin, nearmiss_page_turning_end),
                                       between(nearmiss_page_picture_begin, nearmiss_page_picture_end),
+                                      between(nearmiss_page_viewer_begin, nearmiss_page_viewer_end),
                                       between(nearmiss_page_mesh_begin, nearmiss_page_mesh_end),
                                       between(nearmiss_page_picker_begin, nearmiss_page_picker_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),

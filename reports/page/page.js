@@ -305,16 +305,17 @@ function drawPart(draw) {
     element("headline").after(made("p", `A part of this page cannot be drawn (${draw.name}): ${error.message}`, { class: "bad" }));
   }
 }
-for (const draw of [drawHead, drawScorecard, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawSimulations, drawTimes, drawSlowest,
-  drawDeciders, drawOracle, drawPaper, drawFeatureDistances, drawAudit, drawPower, drawEnvironments, drawTightness, drawFindings, drawFarthest, drawExtremeTimes, drawHow])
+for (const draw of [drawHead, drawScorecard, drawExample, drawFindings, drawVersions, drawBaseline, drawUnits, drawCounts, drawScenes, drawScenePictures, drawSimulations, drawTimes, drawSlowest,
+  drawDeciders, drawOracle, drawPaper, drawFeatureDistances, drawAudit, drawPower, drawEnvironments, drawTightness, drawFarthest, drawExtremeTimes, drawHow])
   drawPart(draw);
 for (const id of ["by-class", "by-family"]) element(id).addEventListener("change", drawCounts);
 element("by-step").addEventListener("change", drawScenes);
 element("times-by-family").addEventListener("change", drawTimes);
 element("oracle-by-family").addEventListener("change", drawOracle);
+// A picture of error against run time says nothing about one or two subjects that their tables do not say.
 const charts = [
-  ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
-  ["earliness", drawEarliness, earlinessRows().length > 0],
+  ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 2],
+  ["earliness", drawEarliness, earlinessRows().length > 2],
   ["options-section", drawOptions, report.option_sweeps !== undefined],
   ["misses-section", drawMisses, missRows().some((row) => row.false_negatives > 0)],
   ["rates-section", drawRates, rateRows().length > 0],
@@ -325,7 +326,7 @@ const charts = [
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],
   ["simulated-steps", drawSimulatedSteps, report.simulations !== undefined],
   ["scene-steps", drawSceneSteps, funnelRows().some((row) => row.step > 0)],
-  ["scene-error-time", drawSceneErrorTime, new Set(askedRows().map((row) => row.scene)).size > 1],
+  ["scene-error-time", drawSceneErrorTime, new Set(askedRows().map((row) => row.scene)).size > 1 && new Set(askedRows().map((row) => row.subject)).size > 2],
 ].filter(([, , there]) => there);
 for (const [id] of charts) show(id);
 drawNavigation();
@@ -358,6 +359,9 @@ function drawCharts(some) {
     .then(() => call === calls && document.body.setAttribute("data-drawn", "true"));
 }
 drawCharts(charts);
+// Findings of a report without failure are below the charts.
+report.headline.clean ? drawing.then(showAddress) : showAddress();
+addEventListener("hashchange", showAddress);
 const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));
 const ofAll = charts.filter(([, chart]) => chart === drawEarliness || (chart === drawErrorTime && !report.error_against_time.ladder));
 if (hasPicker && ofSubjects.length > 0)

@@ -1,5 +1,5 @@
-// Draws a query: both primitives at t = 0, at t* or when closest, at the time that a subject gave, and at t =
-// 1, with the paths of their vertices.
+// Draws a query: both primitives at one time, pale at the start and at the end of the step and at the times that a
+// subject gave, with the paths of their vertices.
 "use strict";
 
 /** The primitives of each kind as lists of vertices, and what they are. */
@@ -10,85 +10,122 @@ const shapes = {
   ve: { primitives: [[0], [1, 2]], caption: "A vertex and an edge" },
 };
 
+function svgMade(tag, attributes, content = []) {
+  const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...[content].flat());
+  return node;
+}
+
+const minus = (a, b) => a.map((c, k) => c - b[k]);
+const along = (a, b, s) => a.map((c, k) => (1 - s) * c + s * b[k]);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+
 /**
- * A picture, with a legend if there is something to say: the separation, or the two times.
- * @param {string} kind as in kindTitles
- * @param {number[]} query six coordinates for each vertex; a separation other than 0 follows
- * @param {number} time in [0, 1]: t*, or when the primitives are closest
- * @param {number} [toi] the time that a subject gave for t*
+ * A query with its coordinates moved and scaled into [-1, 1]: `at` returns the places of its vertices at a time of its
+ * step, or of another step of the same vertices; `unit` is the length of 1.
  */
-function drawPicture(kind, query, time, toi) {
+function scaledQuery(query) {
   const x = query.slice(0, query.length - (query.length % 6));
-  const half = x.length / 2; // the coordinates at t = 1 begin here
-  const hasTwoTimes = toi !== undefined;
-  const size = 220;
-  const namespace = "http://www.w3.org/2000/svg";
-  const { primitives, caption } = shapes[kind];
+  const sides = [0, 1, 2].map((k) => {
+    const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // so that no difference overflows
+    return { middle: (Math.min(...all) + Math.max(...all)) / 2, half: (Math.max(...all) - Math.min(...all)) / 2 };
+  });
+  const half = Math.max(...sides.map((side) => side.half)) || 1;
+  const vertices = x.length / 6;
+  const place = (list, i) => sides.map(({ middle }, k) => (list[3 * i + k] / 4 - middle) / half);
+  return { unit: 4 * half,
+    at: (t, step = x) => Array.from({ length: vertices }, (_, i) => along(place(step, i), place(step, vertices + i), t)) };
+}
 
-  const at = (t) => primitives.flat().map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[half + 3 * i + k]));
-  const moments = [[0, "start"], [1, "end"], ...(hasTwoTimes ? [[toi, "given"]] : []), [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
+/** The point of the first primitive that is the closest to the second one, given the places of the vertices. */
+function closestPoint(kind, [x0, x1, x2, x3]) {
+  if (kind !== "ee") return x0;
+  const inside = (s) => Math.min(1, Math.max(0, s || 0));
+  const [d, e, r] = [minus(x1, x0), minus(x3, x2), minus(x0, x2)];
+  const s = inside((dot(d, e) * dot(e, r) - dot(d, r) * dot(e, e)) / (dot(d, d) * dot(e, e) - dot(d, e) ** 2));
+  const u = inside((dot(d, e) * s + dot(e, r)) / dot(e, e));
+  return along(x0, x1, inside((dot(d, e) * u - dot(d, r)) / dot(d, d)));
+}
 
-  /** The points, scaled and moved into [-1, 1]. */
-  function fitted(points) {
-    fitted.box ??= [0, 1, 2].map((k) => {
-      const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // so that no difference overflows
-      return { middle: (Math.min(...all) + Math.max(...all)) / 2, half: (Math.max(...all) - Math.min(...all)) / 2 };
+/** The part of a polygon inside a square; far outside, browsers draw inexactly. */
+function clipped(points, low, high) {
+  for (const [k, border, sign] of [[0, low, 1], [0, high, -1], [1, low, 1], [1, high, -1]]) {
+    const isInside = (p) => sign * (p[k] - border) >= 0;
+    points = points.flatMap((p, i) => {
+      const q = points[(i + 1) % points.length];
+      return [...(isInside(p) ? [p] : []), ...(isInside(p) === isInside(q) ? [] : [along([...p, 0], [...q, 0], (border - p[k]) / (q[k] - p[k])).slice(0, 2)])];
     });
-    const half = Math.max(...fitted.box.map((side) => side.half)) || 1;
-    return points.map((p) => p.map((c, k) => (c / 4 - fitted.box[k].middle) / half));
   }
+  return points;
+}
 
-  const turn = { yaw: -0.6, pitch: 0.5 };
-  /** The place of a point on the screen, in parallel projection. */
-  function seen([px, py, pz]) {
-    const across = Math.cos(turn.yaw) * px + Math.sin(turn.yaw) * py;
-    const depth = -Math.sin(turn.yaw) * px + Math.cos(turn.yaw) * py;
-    const up = Math.cos(turn.pitch) * pz + Math.sin(turn.pitch) * depth;
-    return [size / 2 + across * size * 0.29, size / 2 - up * size * 0.29].map((c) => c.toFixed(1));
+/**
+ * A picture that can be drawn again.
+ * @param shown {kind, query, time: t* or when the primitives are closest, toi: the time that a subject gave for t*,
+ * step: the step that it commits}; the last two may be missing
+ * @param size [width, height]
+ * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: that of a plane between the primitives}
+ */
+function makePicture({ kind, query, time, toi, step }, [width, height]) {
+  const { primitives, caption } = shapes[kind];
+  const { at } = scaledQuery(query);
+  const contact = closestPoint(kind, at(time));
+  const fit = (0.46 * height) / (Math.max(...[at(0), at(1)].flat().map((p) => Math.hypot(...p))) || 1); // whatever the turn
+  const others = [[at(0), "start"], [at(1), "end"], ...(toi === undefined ? [] : [[at(toi), "given"]]), ...(step ? [[at(1, step), "committed"]] : [])];
+  const svg = svgMade("svg", { viewBox: `0 0 ${width} ${height}`, class: toi === undefined ? "picture" : "picture two-times", role: "img",
+    "aria-label": `${caption} at t = 0, at t = ${time.toPrecision(4)}${toi === undefined ? "" : `, at t = ${toi.toPrecision(4)}`} and at t = 1, ` +
+      "with the paths of their vertices" });
+
+  function draw({ yaw, pitch, zoom, time: now, isLabelled, normal }) {
+    const far = 3 * width;
+    /** The place of a point on the screen, in parallel projection. The larger the picture, the nearer is the contact to its middle. */
+    const seen = (point) => {
+      const [px, py, pz] = point.map((c, k) => zoom * (c - contact[k]) + (zoom > 1 ? 1 / zoom : zoom) * contact[k]);
+      const depth = -Math.sin(yaw) * px + Math.cos(yaw) * py;
+      return [width / 2 + fit * (Math.cos(yaw) * px + Math.sin(yaw) * py), height / 2 - fit * (Math.cos(pitch) * pz + Math.sin(pitch) * depth)];
+    };
+    const polygon = (points, name) => {
+      const corners = clipped(points.map(seen), -far, far);
+      return corners.length < 2 ? [] : [svgMade("polygon", { points: corners.map((p) => p.map((c) => c.toFixed(1)).join(",")).join(" "), class: name })];
+    };
+    const circle = ([cx, cy], r, name) => (Math.max(Math.abs(cx), Math.abs(cy)) > far ? [] : [svgMade("circle", { cx: cx.toFixed(1), cy: cy.toFixed(1), r, class: name })]);
+    const places = at(now);
+    const moments = [...others, [places, "moment"]];
+    const plane = normal ? polygon(planeBetween(primitives.map((vertices) => vertices.map((i) => places[i])), normal), "plane") : [];
+    svg.replaceChildren(
+      ...primitives.flat().flatMap((i) => polygon([others[0][0][i], others[1][0][i]], "path")), ...plane,
+      ...moments.flatMap(([points, name]) => primitives.flatMap((vertices, which) => [
+        ...(vertices.length > 1 ? polygon(vertices.map((i) => points[i]), `${name} primitive${which}`) : []),
+        ...vertices.flatMap((i) => circle(seen(points[i]), vertices.length === 1 ? 4 : 2, `${name} primitive${which}`)),
+      ])),
+      ...(isLabelled ? [...circle(seen(contact), 9, "contact"), ...places.map(seen).map(([x, y], i) => svgMade("text", { x: x + 7, y: y - 7 }, `x${i}`))] : []));
   }
+  return { svg, draw };
+}
 
-  const svg = document.createElementNS(namespace, "svg");
-  svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
-  svg.setAttribute("class", hasTwoTimes ? "picture two-times" : "picture");
-  svg.setAttribute("role", "img");
-  svg.setAttribute("tabindex", "0");
-  svg.setAttribute("aria-label", `${caption} at t = 0, at t = ` +
-    `${time.toPrecision(4)}${hasTwoTimes ? `, at t = ${toi.toPrecision(4)}` : ""} and at t = 1, with the paths of their vertices; arrow keys turn the picture`);
-
-  function add(tag, attributes) {
-    const node = document.createElementNS(namespace, tag);
-    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-    svg.append(node);
-  }
-
-  function draw() {
-    svg.replaceChildren();
-    for (const i of primitives.flat()) {
-      const [x1, y1] = seen(moments[0].points[i]);
-      const [x2, y2] = seen(moments[1].points[i]);
-      add("line", { x1, y1, x2, y2, class: "path" });
-    }
-    for (const { name, points } of moments)
-      primitives.forEach((vertices, which) => {
-        const shown = `${name} primitive${which}`;
-        const corners = vertices.map((i) => seen(points[i]));
-        if (corners.length > 1) add("polygon", { points: corners.map((p) => p.join(",")).join(" "), class: shown });
-        for (const [cx, cy] of corners) add("circle", { cx, cy, r: corners.length === 1 ? 4 : 2, class: shown });
-      });
-  }
-
-  makeTurnable(svg, turn, 80, draw);
-  draw();
-  return made("figure", [svg, made("figcaption", pictureLegend(separationOf(query), time, toi))]);
+/** A square between two primitives, in the plane in the middle between their vertices along a normal. */
+function planeBetween(points, normal) {
+  const least = Math.min(...points[0].map((p) => dot(normal, p)));
+  const most = Math.max(...points[1].map((p) => dot(normal, p)));
+  const all = points.flat();
+  const middle = [0, 1, 2].map((k) => all.reduce((sum, p) => sum + p[k], 0) / all.length);
+  const unit = (v) => v.map((c) => c / Math.hypot(...v));
+  const side = unit(cross(normal, Math.abs(normal[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]));
+  const up = cross(normal, side);
+  const height = (least + most) / 2 - dot(normal, middle);
+  return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => middle.map((c, k) => c + height * normal[k] + 0.7 * (a * side[k] + b * up[k])));
 }
 
 /** A line for the separation, and one for each of two times. */
-function pictureLegend(separation, time, toi) {
+function pictureLegend({ query, time, toi, step }) {
   const line = (name, content) => made("div", [made("span", "", { class: `swatch ${name}` }), ` ${content}`]);
   const difference = toi - time;
   const against = difference === 0 ? "t*" : `t* ${difference > 0 ? "+" : "−"} ${short(Math.abs(difference))}`;
   return [
-    ...(separation > 0 ? [made("div", `h = ${short(separation)}`)] : []),
+    ...(separationOf(query) > 0 ? [made("div", `h = ${short(separationOf(query))}`)] : []),
     ...(toi === undefined ? [] : [line("moment", `t* = ${short(time)}`), line("given", `toi = ${against}`)]),
+    ...(step ? [line("committed", "end of the committed step")] : []),
   ];
 }

@@ -99,9 +99,7 @@ const againCell = ({ finding, clean }) => {
   const { again } = report.findings[finding];
   const button = copyButton(again, "copy");
   button.title = again;
-  const link = made("a", "show", { href: "#findings-section" });
-  link.addEventListener("click", () => showFinding(finding));
-  return [button, " ", link];
+  return [button, " ", findingLink("show", finding)];
 };
 
 /** Whether the subject failed; beyond its contract, nothing is a failure. */
@@ -193,8 +191,6 @@ function drawVersions() {
       element("broken").append(made("li", `${after} against ${before}: ${kind} is not compared, because one of them was not asked about it`));
     const index = report.findings.findIndex((each) => each.subject === after && each.broken_since === before);
     if (index < 0) continue;
-    const link = made("a", "simplest query that it breaks", { href: "#findings-section" });
-    link.addEventListener("click", () => showFinding(index));
-    element("broken").append(made("li", [`${after} against ${before}: the `, link, command(report.findings[index].again)]));
+    element("broken").append(made("li", [`${after} against ${before}: the `, findingLink("simplest query that it breaks", index), command(report.findings[index].again)]));
   }
 }

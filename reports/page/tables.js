@@ -119,7 +119,7 @@ const measures = {
 };
 const columnsOf = (...keys) => keys.map((key) => measures[key]);
 
-/** A button that copies text. */
+/** A button that copies text. Its title is text or a node. */
 function copyButton(content, title = "copy") {
   const button = made("button", title, { type: "button", class: "copy" });
   button.addEventListener("click", async () => {

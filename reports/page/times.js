@@ -115,10 +115,10 @@ function drawTimeErrors() {
     axis: { values: ticks.filter((place) => place >= first && place <= last), labelExpr: label } };
   const names = chosenNames().filter((name) => rows.some((row) => row.subject === name));
   const most = Math.max(...all.map((bin) => bin.count));
-  const strips = (kind, isFirst) => ({
+  const strips = (kind, hasNames) => ({
     title: kindTitles[kind], transform: [{ filter: `datum.kind === "${kind}"` }],
     facet: { row: { field: "row", title: null, sort: names.map((name) => rowName(rows, name)),
-      header: isFirst ? { labelAngle: 0, labelAlign: "left", labelPadding: 12 } : { labels: false } } },
+      header: hasNames ? { labelAngle: 0, labelAlign: "left", labelPadding: 12 } : { labels: false } } },
     spacing: 6,
     spec: {
       width: panelWidth(400, 330), height: 44,
@@ -132,10 +132,13 @@ function drawTimeErrors() {
     },
   });
   const kinds = kindNames.filter((kind) => rows.some((row) => row.kind === kind));
-  const values = all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last)
+  // A kind that a subject was not asked about has an empty strip, so that all strips stand in the lines of their names.
+  const empty = kinds.flatMap((kind) => names.map((subject) => ({ subject, kind, place: 0, count: 0 })));
+  const values = [...all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last),
+    ...empty.filter(({ subject, kind }) => !rows.some((row) => row.subject === subject && row.kind === kind))]
     .map((bin) => ({ ...bin, row: rowName(rows, bin.subject) }));
   return draw("time-errors", "The number of times at each difference from the exact earliest time, on both sides of 0.",
-    { data: { values }, hconcat: kinds.map((kind, i) => strips(kind, i === 0)) });
+    { data: { values }, columns: 2, concat: kinds.map((kind, i) => strips(kind, i % 2 === 0)) });
 }
 
 /** The name of a subject's strip, with the sort of the subject's times. */

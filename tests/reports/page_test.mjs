@@ -10,7 +10,7 @@ import { everyReportFollowsItsSchema } from "./page/schema.mjs";
 import { removeFolder } from "./page/session.mjs";
 import { drawsAMixOfRuns, drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects, showsWhatIsBeyondAContract } from "./page/subjects.mjs";
 import { fitsEveryMedium, showsEnvironments, showsThePowerOfDetection } from "./page/tables.mjs";
-import { showsSeparations, showsTimesOfImpact, showsWhichTimesAreLate } from "./page/times.mjs";
+import { namesEveryStripOfTimes, showsSeparations, showsTimesOfImpact, showsWhichTimesAreLate } from "./page/times.mjs";
 
 const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
@@ -27,6 +27,7 @@ try {
   await showsTimesOfImpact(browser);
   await showsSeparations(browser);
   await showsWhichTimesAreLate(browser);
+  await namesEveryStripOfTimes(browser);
   await showsSweeps(browser);
   await showsASingleValueBesideASweep(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);

@@ -8,6 +8,7 @@ export async function showsSubjectsWithTheNamesOfMembers(browser) {
   const page = await open(browser, makeReport("members", ["--cases", "600", "--no-shrink", "--subject", "toString=basic,constructor=wang"]));
   for (const name of ["toString", "constructor"])
     assert.equal(await page.locator("#rates svg text", { hasText: name }).count(), 1);
+  assert.ok((await page.locator("#findings-filter [name=subject] option").allTextContents()).includes("toString"));
   await page.close();
 }
 
@@ -66,15 +67,21 @@ export async function showsSweepsOfWhatIsNeverWrong(browser) {
 /** If a subject claims a bound of 0, the ratio of a false positive is infinite. */
 export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   const plugin = join(dirname(nearmiss), "plugins", "claims_exact.so");
-  const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,${plugin}`]));
+  const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,exact,${plugin}`]));
   const farthest = page.locator("#counts tbody tr:has-text('always') td:nth-child(9)");
   assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
   const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
   assert.ok((await ends("error-time")).includes("∞"));
   // One mark for each subject, and a cross for the failed one.
-  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 3);
+  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 4);
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
   await page.close();
+  // The bound is on the chart, also if all false positives are beyond it.
+  const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin]));
+  assert.ok((await beyond.locator("#distances .role-axis-label text").allTextContents()).includes("1"));
+  // The certificate of a refuted bound has a plane between the primitives.
+  assert.ok(await count(beyond, "#example .picture .plane") === 1);
+  await beyond.close();
 }
 
 /**

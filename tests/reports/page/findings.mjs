@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { count, folder, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
+import { count, folder, idOf, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
 async function checkVerdicts(page, report) {
   const verdicts = await page.locator(".verdict").allTextContents();
@@ -25,11 +25,7 @@ async function checkVerdicts(page, report) {
 }
 
 async function checkCharts(page, report) {
-  const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
-  // One point for each of 2 subjects, and a cross for the one that missed.
-  assert.deepEqual([await points(0), await points(1)], [3, 3]);
-  assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 2);
-  assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
+  assert.equal(await page.isVisible("#error-time-section"), false); // it says nothing about two subjects
   const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
     Object.entries(ofKind[kind].families).filter(([, each]) => each.false_positives > 0).map(([family]) => family)));
   assert.deepEqual(new Set(await page.locator("#rates .role-axis-label text").allTextContents().then((labels) =>
@@ -68,7 +64,7 @@ async function checkTables(page, report) {
 /** Every section with distances says that basic claims no bound, and marks its distances. */
 async function checkUnits(page) {
   const notes = await page.locator(".units:visible").allTextContents();
-  assert.ok(notes.length >= 4);
+  assert.ok(notes.length >= 3);
   for (const note of notes) assert.match(note, /^\*\* basic claims no bound\. These distances are in units of wang's bound/);
   const marks = (name) => page.locator(`#counts tbody tr:has(td:first-child:text-is("${name}")) td:has-text("**")`);
   assert.ok((await marks("basic").count()) > 0);
@@ -87,11 +83,12 @@ async function checkFindings(page, report) {
   assert.ok(common.length > 0);
   assert.deepEqual(common, report.common_factors.map((each) => `${each.subject} ${each.kind}, ${each.family}: ${each.text}.`));
   const first = report.findings[0];
-  assert.match(await page.textContent("#finding-0"), new RegExp(`${first.seen === 1 ? "seen once" : `seen ${first.seen.toLocaleString("en-US")} times`}`));
-  const shrunk = page.locator("#finding-0 pre").first();
+  const card = page.locator(`#${await idOf(page, 0)}`);
+  assert.match(await card.textContent(), new RegExp(`${first.seen === 1 ? "seen once" : `seen ${first.seen.toLocaleString("en-US")} times`}`));
+  const shrunk = card.locator("pre").first();
   assert.match(await shrunk.textContent(), /^x0 \(.*, .*, .*\)/);
   assert.equal(await shrunk.isVisible(), false);
-  await page.locator("#finding-0 summary").first().click();
+  await card.locator("summary").first().click();
   assert.equal(await shrunk.isVisible(), true);
 }
 
@@ -123,39 +120,77 @@ async function checkFilter(page, report) {
   assert.equal(await count(page, "#findings .card"), Math.min(48, report.findings.length));
   assert.equal(await page.evaluate(() => [...document.querySelectorAll("#findings .card")].indexOf(document.activeElement)), 24);
   await page.locator(".verdict.bad a", { hasText: "show" }).click();
-  await page.locator(`#finding-${report.verdicts[0].finding}`).waitFor();
+  await page.locator(`#${await idOf(page, report.verdicts[0].finding)}.open`).waitFor();
 }
 
-async function checkThatAPictureTurns(page) {
+/** A finding opens large: it turns, comes nearer, and runs through the step, as its plots do. */
+async function checkThatAFindingOpensLarge(page) {
   assert.equal(await count(page, "#findings svg.picture"), 24);
-  const picture = page.locator("#findings svg.picture").first();
+  const card = page.locator("#findings .card").first();
+  await card.locator(".thumbnail").click();
+  const picture = card.locator("svg.picture");
+  assert.ok((await picture.boundingBox()).width >= 600);
   assert.equal(await picture.locator(".moment.primitive0").count() > 0, true);
-  const drawn = () => picture.innerHTML();
-  const before = await drawn();
+  assert.deepEqual(await picture.locator("text").allTextContents(), ["x0", "x1", "x2", "x3"]);
+  assert.equal(await card.locator("svg.plot").count(), 2);
+  const seen = [await picture.innerHTML()];
+  const changes = async (act) => {
+    await act();
+    seen.push(await picture.innerHTML());
+    assert.equal(new Set(seen).size, seen.length);
+  };
   await picture.scrollIntoViewIfNeeded();
   const box = await picture.boundingBox();
-  await page.mouse.move(box.x + 60, box.y + 60);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 140, box.y + 90, { steps: 4 });
-  await page.mouse.up();
-  const byMouse = await drawn();
-  assert.notEqual(byMouse, before);
-  await picture.focus();
-  await page.keyboard.press("ArrowLeft");
-  assert.notEqual(await drawn(), byMouse);
+  await changes(async () => {
+    await page.mouse.move(box.x + 60, box.y + 60);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 140, box.y + 90, { steps: 4 });
+    await page.mouse.up();
+  });
+  await changes(() => page.keyboard.press("ArrowLeft"));
+  const plot = await card.locator("svg.plot").first().innerHTML();
+  await changes(() => card.getByRole("slider").fill("0.25"));
+  assert.equal(await card.locator("output").textContent(), "t = 0.25");
+  assert.notEqual(await card.locator("svg.plot").first().innerHTML(), plot);
+  await changes(() => card.getByRole("button", { name: "larger", exact: true }).click());
+  await changes(() => card.getByRole("button", { name: "play" }).click());
+  await card.getByRole("button", { name: "reduce the picture" }).click();
+  assert.equal(await card.locator(".thumbnail").count(), 1);
+}
+
+/**
+ * What failed comes first, then its simplest example, then the findings. A finding's address opens it in every report
+ * that has it.
+ */
+async function checkOrderAndAddresses(browser, page, report) {
+  const titles = await page.locator("nav a").allTextContents();
+  assert.deepEqual(titles.slice(0, 3), ["The simplest failure", `Findings (${report.findings.length})`, "The slowest queries"]);
+  assert.ok((await page.textContent("#example .card.open")).includes(report.findings[report.verdicts[0].finding].again));
+  run("report", "found.db", "-o", "again");
+  const id = await idOf(page, report.findings.length - 1);
+  const again = await open(browser, `${pageOf("again")}#${id}`);
+  assert.ok((await again.textContent(`#${id}.open`)).includes(report.findings.at(-1).again));
+  assert.ok(await again.locator(`#${id}`).evaluate((card) => Math.abs(card.getBoundingClientRect().top) < innerHeight / 2));
+  await again.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await again.locator(`#${id} .link`).click();
+  assert.equal(await again.evaluate(() => navigator.clipboard.readText()), `${pageOf("again")}#${id}`);
+  await again.evaluate(() => { location.hash = "#finding-gone"; });
+  await again.getByText("does not have the finding").waitFor();
+  await again.close();
 }
 
 /** The texts that the first finding's buttons copy: the command, the query, and its certificate. */
 async function checkCopies(page, report, command) {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  const card = page.locator(`#${await idOf(page, 0)}`);
   const copied = async (number) => {
-    const buttons = page.locator("#finding-0 button");
+    const buttons = card.locator("button.copy");
     await buttons.nth(number).click();
     await buttons.nth(number).and(page.getByText("copied", { exact: true })).waitFor();
     return page.evaluate(() => navigator.clipboard.readText());
   };
   assert.equal(await copied(0), command);
-  await page.locator("#finding-0 summary").first().click();
+  await card.locator("summary").first().click();
   assert.deepEqual((await copied(1)).split(" ").map(Number), report.findings[0].shrunk);
   assert.equal(await copied(2), report.findings[0].certificate);
   assert.equal(JSON.parse(report.findings[0].certificate).claim, "meets");
@@ -199,7 +234,8 @@ export async function showsFindings(browser) {
   await checkTables(page, report);
   await checkUnits(page);
   await checkFindings(page, report);
-  await checkThatAPictureTurns(page);
+  await checkThatAFindingOpensLarge(page);
+  await checkOrderAndAddresses(browser, page, report);
   await checkFilter(page, report);
   const command = await page.locator("#findings code").first().textContent();
   await checkCopies(page, report, command);
@@ -223,15 +259,15 @@ export async function showsVerticesAndEdges(browser) {
   const vertices = { vv: 2, ve: 3 };
   assert.deepEqual(new Set(findings.map(({ kind }) => kind)), new Set(Object.keys(vertices)));
   for (const [index, { kind, shrunk }] of findings.entries()) {
-    const lines = (await page.locator(`#finding-${index} pre`).first().textContent()).split("\n");
+    const lines = (await page.locator(`#${await idOf(page, index)} pre`).first().textContent()).split("\n");
     const place = (half, i) => [0, 1, 2].map((k) => shrunk[3 * (half * vertices[kind] + i) + k] + 0); // no -0
     const numbers = (line) => line.match(/-?[\d.]+(e[-+]?\d+)?/g).map(Number);
     const expected = [...Array(vertices[kind]).keys()].map((i) => [i, ...place(0, i), ...(String(place(0, i)) === String(place(1, i)) ? [] : place(1, i))]);
     assert.deepEqual(lines.map(numbers), [...expected, [shrunk.at(-1)]]);
-    const picture = page.locator(`#finding-${index} svg.picture`);
+    const picture = page.locator(`#${await idOf(page, index)} svg.picture`);
     assert.ok((await picture.getAttribute("aria-label")).startsWith(captions[kind]));
     assert.equal(await picture.locator("circle").count(), 3 * vertices[kind]); // at t = 0, t = 1, and between
-    assert.equal(await picture.locator("line.path").count(), vertices[kind]);
+    assert.equal(await picture.locator(".path").count(), vertices[kind]);
   }
   for (const kind of Object.keys(vertices)) {
     const { again, certificate, shrunk } = findings.find((each) => each.kind === kind);
@@ -249,6 +285,7 @@ export async function showsThatNothingWasFound(browser) {
   const page = await open(browser, makeReport("clean", ["--cases", "100", "--family", "uniform-slow"]));
   assert.equal(await count(page, ".verdict.bad"), 0);
   assert.match(await page.textContent("#findings-note"), /^None/);
+  assert.deepEqual((await page.locator("nav a").allTextContents()).slice(-3), ["Findings (0)", "Glossary", "How this was run"]);
   assert.equal(await count(page, "#findings .card"), 0);
   for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "environments-section", "tightness-section", "farthest-section",
     "times-section", "time-errors-section", "extreme-times-section"])
@@ -276,6 +313,11 @@ export async function showsTheBaseline(browser) {
   assert.equal(await count(page, "#headline.bad"), 1);
   assert.equal(await count(page, "#before-and-now tbody tr"), 4); // basic and wang, of both kinds
   assert.match(await page.textContent("#changed-facts"), /seed \(1 → 2\)/);
+  const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
+  // One point for each of 3 subjects, and a cross for each of the 2 that missed.
+  assert.deepEqual([await points(0), await points(1)], [5, 5]);
+  assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 4);
+  assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
   assert.doesNotMatch(await page.textContent("#findings"), /NEW since the baseline/);
   await page.close();
 }

@@ -44,3 +44,6 @@ export async function open(browser, url, options = {}) {
 }
 
 export const count = (page, selector) => page.locator(selector).count();
+
+/** The id of a finding's card, given the finding's place in report.json. */
+export const idOf = (page, index) => page.evaluate((i) => idOf(report.findings[i]), index);

@@ -119,7 +119,7 @@ export async function showsSeparations(browser) {
   }
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await page.locator("#extreme-times summary").first().click();
-  const button = page.locator("#extreme-times button").first();
+  const button = page.locator("#extreme-times button.copy").first();
   await button.click();
   await page.locator("#extreme-times").getByText("copied", { exact: true }).waitFor();
   assert.deepEqual((await page.evaluate(() => navigator.clipboard.readText())).split(" ").map(Number), jsonOf("apart").extreme_times[0].query);
@@ -144,4 +144,16 @@ export async function showsWhichTimesAreLate(browser) {
     assert.ok((await page.textContent("#extreme-times .card")).includes(text), text);
     await page.close();
   }
+}
+
+/** Each subject has a strip for each kind, also for one that it was not asked about, so that names stand at their strips. */
+export async function namesEveryStripOfTimes(browser) {
+  run("fuzz", "--subject", "exact", "--cases", "40", "--kind", "vt", "--family", "planted", "--db", "strips-exact.db");
+  run("fuzz", "--subject", "basic", "--cases", "40", "--kind", "ee", "--family", "planted", "--seed", "2", "--db", "strips-basic.db");
+  run("report", "strips-exact.db", "strips-basic.db", "-o", "strips");
+  const page = await open(browser, pageOf("strips"));
+  assert.deepEqual((await texts(page, "#time-errors .role-row-header text")).filter((text) => text.includes("(")),
+    ["basic (estimate)", "exact (lower bound)"]);
+  assert.equal(await count(page, "#time-errors .mark-area path"), 2 * 2);
+  await page.close();
 }
