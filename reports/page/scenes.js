@@ -61,8 +61,8 @@ function drawScenes() {
 }
 
 function drawScenePictures() {
-  for (const picture of report.pictures ?? [])
-    if (isStep(picture.step.replace(/ with .*$/, ""))) element("scene-pictures").append(drawMesh(picture));
+  const pictures = (report.pictures ?? []).filter(({ step }) => isStep(step.replace(/ with .*$/, "")));
+  if (pictures.length > 0) element("scene-pictures").append(drawMesh(pictures));
 }
 
 /** Draws the number of pairs, the subjects' answers, and the run time along the steps. */

@@ -48,7 +48,7 @@ function drawSimulations() {
     { title: "CCD", number: (r) => r.subject_ns, text: (r) => duration(1e-9 * r.subject_ns) },
   ], rows, true);
   for (const picture of report.pictures ?? [])
-    if (isSimulation(picture.step.replace(/ with .*$/, ""))) element("simulation-pictures").append(drawMesh(picture));
+    if (isSimulation(picture.step.replace(/ with .*$/, ""))) element("simulation-pictures").append(drawMesh([picture]));
 }
 
 /** Draws what each subject reported and missed, the tangles and the energy along the steps. */

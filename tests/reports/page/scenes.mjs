@@ -29,6 +29,11 @@ export async function showsSimulations(browser) {
   assert.equal(await count(page, "#simulations tbody tr:last-child td.bad"), 0);
   assert.equal(await count(page, "#simulated-steps .mark-line path"), 4 * 2);
   assert.equal(await count(page, "#simulation-pictures canvas.mesh"), 2);
+  const mesh = page.locator("#simulation-pictures canvas.mesh").first();
+  assert.ok((await mesh.boundingBox()).width >= 600);
+  const before = await mesh.evaluate((canvas) => canvas.toDataURL());
+  await page.getByRole("button", { name: "next tangle" }).first().click();
+  assert.notEqual(await mesh.evaluate((canvas) => canvas.toDataURL()), before);
   assert.match(await page.locator("#simulation-pictures .mesh-legend").first().textContent(), /tangled \(\d+\)/);
   assert.equal(await page.isVisible("#scenes-section"), false);
   await page.close();
@@ -68,4 +73,13 @@ export async function showsSceneStepsAndMeshes(browser) {
   await changes(() => page.getByRole("slider").first().fill("0"));
   assert.match(await page.locator(".mesh-legend").first().textContent(), /collides \(\d+\)/);
   await page.close();
+  run("report", "scene.db", "mat@300.db", "-o", "two-scenes");
+  const two = await open(browser, pageOf("two-scenes"));
+  const names = await two.locator(".mesh-controls select").first().locator("option").allTextContents();
+  assert.equal(names.length, 2);
+  for (const name of names) {
+    await two.locator(".mesh-controls select").first().selectOption(name);
+    assert.equal(await two.locator(".scene-picture strong").textContent(), name);
+  }
+  await two.close();
 }
