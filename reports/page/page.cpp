@@ -30,6 +30,7 @@ NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
 NEARMISS_ASSET(nearmiss_page_viewer, NEARMISS_PAGE "/viewer.js");
 NEARMISS_ASSET(nearmiss_page_mesh, NEARMISS_PAGE "/mesh.js");
 NEARMISS_ASSET(nearmiss_page_error_time, NEARMISS_PAGE "/error_time.js");
+NEARMISS_ASSET(nearmiss_page_misses_time, NEARMISS_PAGE "/misses_time.js");
 NEARMISS_ASSET(nearmiss_page_times, NEARMISS_PAGE "/times.js");
 NEARMISS_ASSET(nearmiss_page_cases, NEARMISS_PAGE "/cases.js");
 NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
@@ -93,6 +94,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_picker_begin, nearmiss_page_picker_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
                                       between(nearmiss_page_error_time_begin, nearmiss_page_error_time_end),
+                                      between(nearmiss_page_misses_time_begin, nearmiss_page_misses_time_end),
                                       between(nearmiss_page_times_begin, nearmiss_page_times_end),
                                       between(nearmiss_page_cases_begin, nearmiss_page_cases_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),

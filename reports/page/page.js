@@ -315,6 +315,7 @@ element("oracle-by-family").addEventListener("change", drawOracle);
 // A picture of error against run time says nothing about one or two subjects that their tables do not say.
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 2],
+  ["misses-time-part", drawMissesTime, report.error_against_time.ladder === undefined && ordinaryRows().some((row) => row.missed > 0) && ordinaryRows().length > 2],
   ["earliness", drawEarliness, earlinessRows().length > 2],
   ["options-section", drawOptions, report.option_sweeps !== undefined],
   ["misses-section", drawMisses, missRows().some((row) => row.false_negatives > 0)],
