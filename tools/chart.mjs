@@ -3,7 +3,7 @@
 // Usage: node tools/chart.mjs REPORT CHART OUT.svg|OUT.png
 //   REPORT  the folder of a report
 //   CHART   the id of a chart on its page, such as error-time, misses or distances; for a PNG file, of any element
-//   OUT     the file to write
+//   OUT     the file to write; a name that ends in -dark.svg gets the colours of a dark page
 import { existsSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -22,7 +22,8 @@ if (!existsSync(file)) refuse(`found no '${file}', expected the folder of a repo
 const { chromium } = await import("../reports/page/node_modules/playwright-core/index.mjs");
 const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
 try {
-  const page = await browser.newPage({ offline: true, viewport: { width: 1100, height: 800 } });
+  const isDark = out.endsWith("-dark.svg");
+  const page = await browser.newPage({ offline: true, viewport: { width: 1100, height: 800 }, colorScheme: isDark ? "dark" : "light" });
   await page.goto(pathToFileURL(file).href);
   await page.waitForSelector("body[data-drawn], body[data-error]");
   const part = page.locator(`[id="${chart.replace(/["\\]/g, "\\$&")}"]`);
@@ -32,14 +33,14 @@ try {
     await part.screenshot({ path: out });
     process.exit(0);
   }
-  const svg = await page.evaluate((id) => {
+  const svg = await page.evaluate(([id, fill]) => {
     const drawn = document.querySelector(`#${CSS.escape(id)} svg.marks`);
     if (!drawn) return undefined;
-    const white = document.createElementNS("http://www.w3.org/2000/svg", "rect");
-    for (const [name, value] of Object.entries({ width: "100%", height: "100%", fill: "white" })) white.setAttribute(name, value);
-    drawn.prepend(white); // so that it can be read on dark pages, too
+    const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
+    for (const [name, value] of Object.entries({ width: "100%", height: "100%", fill })) paper.setAttribute(name, value);
+    drawn.prepend(paper); // so that it can be read on any page
     return new XMLSerializer().serializeToString(drawn);
-  }, chart);
+  }, [chart, isDark ? "#0d1117" : "white"]);
   if (svg === undefined) refuse(`${file}: found no chart '${chart}'`);
   writeFileSync(out, `${svg}\n`);
 } finally {
