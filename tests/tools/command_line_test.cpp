@@ -149,7 +149,7 @@ TEST_F(CommandLine, SceneAsksAroundItsPairsIfTheyShowLittle) {
 }
 
 TEST_F(CommandLine, PrintsWhatMattersInTwelveLinesAndTheRestOnRequest) {
-  const std::string fuzz = "fuzz --subject basic,wang,exact --cases 4000";
+  const std::string fuzz = "fuzz --subject basic,wang,exact --cases 1000";
   const std::string brief = expect_code(1, fuzz).out;
   EXPECT_LE(std::count(brief.begin(), brief.end(), '\n'), 12) << brief;
   EXPECT_THAT(brief,

@@ -33,6 +33,7 @@ SHORTER = (
         r'nearmiss \1 --subject ./\1s.so --time 1s',
     ),
     (r'pipe:python3 ', f'pipe:{sys.executable} '),
+    (',safeccd,tight-inclusion:tolerance=1e-3', ''),  # they are not Debian's
     (r'bench corpus', 'bench few.vt --runs 1'),
     (r'replay corpus$', 'replay few.vt'),
     (r'\$\(nearmiss subjects --peers \| paste -sd,\)', 'bullet'),
