@@ -56,7 +56,8 @@ std::string what_is_true(const Query& query) {
                        to_exact(query.separation));
   const auto [lo, hi] = earliest->enclosure();
   if (lo == hi) return fmt::format("{}, first at t = {}.", what_happens(query), to_exact(lo));
-  return fmt::format("{}, first between t = {} and t = {}.", what_happens(query), to_hex(lo), to_hex(hi));
+  return fmt::format("{}, first at about t = {:.6g}, between {} and {}.", what_happens(query), lo, to_hex(lo),
+                     to_hex(hi));
 }
 
 /// The largest double that is not a late time. Throws Error if the distance first touches h without falling
@@ -236,8 +237,9 @@ std::string request(const std::vector<Asked>& functions, const Query& query, For
 Form parse_form(std::string_view text, std::string_view option) {
   if (text == "case") return Form::case_file;
   if (text == "c++") return Form::cpp;
+  if (text == "gtest") return Form::gtest;
   if (text == "python") return Form::python;
-  throw Error(fmt::format("{}: found '{}', expected case, c++ or python", option, printable(text)));
+  throw Error(fmt::format("{}: found '{}', expected case, c++, gtest or python", option, printable(text)));
 }
 
 std::string pasted_test(const Finding& finding, Form language) {
@@ -247,16 +249,22 @@ std::string pasted_test(const Finding& finding, Form language) {
   const bool python = language == Form::python;
   const std::string heading = comment(finding, python ? "#" : "//");
   const std::string proof = certificate(finding);
+  const std::string_view kind = topology(query.kind).name;
+  const std::string expected = expectation(finding, arguments, language);
+  const bool gtest = language == Form::gtest;
+  const std::string start = points(query, 0, language), end = points(query, 1, language);
+  if (python)
+    return fmt::format(
+        "{}{}{}def test_{}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n{}    assert {}\n", heading,
+        request(functions(finding), query, language), certificate_definition(proof), kind, start, end,
+        certificate_assertion(proof), expected);
   return fmt::format(
-      fmt::runtime(python ? "{}{}{}def test_{}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
-                            "{}    assert {}\n"
-                          : "{0}{1}{2}bool test_{3}() {{\n  const double start[{8}][3] = {{\n{4}  }};\n"
-                            "  const double end[{8}][3] = {{\n{5}  }};\n{6}  return {7};\n}}\n"),
-      heading, python ? "" : certificate_comment(proof),
-      request(functions(finding), query, language) + (python ? certificate_definition(proof) : ""),
-      topology(query.kind).name, points(query, 0, language), points(query, 1, language),
-      python ? certificate_assertion(proof) : "", expectation(finding, arguments, language),
-      vertices(query.kind));
+      "{0}{1}{2}{3}{4} {{\n  const double start[{5}][3] = {{\n{6}  }};\n  const double end[{5}][3] = "
+      "{{\n{7}  }};\n  {8};\n}}\n",
+      heading, certificate_comment(proof), gtest ? "#include <gtest/gtest.h>\n\n" : "",
+      request(functions(finding), query, language),
+      fmt::format(fmt::runtime(gtest ? "TEST(Ccd, {})" : "bool test_{}()"), kind), vertices(query.kind),
+      start, end, fmt::format(fmt::runtime(gtest ? "EXPECT_TRUE({})" : "return {}"), expected));
 }
 
 }  // namespace nearmiss::tools

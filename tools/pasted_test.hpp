@@ -10,9 +10,9 @@
 namespace nearmiss::tools {
 
 /// What `nearmiss shrink` prints: a case, or a test in a language.
-enum class Form : std::uint8_t { case_file, cpp, python };
+enum class Form : std::uint8_t { case_file, cpp, gtest, python };
 
-/// Parses "case", "c++" or "python". Throws Error that names the option.
+/// Parses "case", "c++", "gtest" or "python". Throws Error that names the option.
 Form parse_form(std::string_view text, std::string_view option);
 
 /// A test of one finding, as source code that needs nothing but a function `detects` of the maintainer.
@@ -21,7 +21,7 @@ Form parse_form(std::string_view text, std::string_view option);
 ///     bool detects(const double (&start)[4][3], const double (&end)[4][3]);  // adapt this
 ///     bool test_vertex_triangle();  // whether `detects` gives the right answer
 ///
-/// A comment contains the certificate of what the test expects (certificate_of), if there is one. The test in
+/// For GoogleTest, it is `TEST(Ccd, vertex_triangle)` instead. A comment contains the certificate of what the test expects (certificate_of), if there is one. The test in
 /// Python checks it first, with check.py (tools/certificates/).
 ///
 /// In Python, the test is `test_vertex_triangle()`, which asserts that the answer is right, and the points

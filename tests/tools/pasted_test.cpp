@@ -107,6 +107,13 @@ TEST_F(PastedTest, PassesIfTheDetectorIsRight) {
   EXPECT_EQ(printed_numbers(), numbers);
   EXPECT_FALSE(passes_in_python(tests.python, "test_vertex_triangle", "False"));
   EXPECT_THAT(read("error.txt"), HasSubstr("AssertionError"));
+  write("g.cpp", run("shrink " + arguments + " --as gtest").out +
+                     "#include <cstdlib>\nbool detects(const double (&)[4][3], const double (&)[4][3]) {\n"
+                     "  return std::getenv(\"HIT\") != nullptr;\n}\n");
+  EXPECT_TRUE(succeeds("g++ -std=c++17 -Wall -Wextra -Werror g.cpp -o g -lgtest -lgtest_main"));
+  EXPECT_TRUE(succeeds("HIT=1 ./g"));
+  EXPECT_FALSE(succeeds("./g"));
+  EXPECT_THAT(read("text.txt"), HasSubstr("Ccd.vertex_triangle"));
 }
 
 /// Replaces a part of a text, which must occur once.

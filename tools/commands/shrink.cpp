@@ -117,11 +117,12 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   options->separation.add_to(*command);
   command->add_option("-o,--output", options->out, "Write to this file instead of stdout")->type_name("FILE");
   command
-      ->add_option("--as", options->form,
-                   "What to print: a case, or a test in c++ or python to paste into the subject's own "
-                   "project; the tests "
-                   "contain a certificate of the right answer, and that in python checks it")
-      ->type_name("case|c++|python")
+      ->add_option(
+          "--as", options->form,
+          "What to print: a case, or a test in c++, for gtest or in python to paste into the subject's own "
+          "project; the tests "
+          "contain a certificate of the right answer, and that in python checks it")
+      ->type_name("case|c++|gtest|python")
       ->capture_default_str();
   command->footer(
       "\nTwo failures are the same if their kind is, and the features of the first contact (of a missed "
