@@ -9,7 +9,7 @@ set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 2)) || refuse "expected PACKAGES BUILD"
-packages=$(realpath "${arguments[0]}") queries=${arguments[1]}/tests/answered_queries
+packages=$(realpath "${arguments[0]}") plugins=$(realpath "${arguments[1]}")/plugins queries=${arguments[1]}/tests/answered_queries
 [[ -x $queries ]] || refuse "found no $queries (tools/setup builds it)"
 queries=$(realpath "$queries")
 cd "$(dirname "$script")/../.."
@@ -64,7 +64,10 @@ debian sh -c 'cmake -S nearmiss/tests/installed/trial -B /tmp/trial -DCMAKE_BUIL
 debian sh -c '/tmp/trial/gtest && /tmp/trial/catch'
 get purge -y libgtest-dev catch2
 install "$(cd "$root" && ls ./python3-nearmiss_*.deb)"
-debian python3 -B nearmiss/tests/python/trial_test.py /usr/bin/nearmiss
+mkdir "$root/plugins"
+cp "$plugins"/{cautious,hang}.so "$root/plugins"
+debian python3 -B nearmiss/tests/python/trial_test.py /usr/bin/nearmiss /plugins
+rm -r "$root/plugins"
 get purge -y nearmiss
 answers /tmp/without_tools
 get remove -y libnearmiss-dev libnearmiss-trial1 libnearmiss1 pkg-config

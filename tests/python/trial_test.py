@@ -1,11 +1,10 @@
 """Puts Python functions on trial.
-Usage: trial_test.py NEARMISS
+Usage: trial_test.py NEARMISS PLUGINS
 """
 
 import contextlib
 import io
 import json
-import pathlib
 import signal
 import subprocess
 import sys
@@ -15,8 +14,8 @@ import numpy as np
 
 import nearmiss
 
+PLUGINS = sys.argv.pop()
 NEARMISS = sys.argv.pop()
-PLUGINS = pathlib.Path(NEARMISS).parent / 'plugins'
 
 
 def sampled(kind, x, separation):
