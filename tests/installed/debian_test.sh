@@ -71,7 +71,7 @@ rm -r "$root/plugins"
 get purge -y nearmiss
 answers /tmp/without_tools
 get remove -y libnearmiss-dev libnearmiss-trial1 libnearmiss1 pkg-config
-debian python3 -B -c 'import nearmiss; assert nearmiss.collides("vt", [0] * 24)'
+debian python3 -B -c 'import nearmiss; assert nearmiss.collides("vt", [[0] * 3] * 8)'
 get remove -y python3-nearmiss
 debian apt-mark auto python3 >"$folder/log"
 get autoremove -y --purge
