@@ -20,7 +20,7 @@ namespace {
 
 /// The kind that the folder or the end of the file's name says.
 Kind kind_of_file(const std::filesystem::path& path) {
-  const auto folder = std::filesystem::absolute(path).parent_path().filename();
+  const auto folder = std::filesystem::absolute(path).lexically_normal().parent_path().filename();
   const std::string stem = path.stem().string();
   for (const Kind kind : kinds_of_meshes)
     if (const auto names = sample_names(kind); folder == names->folder || stem.ends_with(names->ending))
@@ -35,11 +35,17 @@ Kind kind_of_file(const std::filesystem::path& path) {
 class SeparateTruths {
  public:
   explicit SeparateTruths(const std::filesystem::path& csv)
-      : file_(sample_truths(std::filesystem::absolute(csv))) {
+      : file_(sample_truths(std::filesystem::canonical(std::filesystem::absolute(csv).parent_path()) /
+                            csv.filename())) {
+    if (std::filesystem::symlink_status(file_).type() == std::filesystem::file_type::not_found) return;
+    if (!std::filesystem::is_regular_file(file_))
+      throw Error(fmt::format("{}: found no file, expected the truths of {}", file_.string(), csv.string()));
     std::ifstream in(file_);
-    if (!in) return;
+    if (!in) throw Error(fmt::format("{}: cannot be read", file_.string()));
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     std::string_view left = text;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (left.starts_with(byte_order_mark)) left.remove_prefix(byte_order_mark.size());
     if (!skip(left, "[")) refuse(left);
     while (!skip(left, "]")) {
       if (!truths_.empty() && !skip(left, ",")) refuse(left);

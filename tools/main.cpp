@@ -99,6 +99,8 @@ void expect_options(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
   add_names_of_options(*app.get_subcommand(argv[1]), names);
+  for (const CLI::Option* option : app.get_options())  // such as --config
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (int i = 2; i < argc; ++i) {
     const std::string_view word = argv[i];
     if (word.starts_with("--") && word != "--")

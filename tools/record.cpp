@@ -217,9 +217,11 @@ void Record::add_unasked(const Subjects& subjects) {
   }
 }
 
-void Record::print_results(std::FILE* text, const Campaign& campaign) const {
+void Record::print_results(std::FILE* text, const Campaign& campaign, bool interrupted) const {
   const Failures failing = options_.fail_on.failures();
   const bool verbose = options_.verbose;
+  const bool shows_findings = verbose || options_.fail_on.exit_code(statistics_) != exit_fine;
+  if (interrupted) fmt::print(text, "INTERRUPTED; the results so far:\n");
   if (options_.summary)
     fmt::print(text, "{}",
                verbose ? summary_table(statistics_, failing)
@@ -232,7 +234,7 @@ void Record::print_results(std::FILE* text, const Campaign& campaign) const {
   print_broken(text, findings, statistics_);
   std::set<Signature> printed;  // prints one finding of each way to fail
   for (const Finding& each : findings) {
-    if (printed.size() == (verbose ? printed_if_verbose : 1)) break;
+    if (!shows_findings || printed.size() == (verbose ? printed_if_verbose : 1)) break;
     if (!verbose && is_only_shown(each.what) && failing == usual_failures()) continue;
     if (!printed.insert(signature_of(each)).second) continue;
     if (printed.size() == 1) fmt::print(text, "{}", verbose ? "\nthe first findings:\n" : "the simplest:\n");
@@ -252,7 +254,7 @@ int Record::finish(bool interrupted, bool complete) {
   end_on_signals();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
-  print_results(text, campaign);
+  print_results(text, campaign, interrupted);
   std::fflush(text);  // so that the text is shown even if the file cannot be written
   options_.json.write(summary_json(campaign));
   options_.ci.write(campaign, options_.fail_on.failures(), text);

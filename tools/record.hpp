@@ -80,7 +80,7 @@ class Record {
   void go_on();
   void save();
   void save_all();
-  void print_results(std::FILE* text, const Campaign& campaign) const;
+  void print_results(std::FILE* text, const Campaign& campaign, bool interrupted) const;
 
   RecordOptions options_;
   RunInfo info_;

@@ -233,7 +233,9 @@ TEST_F(Files, TruthsOfSampleQueriesMayStandInAFileOfTheirOwn) {
   const auto truths = [&](const std::string& text) {
     return write("cloth/mma_bool/92ee_mma_bool.json", text);
   };
-  truths("[ true,\n false ]\n");
+  truths("\xEF\xBB\xBF[ true,\n false ]\n");
+  std::filesystem::create_directory_symlink(csv.parent_path(), csv.parent_path().parent_path() / "linked");
+  EXPECT_EQ(read_all(csv.parent_path().parent_path() / "linked" / csv.filename()).at(0).truth, true);
   const auto cases = read_all(csv);
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_EQ(cases[0].query.kind, Kind::edge_edge);

@@ -129,6 +129,9 @@ class Trial(unittest.TestCase):
         ]
         self.assertEqual(sum(parts, nearmiss.Counts()), result.counts('sampled'))
         self.assertIn('sampled', repr(result))
+        for wrong in (lambda: result.counts('none'), lambda: result.counts('wang', family='none')):
+            with self.assertRaisesRegex(ValueError, "'none', expected one of "):
+                wrong()
 
     def test_finds_late_times(self):
         def late(kind, x, separation):

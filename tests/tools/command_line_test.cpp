@@ -141,10 +141,18 @@ TEST_F(CommandLine, SceneAsksAroundItsPairsIfTheyShowLittle) {
   const std::string scene = "scene start.obj end.obj --leave-out boxes --subject wang";
   const json families = json_of(0, scene)["subjects"]["wang"]["vt"]["families"];
   EXPECT_EQ(families["mesh"]["queries"], 5000);
-  EXPECT_THAT(read("error.txt"),
-              AllOf(HasSubstr("wang: 3 collisions show little: a miss rate below 63 % at 95 % confidence\n"
-                              "around them, 10,000 queries of the family mesh: wang missed 0 of "),
-                    HasSubstr("nearmiss fuzz --subject wang --mesh start.obj end.obj --family mesh")));
+  EXPECT_THAT(
+      read("error.txt"),
+      AllOf(
+          HasSubstr("wang: the scene's 3 collisions show little: a miss rate below 63 % at 95 % confidence\n"
+                    "around its pairs, 10,000 queries of the family mesh: wang missed 0 of "),
+          HasSubstr("nearmiss fuzz --subject wang --mesh start.obj end.obj --family mesh")));
+  // Findings around the pairs replace none of the scene.
+  expect_code(1, "scene spikes@100 --subject " + plugin("never") + " --around 300 --db a.db");
+  std::set<std::string> seen;
+  for (const json& finding : report_of("a.db", 1)["findings"])
+    EXPECT_TRUE(seen.insert(finding["provenance"].get<std::string>() + std::string(finding["what"])).second);
+  expect_refused(scene + " --around -3", {"--around"});
   EXPECT_FALSE(json_of(0, scene + " --around 0")["subjects"]["wang"]["vt"]["families"].contains("mesh"));
 }
 

@@ -95,13 +95,14 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
 
 int run(const Options& options) {
   NewFiles files(options.folder);
-  std::uint64_t count = 0;
+  std::uint64_t count = 0, wrong = 0;
   std::map<fs::path, std::vector<bool>> truths;  // of the files of "json"
   for (const fs::path& path : options.paths)
     read_cases(path, [&](Case&& each) {
       ++count;
       // Unlike collides(), this is true if the smallest distance is exactly the separation.
       const bool truth = earliest_time(each.query).has_value();
+      if (each.truth && *each.truth != truth && each.query.separation == 0) ++wrong;
       if (options.format == "case") {
         // Written at once, because the system limits the number of open files.
         each.truth = truth;
@@ -116,6 +117,9 @@ int run(const Options& options) {
     files.write(file, fmt::format("[{}]\n", fmt::join(of_queries, ", ")));
   files.finish();
   fmt::print("{} in {}\n", counted(count, "query", "queries"), options.folder.string());
+  if (wrong > 0)
+    fmt::print("{} wrong; the new files have the exact {}\n",
+               counted(wrong, "recorded truth was", "recorded truths were"), wrong == 1 ? "one" : "ones");
   return exit_fine;
 }
 

@@ -26,6 +26,7 @@
 #include "tools/scene_subjects.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -222,39 +223,44 @@ std::string what_few_collisions_show(const Statistics& statistics) {
     const Counts& counts = sum.counts;
     const double below = clopper_pearson_upper(counts.false_negatives, counts.collisions);
     if (counts.false_negatives > 0 || below <= much || is_beyond_contract(subject)) continue;
-    lines += fmt::format("{}: {} {} little: a miss rate below {:.2g} % at 95 % confidence\n", subject,
-                         counted(counts.collisions, "collision", "collisions"),
+    lines += fmt::format("{}: the scene's {} {} little: a miss rate below {:.2g} % at 95 % confidence\n",
+                         subject, counted(counts.collisions, "collision", "collisions"),
                          counts.collisions == 1 ? "shows" : "show", 100 * below);
   }
   return lines;
 }
 
-/// Asks queries around the scene's pairs. Returns a line about them; "" if the scene has no pairs of a kind, or
-/// too many to collect in a few seconds.
-std::string hunt_around(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
-                        const Stop& stop) {
+/// The family of queries around the scene's pairs; nothing if the scene has no pairs of a kind. Throws Stopped
+/// if there are too many pairs to collect them in a few seconds.
+std::optional<Family> family_around(const Options& options, const Scene& scene) {
   constexpr std::chrono::seconds patience(5);
+  Stop until(interrupted());
+  until.limit(patience);
+  try {
+    const Family family = mesh_family(scene, until);
+    return options.separation.is_given() ? with_separation(family, options.separation.text) : family;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// Asks queries of the family around the scene, and returns a line about them.
+std::string hunt_around(const Options& options, const Family& family, const Subjects& subjects,
+                        Record& record, const Stop& stop) {
   CampaignPlan plan;
+  plan.families = {family};
   plan.cases = options.around;
   plan.comparison = options.trial.comparison;
   plan.shrink = !options.trial.no_shrink;
   plan.jobs = options.trial.jobs;
-  try {
-    Stop until(interrupted());
-    until.limit(patience);
-    const Family family = mesh_family(scene, until);
-    plan.families.push_back(options.separation.is_given() ? with_separation(family, options.separation.text)
-                                                          : family);
-  } catch (const Error&) {
-    return "";
-  } catch (const Stopped&) {
-    return "";
-  }
-  const std::string name = plan.families.front().name;
+  const std::size_t before = record.findings().size();
   Progress progress(options.record.quiet);
-  run_campaign(
+  const CampaignProgress reached = run_campaign(
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
+        std::map<std::size_t, Finding> shrunk;  // by their numbers among all findings of the command
+        for (auto& [number, finding] : result.shrunk) shrunk[before + number] = std::move(finding);
+        result.shrunk = std::move(shrunk);
         record.add(std::move(result));
         if (progress.due())
           progress.show(fmt::format("asking around the scene, {} of {} queries", with_separators(now.cases),
@@ -264,9 +270,9 @@ std::string hunt_around(const Options& options, const Scene& scene, const Subjec
       stop);
   std::map<std::string, Counts> around;
   for (const auto& [key, counts] : record.statistics().counts)
-    if (key.family == name) around[key.subject].merge(counts);
-  std::string line =
-      fmt::format("around them, {} queries of the family {}:", with_separators(options.around), name);
+    if (key.family == family.name) around[key.subject].merge(counts);
+  std::string line = fmt::format(
+      "around its pairs, {} of the family {}:", counted(reached.cases, "query", "queries"), family.name);
   for (const auto& [subject, counts] : around)
     line += fmt::format("{} {} missed {} of {}", line.ends_with(':') ? "" : ";", subject,
                         with_separators(counts.false_negatives),
@@ -305,14 +311,25 @@ int run(Options options) {
   const Held held = hold_trials(options, scene, all.subjects, record, stop);
   fmt::print(text, "{}", held.scene);
   if (record.statistics().counts.empty())
-    fmt::print(text, "no subject was asked: the plan decides all pairs\n");
+    fmt::print(text,
+               "no subject was asked: the plan decides all pairs (--leave-out boxes asks about them)\n");
   if (!stop.is_requested()) record.add_unasked(all.subjects);
   std::string few = options.plan_only ? "" : what_few_collisions_show(record.statistics());
-  const bool is_own_bound = options.bounds == Options().bounds;  // another may be too small around the pairs
-  if (!few.empty() && options.around > 0 && is_own_bound && !stop.is_requested())
-    few += hunt_around(options, scene, all.subjects, record, stop);
+  std::string longer;
+  if (!few.empty() && !stop.is_requested()) {
+    const bool is_own_bound =
+        options.bounds == Options().bounds;  // another may be too small around the pairs
+    try {
+      const auto family = family_around(options, scene);
+      if (family) longer = longer_hunt(options);
+      if (family && options.around > 0 && is_own_bound)
+        few += hunt_around(options, *family, all.subjects, record, stop);
+    } catch (const Stopped&) {
+      longer = longer_hunt(options);
+    }
+  }
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
-  if (!few.empty()) fmt::print(text, "{}{}", few, longer_hunt(options));
+  fmt::print(text, "{}{}", few, longer);
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = held.asking.count();
   const double verifying = held.verification.seconds;
@@ -335,13 +352,10 @@ void add_scene_options(CLI::App& command, Options& options) {
       ->expected(1, 2);
   command.add_flag("--list", options.list, "List the built-in scenes and their sizes");
   command.add_flag("--weld", options.weld, "Merge points that coincide in the first frame");
-  command
-      .add_option(
-          "--around", options.around,
-          "If the collisions are so few that they show little, also ask this many queries around the "
-          "scene's pairs (the family mesh of nearmiss fuzz --mesh), unless --bound is given; 0 asks none")
-      ->capture_default_str()
-      ->type_name("N");
+  add_count_option(
+      command, "--around", options.around, 0, most_queries,
+      "If the collisions are so few that they show little, also ask this many queries around the "
+      "scene's pairs (the family mesh of nearmiss fuzz --mesh), unless --bound is given; 0 asks none");
 }
 
 void add_bound_options(CLI::App& command, Options& options) {

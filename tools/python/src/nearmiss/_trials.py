@@ -107,7 +107,7 @@ class Subject:
 class Counts:
     """Counters of a subject's answers."""
 
-    queries: int = 0  # queries that it was asked
+    queries: int = 0  # queries of its kinds, also those beyond its contract
     collisions: int = 0  # true collisions among the queries that it answered
     missed: int = 0  # collisions that it did not report
     false_positives: int = 0  # queries that it reported and that are not collisions
@@ -200,6 +200,13 @@ class TrialResult:
         self, subject: str, *, kind: Optional[KindLike] = None, family: Optional[str] = None
     ) -> Counts:
         """The counters of a subject, summed over kinds and families unless they are given."""
+        for what, name, known in (
+            ('subject', subject, self.subjects),
+            ('family', family, [None, *self.families]),
+        ):
+            if name not in known:
+                names = ', '.join(filter(None, known))
+                raise ValueError(f'found the {what} {name!r}, expected one of {names}')
         chosen = None if kind is None else kind_of(kind).value
         parts = (
             counts
