@@ -200,13 +200,12 @@ class TrialResult:
         self, subject: str, *, kind: Optional[KindLike] = None, family: Optional[str] = None
     ) -> Counts:
         """The counters of a subject, summed over kinds and families unless they are given."""
-        for what, name, known in (
-            ('subject', subject, self.subjects),
-            ('family', family, [None, *self.families]),
-        ):
-            if name not in known:
-                names = ', '.join(filter(None, known))
-                raise ValueError(f'found the {what} {name!r}, expected one of {names}')
+        if subject not in self.subjects:
+            known = ', '.join(self.subjects)
+            raise ValueError(f'found the subject {subject!r}, expected one of {known}')
+        if family is not None and family not in self.families:
+            known = ', '.join(self.families)
+            raise ValueError(f'found the family {family!r}, expected one of {known}')
         chosen = None if kind is None else kind_of(kind).value
         parts = (
             counts
