@@ -203,7 +203,7 @@ TEST_F(PastedTest, ExpectsATimeInTheStep) {
 
 TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
   expect_refused("shrink hit.vt --as rust --subject " + plugin("never"),
-                 {"--as", "'rust'", "case, c++ or python"});
+                 {"--as", "'rust'", "case, c++, gtest or python"});
 }
 
 class Certified : public CommandLine {
