@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -62,6 +63,8 @@ void keep_cheapest_within(const std::string& thickness, const Scene& scene, Leav
                           Subjects& subjects, std::FILE* out) {
   const double limit = parse_number(thickness, "--thickness");
   const auto all = claimed_precisions(scene, leave_out, subjects);
+  if (std::ranges::all_of(all, [](const ClaimedPrecision& each) { return each.ns_per_query == 0; }))
+    return fmt::print(out, "contact thickness {:g}: no pair needs a subject\n", limit);
   const ClaimedPrecision* const best = cheapest_within(all, limit);
   std::vector<std::vector<std::string>> rows{{"subject", "claimed distance", "ns/query", ""}};
   for (const ClaimedPrecision& each : all)

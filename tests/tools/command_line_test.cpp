@@ -133,7 +133,9 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   EXPECT_EQ(funnel["asked"], 0);
   EXPECT_EQ(funnel["touching"], 3);
   EXPECT_THAT(expect_code(0, scene + "--leave-out boxes --thickness 1e9 --subject wang").out,
-              HasSubstr("contact thickness 1e+09"));
+              HasSubstr("contact thickness 1e+09\nsubject"));
+  EXPECT_THAT(expect_code(0, scene + "--thickness 1 --subject wang").out,
+              HasSubstr("contact thickness 1: no pair needs a subject\n"));
 }
 
 TEST_F(CommandLine, SceneAsksAroundItsPairsIfTheyShowLittle) {
