@@ -5,9 +5,11 @@ Usage: trial_test.py NEARMISS PLUGINS
 import contextlib
 import io
 import json
+import os
 import signal
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -403,6 +405,45 @@ import nearmiss
             ValueError, r"kinds is \(\), expected some of 'vt', 'ee', 'vv' and 've'"
         ):
             nearmiss.Subject(never, kinds=[])
+
+
+class Record(unittest.TestCase):
+    def test_is_judged_as_answered(self):
+        code = """if True:
+            import nearmiss
+            misses = 0
+            for kind in ('vt', 'ee', 'vv', 've'):
+                x, separation = nearmiss.queries('uniform' if kind in ('vt', 'ee') else 'v-uniform', kind, 50)
+                v = {'vt': 4, 'ee': 4, 'vv': 2, 've': 3}[kind]
+                x = x[:, :, :v]
+                hits, toi = nearmiss.time_of_impact(kind, x, separation)
+                misses += int(hits.any())
+                hits[hits.argmax()] = False
+                nearmiss.record(kind, x, hits, toi, separation, keep=kind == 'vv')
+            try:
+                nearmiss.record('vt', x[0], True)
+            except ValueError as error:
+                print(error)
+            print(misses)
+            """
+        with tempfile.TemporaryDirectory() as folder:
+            file = f'{folder}/run.nmq'
+            run = subprocess.run(
+                [sys.executable, '-c', code],
+                env={**os.environ, 'NEARMISS_RECORD': file},
+                capture_output=True,
+                text=True,
+                check=True,
+            )
+            self.assertIn('expected (n, 2, 4, 3)', run.stdout)
+            command = [NEARMISS, 'replay', file, '--as-answered', '--json', '-']
+            judged = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(judged.returncode, 1, judged.stderr)
+        (kinds,) = json.loads(judged.stdout)['subjects'].values()
+        self.assertEqual([each['queries'] for each in kinds.values()], [50] * 4)
+        misses = sum(each['false_negatives'] for each in kinds.values())
+        self.assertGreater(misses, 0)
+        self.assertEqual(misses, int(run.stdout.split()[-1]))
 
 
 class Queries(unittest.TestCase):

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/nearmiss_record.h"
 #include "ccd/query/arithmetic.hpp"
 #include "oracle/interface/nearmiss.hpp"
 #include "tools/python/ending.hpp"
@@ -225,6 +226,15 @@ std::vector<std::optional<std::string>> certificates(const Queries& queries, int
   return texts;
 }
 
+/// Records n queries, (n, 6 v), and what a CCD answered; all other arrays are (n,).
+void record(int kind, const py::array_t<double, py::array::c_style>& x, const py::array_t<double>& separation,
+            const py::array_t<double>& tmax, const py::array_t<int>& answer, const py::array_t<double>& toi,
+            bool keep) {
+  for (py::ssize_t i = 0; i < x.shape(0); ++i)
+    nearmiss_record(kind, x.data(i), separation.at(i), tmax.at(i), answer.at(i), toi.at(i),
+                    keep ? NEARMISS_KEEP : 0);
+}
+
 }  // namespace
 }  // namespace nearmiss::python
 
@@ -244,6 +254,7 @@ PYBIND11_MODULE(_interface, module) {
   module.def("certificates", &certificates);
   module.def("wang", &answers<std::int8_t, nearmiss_wang>);
   module.def("wang_bound", &answers<double, nearmiss_wang_bound>);
+  module.def("record", &record);
   module.def("end_calls", &end_calls);
   pthread_atfork(nullptr, nullptr, forget_other_threads);
 }

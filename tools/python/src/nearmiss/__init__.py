@@ -38,6 +38,7 @@ from nearmiss._functions import (
 from nearmiss._finding import Finding
 from nearmiss._interface import version as __version__
 from nearmiss._queries import Kind, MeshPairs
+from nearmiss._record import record
 from nearmiss._trials import Counts, Findings, Subject, TrialResult, families, queries, trial
 
 __all__ = [
@@ -56,6 +57,7 @@ __all__ = [
     'earliest_time',
     'families',
     'queries',
+    'record',
     'smallest_distance',
     'time_of_impact',
     'trial',
