@@ -254,7 +254,7 @@ class Asked {
 template <class Settings>
 Settings owner_of(const Option<Settings>* /*option*/);
 
-/// What a function of a detector does: decides queries, gives a distance, or filters a step.
+/// The task of a detector's function: it decides queries, gives a distance, or filters a step.
 enum class Role { decide, measure, step };
 
 /// A function of a detector for primitives of a kind.

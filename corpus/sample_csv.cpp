@@ -13,6 +13,7 @@
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "corpus/line_reader.hpp"
+#include "corpus/query_text.hpp"
 
 namespace nearmiss {
 
@@ -43,9 +44,7 @@ class SeparateTruths {
     std::ifstream in(file_);
     if (!in) throw Error(fmt::format("{}: cannot be read", file_.string()));
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    std::string_view left = text;
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (left.starts_with(byte_order_mark)) left.remove_prefix(byte_order_mark.size());
+    std::string_view left = without_byte_order_mark(text);
     if (!skip(left, "[")) refuse(left);
     while (!skip(left, "]")) {
       if (!truths_.empty() && !skip(left, ",")) refuse(left);

@@ -15,7 +15,7 @@ namespace nearmiss {
 /// See read_cases. `path` determines the kind; errors name it.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
-/// What tells the kind of a file's queries: its folder, or the end of its name.
+/// The kind of a file's queries is that of its folder, or of the end of its name.
 struct SampleNames {
   std::string_view folder, ending;
 };

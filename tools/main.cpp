@@ -87,20 +87,20 @@ std::string help_for(int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' ? fmt::format("nearmiss {} --help", argv[1]) : "nearmiss --help";
 }
 
-/// The options of a command and of its groups of options.
-void add_names_of_options(const CLI::App& command, std::vector<std::string>& names) {
+/// Adds the names of a command's options, without those of its subcommands and groups of options.
+void add_options(const CLI::App& command, std::vector<std::string>& names) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (const CLI::App* group : command.get_subcommands({})) add_names_of_options(*group, names);
 }
 
 /// Throws Error for the first option that the subcommand does not have.
 void expect_options(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
+  const CLI::App& command = *app.get_subcommand(argv[1]);
   std::vector<std::string> names;
-  add_names_of_options(*app.get_subcommand(argv[1]), names);
-  for (const CLI::Option* option : app.get_options())  // such as --config
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  add_options(command, names);
+  for (const CLI::App* group : command.get_subcommands({})) add_options(*group, names);
+  add_options(app, names);  // such as --config
   for (int i = 2; i < argc; ++i) {
     const std::string_view word = argv[i];
     if (word.starts_with("--") && word != "--")

@@ -52,7 +52,7 @@ using plugin::Question;
 
 inline constexpr int of_the_form = -1;  ///< estimates for a function that returns optional, else no times
 
-/// What is asked, how long, and what the CCD promises.
+/// The queries of a trial, its length, and the promises of the CCD.
 struct TrialOptions {
   std::string name = "my_ccd";   ///< of a function, in the text; a detector has its own
   std::string families = "all";  ///< names with ',' between them (nearmiss fuzz --help)
@@ -109,7 +109,7 @@ constexpr bool is_time<std::optional<Number>> = std::is_floating_point_v<Number>
 
 template <class CCD>
 concept Batched = std::is_invocable_v<const CCD&, std::span<const Question>, std::span<plugin::Answer>>;
-/// What a function returns for one query, without const and &.
+/// The type that a function returns for one query, without const and &.
 template <class CCD>
 using Said = std::remove_cvref_t<std::invoke_result_t<const CCD&, const Question&>>;
 template <class CCD>
@@ -147,7 +147,7 @@ void decide(const CCD& ccd, int kind, std::size_t n, const double* x, const doub
   }
 }
 
-/// What the times of a function mean.
+/// The meaning of the times that a function returns.
 template <class CCD>
 int time_sort_of(int asked) {
   if constexpr (!Batched<CCD>) {
@@ -159,7 +159,7 @@ int time_sort_of(int asked) {
   return asked == of_the_form ? NEARMISS_NO_TIME : asked;
 }
 
-/// What the functions of a CCD's description get first.
+/// The first argument of the functions in a CCD's description.
 template <class CCD>
 void* pointer_to(const CCD& ccd) {
   return const_cast<void*>(static_cast<const void*>(&ccd));

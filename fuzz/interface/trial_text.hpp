@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// What the text says about how the trial was held.
+/// How the trial was held, as far as the text says it.
 struct TrialSetting {
   std::string subject;     ///< the detector's name, and the expression for it in the example
   std::string_view check;  ///< the macro of the example

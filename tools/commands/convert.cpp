@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,13 +12,13 @@
 #include <vector>
 
 #include "ccd/query/error.hpp"
-#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "corpus/sample_csv.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
+#include "tools/new_file.hpp"
 #include "tools/terminal.hpp"
 
 namespace nearmiss::tools {
@@ -34,11 +33,10 @@ struct Options {
   std::string format = "plain";
 };
 
-/// Makes the folder of a file. Throws Error if the file exists.
-fs::path new_file(fs::path file) {
+/// Makes the folder of a file.
+fs::path in_folder(fs::path file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
   return file;
 }
 
@@ -49,33 +47,19 @@ class NewFiles {
 
   void write(const fs::path& name, const std::string& text) {
     auto place = files_.find(name);
-    if (place == files_.end()) place = files_.try_emplace(name, folder_ / name).first;
-    if (!(place->second.out << text)) refuse(name);
+    if (place == files_.end()) place = files_.try_emplace(name, in_folder(folder_ / name)).first;
+    place->second.write(text);
   }
 
   /// Throws Error if something cannot be written.
   void finish() {
-    for (auto& [name, file] : files_) {
-      file.out.close();
-      if (!file.out) refuse(name);
-    }
-    for (auto& [name, file] : files_) file.part.put_in_place();
+    for (auto& [name, file] : files_) file.close();
+    for (auto& [name, file] : files_) file.put_in_place();
   }
 
  private:
-  struct File {
-    explicit File(const fs::path& file) : part(new_file(file)), out(part.path()) {}
-
-    PartFile part;
-    std::ofstream out;
-  };
-
-  [[noreturn]] void refuse(const fs::path& name) const {
-    throw Error(fmt::format("{}: cannot be written", (folder_ / name).string()));
-  }
-
   fs::path folder_;
-  std::map<fs::path, File> files_;
+  std::map<fs::path, NewFile> files_;
 };
 
 /// The query, with its exact truth, as lines of "plain", "csv" or "json"; its file.
@@ -106,7 +90,9 @@ int run(const Options& options) {
       if (options.format == "case") {
         // Written at once, because the system limits the number of open files.
         each.truth = truth;
-        write_case(each, new_file(options.folder / fmt::format("{:06}.case", count)));
+        const fs::path file = in_folder(options.folder / fmt::format("{:06}.case", count));
+        expect_new(file);
+        write_case(each, file);
         return;
       }
       const auto [file, text] = converted(options.format, each, truth);

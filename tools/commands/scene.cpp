@@ -3,10 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
-#include <fstream>
 
 #include "ccd/query/error.hpp"
-#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
 #include "fuzz/scenes/near_families.hpp"
@@ -22,6 +20,7 @@
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
+#include "tools/new_file.hpp"
 #include "tools/record.hpp"
 #include "tools/scene_subjects.hpp"
 #include "tools/terminal.hpp"
@@ -62,54 +61,27 @@ class Export {
  public:
   explicit Export(const fs::path& file) {
     if (file.empty()) return;
-    for (const Kind kind : kinds_of_meshes) {
-      const std::string name = fmt::format("{}.{}", file.string(), short_name(kind));
-      if (fs::exists(name)) throw Error(fmt::format("{}: exists already, expected a new file", name));
-      files_.try_emplace(kind, name);
-    }
+    for (const Kind kind : kinds_of_meshes)
+      files_.try_emplace(kind, fmt::format("{}.{}", file.string(), short_name(kind)));
   }
   /// Writes the pairs of a step that subjects are asked about. Throws Stopped.
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
-      File& file = files_.at(pairs.kind);
-      for (const Query& query : pairs.queries) file.out << to_line(query) << '\n';
-      file.write_out();
+      for (const Query& query : pairs.queries) files_.at(pairs.kind).write(to_line(query) + "\n");
     };
     follow_plan(Plan(mesh, leave_out, jobs, is_over), write, {}, is_over);
   }
-  /// Renames the temporary files to their final names, except empty files. Throws Error if something could
-  /// not be written.
+  /// Gives the files their names, except empty ones. Throws Error if something could not be written.
   void finish() {
     for (auto& [kind, file] : files_) {
-      const bool empty = file.out.tellp() == 0;
-      file.out.close();
-      if (!file.out) throw Error(fmt::format("{}: cannot be written", file.name));
-      if (!empty) file.part.put_in_place();
+      file.close();
+      file.put_in_place();
     }
   }
 
  private:
-  struct File {
-    explicit File(const std::string& place) : name(place), part(place), out(part.path()) {}
-
-    /// Writes the file out when it has grown much.
-    void write_out() {
-      constexpr std::streamoff much = 64 << 20;
-      const std::streamoff size = out.tellp();
-      if (size - written_out < much) return;
-      out.flush();
-      part.write_out();
-      written_out = size;
-    }
-
-    std::string name;
-    PartFile part;
-    std::ofstream out;
-    std::streamoff written_out = 0;
-  };
-
-  std::map<Kind, File> files_;
+  std::map<Kind, NewFile> files_;
 };
 
 /// The options that the results of a run depend on, and the command that repeats the run.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nearmiss._functions import certificate, earliest_time
+from nearmiss._queries import _LAYOUTS, kind_of
 
 # The lines between the vertices of the first and of the second primitive.
 _LINES: dict[str, tuple[list[tuple[int, int]], list[tuple[int, int]]]] = {
@@ -18,7 +19,6 @@ _LINES: dict[str, tuple[list[tuple[int, int]], list[tuple[int, int]]]] = {
     'vv': ([], []),
     've': ([], [(1, 2)]),
 }
-_VERTICES = {'vt': 4, 'ee': 4, 'vv': 2, 've': 3}
 _COLORS = ('#b2182b', '#2166ac')  # of the first primitive, and of the second
 _WIDTH, _HEIGHT, _MARGIN = 320, 240, 16  # of a picture, in pixels
 
@@ -136,7 +136,7 @@ def _picture(kind: str, places: NDArray[np.float64]) -> str:
 def finding_of(columns: dict[str, Any], explain: Callable[..., str]) -> Finding:
     """The finding whose properties are these, by the names of Findings."""
     kind: Any = str(columns['kind'])
-    count = _VERTICES[kind]
+    count = _LAYOUTS[kind_of(kind)].vertices
     shrunk = bool(columns['is_shrunk'])
     x = columns['shrunk'] if shrunk else columns['x']
     separation = columns['shrunk_separation'] if shrunk else columns['separation']

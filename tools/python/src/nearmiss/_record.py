@@ -5,9 +5,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing import Any
 
 from nearmiss import _interface
-from nearmiss._queries import KindLike, kind_of
-
-_KINDS = {'vt': (1, 4), 'ee': (2, 4), 'vv': (4, 2), 've': (8, 3)}  # numbers in C, and vertices
+from nearmiss._queries import _LAYOUTS, KindLike, kind_of
 
 
 def record(
@@ -31,7 +29,7 @@ def record(
     keep:    whether to keep these records longer, as for slow queries
     All but x are a number for all queries, or (n,).
     """
-    number, vertices = _KINDS[kind_of(kind).value]
+    number, vertices = _LAYOUTS[kind_of(kind)]
     rows = np.ascontiguousarray(x, np.float64)
     if rows.size % (6 * vertices) != 0 or rows.shape[-1:] != (3,):
         raise ValueError(

@@ -1,0 +1,34 @@
+// Files that a command writes, and that get their names when they are complete.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "corpus/file.hpp"
+
+namespace nearmiss::tools {
+
+/// Throws Error if the file exists.
+void expect_new(const std::filesystem::path& file);
+
+/// A new file, which has another name until it is complete.
+class NewFile {
+ public:
+  /// Throws Error if the file exists or cannot be made.
+  explicit NewFile(const std::filesystem::path& place);
+
+  void write(const std::string& text);
+  /// Throws Error if something could not be written.
+  void close();
+  /// Gives the file its name, unless it is empty. Call close() first.
+  void put_in_place();
+
+ private:
+  std::filesystem::path place_;
+  PartFile part_;
+  std::ofstream out_;
+  std::size_t size_ = 0, written_out_ = 0;
+};
+
+}  // namespace nearmiss::tools
