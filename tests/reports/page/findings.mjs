@@ -153,7 +153,10 @@ async function checkThatAFindingOpensLarge(page) {
   assert.equal(await card.locator("output").textContent(), "t = 0.25");
   assert.notEqual(await card.locator("svg.plot").first().innerHTML(), plot);
   await changes(() => card.getByRole("button", { name: "larger", exact: true }).click());
-  await changes(() => card.getByRole("button", { name: "play" }).click());
+  await changes(async () => {
+    await card.getByRole("button", { name: "play" }).click();
+    for (let i = 0; i < 250 && (await picture.innerHTML()) === seen.at(-1); ++i) await page.waitForTimeout(20); // the first frame
+  });
   await card.getByRole("button", { name: "reduce the picture" }).click();
   assert.equal(await card.locator(".thumbnail").count(), 1);
 }
