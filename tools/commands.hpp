@@ -30,6 +30,7 @@ void add_step(CLI::App& app, int& exit_code);
 void add_paper(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_history(CLI::App& app, int& exit_code);
 void add_audit(CLI::App& app, int& exit_code);
 void add_ladder(CLI::App& app, int& exit_code);
 void add_power(CLI::App& app, int& exit_code);

@@ -188,10 +188,10 @@ int run(int argc, char** argv) {
   app.footer(exit_codes);
 
   int exit_code = exit_fine;
-  for (const auto add : {add_demo,    add_fuzz,     add_replay,    add_shrink,  add_report,    add_merge,
-                         add_scene,   add_simulate, add_distance,  add_step,    add_ladder,    add_paper,
-                         add_audit,   add_power,    add_tightness, add_bench,   add_family,    add_oracle,
-                         add_certify, add_verdict,  add_subjects,  add_convert, add_completion})
+  for (const auto add : {add_demo,   add_fuzz,    add_replay,   add_shrink,    add_report,  add_history,
+                         add_merge,  add_scene,   add_simulate, add_distance,  add_step,    add_ladder,
+                         add_paper,  add_audit,   add_power,    add_tightness, add_bench,   add_family,
+                         add_oracle, add_certify, add_verdict,  add_subjects,  add_convert, add_completion})
     add(app, exit_code);
   add_configuration(app);
 

@@ -1,46 +1,6 @@
 // Charts of the numbers in report.json.
 "use strict";
 
-const style = getComputedStyle(document.documentElement);
-const color = (name) => style.getPropertyValue(name).trim();
-const words = { labelColor: color("--ink"), titleColor: color("--ink") };
-// Charts write numbers as the tables do.
-vega.expressionFunction("digits", (x, many) => (Number.isFinite(x) ? rounded(x, Number(many)) : short(x)));
-vega.expressionFunction("share", percent);
-const digits = (many) => ({ format: String(many), formatType: "digits" });
-const asShare = { formatType: "share" };
-const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
-  legend: { orient: "bottom", columns: 8, symbolLimit: 0, labelLimit: 0, ...words }, title: { color: color("--ink") }, header: words,
-  axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
-
-const drawn = {};
-
-/**
- * A copy in which strings such as "constructor", which every object has as a member, end in an invisible
- * character: Vega-Lite drops them from the domain of a scale.
- */
-function withoutMembers(value) {
-  if (typeof value === "string") return value in {} ? `${value}\u200b` : value;
-  if (Array.isArray(value)) return value.map(withoutMembers);
-  if (value === null || typeof value !== "object") return value;
-  return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, withoutMembers(each)]));
-}
-
-/**
- * Draws a chart in place of an earlier one. Makes no code from strings, so that the page's content policy
- * allows it.
- */
-async function draw(id, description, spec) {
-  const node = element(id);
-  node.style.minHeight = `${node.offsetHeight}px`; // keeps the page below from jumping
-  drawn[id]?.finalize();
-  drawn[id] = await vegaEmbed(node, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...withoutMembers(spec) },
-    { renderer: "svg", ast: true, actions: { export: true, source: false, compiled: false, editor: false } });
-  node.style.minHeight = "";
-  node.querySelector("summary").setAttribute("aria-label", "save this chart");
-  for (const nameless of node.querySelectorAll("[role=graphics-symbol]:not([aria-label])")) nameless.removeAttribute("role");
-}
-
 /** The width of each of two panels side by side, with room for their labels. */
 const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
 

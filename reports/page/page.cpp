@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
 #include <random>
 #include <string_view>
 
@@ -12,16 +13,20 @@
 #endif
 
 // The executable contains the files of the page: NEARMISS_ASSET(name, file) defines name_begin and name_end.
-#define NEARMISS_ASSET(name, file)          \
-  asm(".pushsection .rodata, \"a\"\n" #name \
-      "_begin:\n"                           \
-      ".incbin \"" file "\"\n" #name        \
-      "_end:\n"                             \
-      ".popsection\n");                     \
-  extern "C" const char name##_begin[], name##_end[]
+#define NEARMISS_ASSET(name, file)                    \
+  asm(".pushsection .rodata, \"a\"\n" #name           \
+      "_begin:\n"                                     \
+      ".incbin \"" file "\"\n" #name                  \
+      "_end:\n"                                       \
+      ".popsection\n");                               \
+  extern "C" const char name##_begin[], name##_end[]; \
+  const std::string_view name(name##_begin, static_cast<std::size_t>(name##_end - name##_begin))
 
 NEARMISS_ASSET(nearmiss_page_html, NEARMISS_PAGE "/page.html");
 NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
+NEARMISS_ASSET(nearmiss_page_history_html, NEARMISS_PAGE "/history.html");
+NEARMISS_ASSET(nearmiss_page_history, NEARMISS_PAGE "/history.js");
+NEARMISS_ASSET(nearmiss_page_drawing, NEARMISS_PAGE "/drawing.js");
 NEARMISS_ASSET(nearmiss_page_data, NEARMISS_PAGE "/data.js");
 NEARMISS_ASSET(nearmiss_page_picker, NEARMISS_PAGE "/picker.js");
 NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
@@ -48,10 +53,6 @@ namespace nearmiss {
 
 namespace {
 
-std::string_view between(const char* begin, const char* end) {
-  return {begin, static_cast<std::size_t>(end - begin)};
-}
-
 void replace(std::string& text, std::string_view what, const std::string& by) {
   text.replace(text.find(what), what.size(), by);
 }
@@ -76,39 +77,38 @@ std::string inside_script(const nlohmann::ordered_json& json) {
   return text;
 }
 
+/// A page of this HTML with JSON as its data, and scripts that draw it.
+std::string page_of(std::string_view html, const char* data, const nlohmann::ordered_json& json,
+                    std::initializer_list<std::string_view> files) {
+  const std::string nonce = make_nonce();
+  std::string scripts =
+      fmt::format("<script type=\"application/json\" id=\"{}\">\n{}\n</script>", data, inside_script(json));
+  for (const std::string_view each : files)
+    scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);
+  std::string page(html);
+  replace(page, "NONCE", nonce);
+  replace(page, "/* page.css */", std::string(nearmiss_page_css));
+  replace(page, "<!-- scripts -->", scripts);
+  return page;
+}
+
 }  // namespace
 
 std::string report_page(const nlohmann::ordered_json& report) {
-  const std::string nonce = make_nonce();
-  std::string scripts =
-      fmt::format("<script type=\"application/json\" id=\"report\">\n{}\n</script>", inside_script(report));
-  for (const std::string_view each : {between(nearmiss_page_vega_begin, nearmiss_page_vega_end),
-                                      between(nearmiss_page_vega_lite_begin, nearmiss_page_vega_lite_end),
-                                      between(nearmiss_page_vega_embed_begin, nearmiss_page_vega_embed_end),
-                                      between(nearmiss_page_data_begin, nearmiss_page_data_end),
-                                      between(nearmiss_page_tables_begin, nearmiss_page_tables_end),
-                                      between(nearmiss_page_turning_begin, nearmiss_page_turning_end),
-                                      between(nearmiss_page_picture_begin, nearmiss_page_picture_end),
-                                      between(nearmiss_page_viewer_begin, nearmiss_page_viewer_end),
-                                      between(nearmiss_page_mesh_begin, nearmiss_page_mesh_end),
-                                      between(nearmiss_page_picker_begin, nearmiss_page_picker_end),
-                                      between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
-                                      between(nearmiss_page_error_time_begin, nearmiss_page_error_time_end),
-                                      between(nearmiss_page_misses_time_begin, nearmiss_page_misses_time_end),
-                                      between(nearmiss_page_times_begin, nearmiss_page_times_end),
-                                      between(nearmiss_page_cases_begin, nearmiss_page_cases_end),
-                                      between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
-                                      between(nearmiss_page_simulations_begin, nearmiss_page_simulations_end),
-                                      between(nearmiss_page_ladder_begin, nearmiss_page_ladder_end),
-                                      between(nearmiss_page_options_begin, nearmiss_page_options_end),
-                                      between(nearmiss_page_scorecard_begin, nearmiss_page_scorecard_end),
-                                      between(nearmiss_page_js_begin, nearmiss_page_js_end)})
-    scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);
-  std::string page(between(nearmiss_page_html_begin, nearmiss_page_html_end));
-  replace(page, "NONCE", nonce);
-  replace(page, "/* page.css */", std::string(between(nearmiss_page_css_begin, nearmiss_page_css_end)));
-  replace(page, "<!-- scripts -->", scripts);
-  return page;
+  return page_of(
+      nearmiss_page_html, "report", report,
+      {nearmiss_page_vega,       nearmiss_page_vega_lite,   nearmiss_page_vega_embed, nearmiss_page_data,
+       nearmiss_page_tables,     nearmiss_page_drawing,     nearmiss_page_turning,    nearmiss_page_picture,
+       nearmiss_page_viewer,     nearmiss_page_mesh,        nearmiss_page_picker,     nearmiss_page_charts,
+       nearmiss_page_error_time, nearmiss_page_misses_time, nearmiss_page_times,      nearmiss_page_cases,
+       nearmiss_page_scenes,     nearmiss_page_simulations, nearmiss_page_ladder,     nearmiss_page_options,
+       nearmiss_page_scorecard,  nearmiss_page_js});
+}
+
+std::string history_page(const nlohmann::ordered_json& history) {
+  return page_of(nearmiss_page_history_html, "history", history,
+                 {nearmiss_page_vega, nearmiss_page_vega_lite, nearmiss_page_vega_embed, nearmiss_page_tables,
+                  nearmiss_page_drawing, nearmiss_page_history});
 }
 
 }  // namespace nearmiss

@@ -1,14 +1,7 @@
 // Draws the report. All numbers come from report.json; the page computes none of its own.
 "use strict";
 
-const element = (id) => document.getElementById(id);
-
-/** Shows a section; sections without data stay hidden. */
-const show = (id) => element(id).removeAttribute("hidden");
-
 // --- head -----------------------------------------------------------------------------------------
-
-const duration = (s) => (s < 120 ? `${short(s)} s` : s < 7200 ? `${short(s / 60)} min` : `${short(s / 3600)} h`);
 
 function drawHead() {
   const { clean, text: headline } = report.headline;

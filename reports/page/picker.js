@@ -5,11 +5,6 @@
 const subjectNames = Object.keys(report.subjects);
 const fewSubjects = 8;
 const hasPicker = subjectNames.length > fewSubjects;
-const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
-
-// Okabe and Ito's colours, which colour-blind people can distinguish.
-const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47",
-  isDark ? "#9a7fe0" : "#5e3c99", isDark ? "#f2f2f2" : "#1b1b1b", "#a2b627", "#f28e8e"];
 
 /**
  * Subjects in the order of their names; if there are many, grouped by algorithm and sorted from few digits to

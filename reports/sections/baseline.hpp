@@ -32,11 +32,12 @@ struct SubjectCode {
 SubjectCode code_of(const Campaign& campaign, const std::string& subject);
 
 /// When the baseline saw a signature: the dates of the first and the last of its campaigns that saw it, the
-/// subject's code in these two, and the number of such campaigns.
+/// subject's code in these two, the number of such campaigns, and the next other code of the subject in the
+/// baseline, which did not show the signature; empty if there is none.
 struct Sightings {
   std::string first, last;
   std::size_t campaigns = 0;
-  SubjectCode first_code = {}, last_code = {};
+  SubjectCode first_code = {}, last_code = {}, next_code = {};
 
   bool operator==(const Sightings&) const = default;
 };

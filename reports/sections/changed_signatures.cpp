@@ -60,14 +60,22 @@ std::map<Signature, Sightings> sightings_in(std::span<const Campaign> campaigns)
   for (const Campaign& each : campaigns) {
     const std::string date = date_of(each);
     std::map<std::string, SubjectCode> codes;
+    const auto code = [&](const std::string& subject) -> const SubjectCode& {
+      const auto [of_subject, is_unknown] = codes.try_emplace(subject);
+      if (is_unknown) of_subject->second = code_of(each, subject);
+      return of_subject->second;
+    };
+    for (auto& [signature, sightings] : all)
+      if (sightings.next_code == SubjectCode{} && each.statistics.queries_of(signature.subject) != 0 &&
+          code(signature.subject) != sightings.last_code)
+        sightings.next_code = code(signature.subject);
     for (const auto& [signature, times] : each.statistics.seen) {
-      const auto [of_subject, is_unknown] = codes.try_emplace(signature.subject);
-      if (is_unknown) of_subject->second = code_of(each, signature.subject);
-      const SubjectCode& code = of_subject->second;
-      const auto [place, is_first] = all.try_emplace(signature, Sightings{date, date, 0, code, code});
-      place->second.last = date;
-      place->second.last_code = code;
-      ++place->second.campaigns;
+      Sightings& sightings =
+          all.try_emplace(signature, Sightings{date, date, 0, code(signature.subject)}).first->second;
+      sightings.last = date;
+      sightings.last_code = code(signature.subject);
+      sightings.next_code = {};
+      ++sightings.campaigns;
     }
   }
   return all;
@@ -232,11 +240,14 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, Cha
   }
 }
 
-/// "in version 2" or "since sha256 0123456789ab" if the code has changed; "" otherwise.
-std::string fixed_text(const SubjectCode& then, const SubjectCode& now) {
-  if (now == then || now.text().empty() || then.text().empty()) return "";
-  return now.version != then.version && !now.version.empty() ? "in version " + now.version
-                                                             : "since " + now.build;
+/// "in version 2" or "since sha256 0123456789ab": the first other code after the signature was last seen; "" if the code
+/// has not changed.
+std::string fixed_text(const Sightings& seen, const SubjectCode& now) {
+  const SubjectCode& then = seen.last_code;
+  const SubjectCode& next = seen.next_code == SubjectCode{} ? now : seen.next_code;
+  if (next == then || next.text().empty() || then.text().empty()) return "";
+  return next.version != then.version && !next.version.empty() ? "in version " + next.version
+                                                               : "since " + next.build;
 }
 
 }  // namespace
@@ -269,7 +280,7 @@ ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campai
   find_new(now.statistics, baseline, before, risk, changes);
   find_gone(now.statistics, before, risk, changes);
   for (const Signature& each : changes.gone_signatures)
-    if (const std::string text = fixed_text(changes.sightings.at(each).last_code, code_of(now, each.subject));
+    if (const std::string text = fixed_text(changes.sightings.at(each), code_of(now, each.subject));
         !text.empty())
       changes.fixed.emplace(each, text);
   return changes;

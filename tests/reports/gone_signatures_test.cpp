@@ -113,6 +113,11 @@ TEST(Gone, IsFixedIfTheCodeHasChanged) {
   EXPECT_EQ(json["gone_signatures"][0]["fixed"], "in version 3");
   EXPECT_EQ(json["gone_signatures"][0]["first_code"], "version 1");
   EXPECT_EQ(json["gone_signatures"][0]["last_code"], "version 2");
+  // The fix is in the first other code that did not show the signature, not in the code of this campaign.
+  auto nights = before;
+  nights.push_back(night("3", {}, "2", "b"));
+  nights.push_back(night("4", {}, "3", "c"));
+  EXPECT_THAT(describe(changes(night("5", {}, "4", "d"), nights)), HasSubstr("fixed in version 3: "));
 }
 
 TEST(Gone, OfABuiltInSubjectIsFixedInAVersionOfNearmiss) {

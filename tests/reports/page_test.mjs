@@ -4,6 +4,7 @@ import { hasNoBarriers, staysQuickWithManyFindings } from "./page/access.mjs";
 import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSubjectsWithTheNamesOfMembers, showsASingleValueBesideASweep, showsSweepsOfWhatIsNeverWrong, showsValuesOfOptions, showsWhatDecides, showsWhereCollisionsAreMissed } from "./page/charts.mjs";
 import { showsFindings, showsVersions, showsVerticesAndEdges, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
 import { answersBeforeScrolling } from "./page/first_screen.mjs";
+import { showsTheNights } from "./page/history.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes, showsSimulations } from "./page/scenes.mjs";
 import { everyReportFollowsItsSchema } from "./page/schema.mjs";
@@ -24,6 +25,7 @@ try {
   await showsVersions(browser);
   await showsTheBaseline(browser);
   await showsWhatIsNewSinceTheBaseline(browser);
+  await showsTheNights(browser);
   await showsTimesOfImpact(browser);
   await showsSeparations(browser);
   await showsWhichTimesAreLate(browser);

@@ -55,6 +55,19 @@ expect_said '^not in the baseline: basic$'
 expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 "$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
+# --notify gets the verdict and the page. That it fails or hangs changes no exit code.
+notified() { expect "expected '$1', found '$(<"$folder/notified")'" grep -qE "$1" "$folder/notified"; }
+# shellcheck disable=SC2016  # the command of --notify expands them
+night 1 --subject wang,basic --notify 'printf "%s|%s\n" "$1" "$2" >"'"$folder"'/notified"; exit 7'
+notified "^nearmiss: alarm: basic missed .*\|$folder/the nights/2[^/]*Z/report/index.html$"
+expect_said 'failed with exit code 7'
+sed 's/ 60 bash/ 1 bash/' tools/nightly >tools/impatient && chmod +x tools/impatient
+sleep_until_next_second
+tools/impatient --results "$folder/the nights" --subject wang --notify 'trap "" TERM; sleep 100' &>"$folder/said" || fail "expected exit code 0"
+expect_said 'failed with exit code 137'
+rm tools/impatient
+# The history has all nights.
+expect "expected a row for each night" test "$(grep -oE '"page": ?"2[^"]*/report/index.html"' "$folder/the nights/index.html" | sort -u | wc -l)" = 4
 # A night with lasting failures fails. The baseline has these failures, although the night before does not.
 night 0 --subject wang
 night 1 --subject=wang,basic

@@ -7,16 +7,20 @@ import { count, folder, open, pageOf } from "./session.mjs";
 
 const axe = readFileSync(new URL("../../../reports/page/node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 
+/** The barriers that axe-core finds on a page. */
+export async function axeViolations(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => axe.run({ resultTypes: ["violations"], selectors: false }));
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.length} times, such as ${nodes[0].html.slice(0, 200)} (${nodes[0].failureSummary})`);
+}
+
 /** axe-core finds no barriers, in both themes and on a phone. */
 export async function hasNoBarriers(browser) {
   const [light, dark, phone] = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }];
   for (const [name, ...all] of [["found", light, dark, phone], ["timed", dark], ["many", phone], ["clean", light], ["later", dark], ["decided", light], ["options", light, dark]])
     for (const options of all) {
       const page = await open(browser, pageOf(name), options);
-      await page.evaluate(axe);
-      const { violations } = await page.evaluate(() => axe.run({ resultTypes: ["violations"], selectors: false }));
-      assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.length} times, such as ${nodes[0].html.slice(0, 200)} (${nodes[0].failureSummary})`), [],
-        `${name} ${JSON.stringify(options)}`);
+      assert.deepEqual(await axeViolations(page), [], `${name} ${JSON.stringify(options)}`);
       await page.close();
     }
 }

@@ -1,0 +1,166 @@
+// The history of nights, from their reports.
+#include "reports/history.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/refused.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::ordered_json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string contact = "vt simple-root inside in-face";
+
+/// What a night's report says of the plug-in `mine`.
+struct Said {
+  std::string version;
+  std::vector<std::string> seen = {}, created = {}, gone = {};  // signatures
+  std::vector<std::string> worse = {};                          // families
+  double slower = 0;                                            // now / expected
+  double ns = 100;
+};
+
+class HistoryOfNights : public testing::TemporaryFolder {
+ protected:
+  static ordered_json way(const std::string& signature) {
+    return {{"what", "false-negative"}, {"subject", "mine"}, {"signature", signature}, {"seen", 7}};
+  }
+
+  static ordered_json ways(const std::vector<std::string>& signatures) {
+    ordered_json list = ordered_json::array();
+    for (const auto& each : signatures) list.push_back(way(each));
+    return list;
+  }
+
+  /// Writes the report of a night of November.
+  void write_night(int day, const Said& said, int baseline_until = 0) {
+    const auto date = [](int of) { return fmt::format("2026-11-{:02}T22:00:00Z", of); };
+    ordered_json report{
+        {"runs",
+         {{{"version", "1.0.0"},
+           {"plug-in mine sha256", "0123456789abcdef"},
+           {"plug-in mine version", said.version},
+           {"cases_done", 1000},
+           {"started", date(day)},
+           {"seconds", 2.5}}}},
+        {"headline", {{"clean", said.seen.empty()}, {"text", "the headline"}}},
+        {"signatures", ways(said.seen)},
+        {"verdicts",
+         {{{"subject", "mine"},
+           {"clean", said.seen.empty()},
+           {"text", "the verdict"},
+           {"counts", {{"queries", 1000}, {"false_positive_rate", 0.5}, {"ns_per_query", said.ns}}},
+           {"classes", {{"ordinary", {{"collisions", 100}, {"false_negatives", 3}, {"stuck", 1}}}}}}}}};
+    if (baseline_until != 0) {
+      ordered_json& baseline = report["baseline"];
+      baseline["runs"] = ordered_json::array({{{"started", date(baseline_until)}}});
+      baseline["new_signatures"] = ways(said.created);
+      baseline["gone_signatures"] = ways(said.gone);
+      for (auto& each : baseline["gone_signatures"]) each["fixed"] = "in version " + said.version;
+      baseline["changed_rates"] = ordered_json::array();
+      for (const auto& family : said.worse)
+        baseline["changed_rates"].push_back({{"what", "false negatives"},
+                                             {"subject", "mine"},
+                                             {"kind", "vt"},
+                                             {"family", family},
+                                             {"worse", true},
+                                             {"before", {{"count", 1}, {"total", 1000}}},
+                                             {"now", {{"count", 30}, {"total", 1000}}}});
+      baseline["changed_times"] = ordered_json::array();
+      if (said.slower != 0)
+        baseline["changed_times"].push_back({{"subject", "mine"},
+                                             {"kind", "vt"},
+                                             {"family", "all families"},
+                                             {"slower", true},
+                                             {"ratio", said.slower}});
+    }
+    write(fmt::format("2026-11-{:02}/report/report.json", day), report.dump());
+  }
+
+  /// "05 new 1", for each event of each night.
+  [[nodiscard]] std::vector<std::string> events() const {
+    std::vector<std::string> all;
+    for (const Night& night : read_history(file("")).nights)
+      for (const NightEvent& each : night.events)
+        all.push_back(fmt::format("{} {} {}", night.name.substr(8), each.what, each.count));
+    return all;
+  }
+};
+
+TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
+  write_night(1, {.version = "1"});
+  write_night(2, {.version = "1"}, 1);
+  write_night(3, {.version = "2", .seen = {"a", "b"}, .created = {"a", "b"}, .worse = {"uniform"}}, 2);
+  // Later evidence of the same change: more ways to fail, and other families.
+  write_night(4, {.version = "2", .seen = {"a", "c"}, .created = {"c"}, .worse = {"uniform", "sliver"}}, 3);
+  write_night(5, {.version = "3", .gone = {"a", "b"}, .slower = 4, .ns = 400}, 4);
+  write_night(6, {.version = "3", .gone = {"a", "b", "c"}, .slower = 3.5, .ns = 390}, 5);
+  write_night(7, {.version = "4", .gone = {"a", "b", "c"}, .ns = 390}, 6);  // the baseline got used to it
+  write_night(8, {.version = "5", .gone = {"a", "b", "c"}, .ns = 110}, 7);
+  write_night(9, {.version = "6", .seen = {"a"}, .created = {"a"}}, 8);
+  EXPECT_THAT(events(), ElementsAre("03 version 1", "03 new 2", "03 worse 1", "05 version 1", "05 slower 1",
+                                    "05 gone 2", "07 version 1", "08 version 1", "08 faster 1",
+                                    "09 version 1", "09 new 1"));
+  const History history = read_history(file(""));
+  ASSERT_EQ(history.ways.size(), 3);
+  const auto& [a, c, b] = std::tie(history.ways[0], history.ways[1], history.ways[2]);
+  EXPECT_EQ(a.signature + c.signature + b.signature, "acb");
+  EXPECT_TRUE(a.lasts);
+  EXPECT_EQ(a.fixed, "");
+  EXPECT_EQ(std::tuple(a.first, a.last, a.nights, a.seen), std::tuple(2, 8, 3, 21));
+  EXPECT_EQ(std::tuple(b.first, b.last, b.lasts, b.gone, b.fixed),
+            std::tuple(2, 2, false, 4, "in version 3"));
+  const ordered_json json = history_json(history);
+  EXPECT_EQ(json["nights"][2]["events"][0]["text"], "version 2, before version 1");
+  EXPECT_EQ(json["nights"][2]["events"][2]["text"],
+            "1 worse rate: false negatives in vt uniform: 30 of 1,000, before 1 of 1,000");
+  EXPECT_EQ(json["nights"][0]["subjects"]["mine"]["classes"]["ordinary"]["false_negatives"], 3);
+  EXPECT_EQ(json["ways_to_fail"][2]["last_code"], "version 2");
+  EXPECT_THAT(describe(history),
+              HasSubstr("2026-11-09  FAIL  1,000  mine: version 6, before version 5; mine: 1 new"));
+}
+
+TEST_F(HistoryOfNights, ANightComesAfterItsBaselineEvenIfTheClockWasSetBack) {
+  write_night(10, {.version = "1"});
+  write_night(3, {.version = "2"}, 10);
+  write_night(4, {.version = "2"}, 10);
+  write_night(11, {.version = "2"}, 10);
+  const History history = read_history(file(""));
+  std::vector<std::string> names;
+  for (const Night& each : history.nights) names.push_back(each.name + (each.went_back ? "!" : ""));
+  EXPECT_THAT(names, ElementsAre("2026-11-10", "2026-11-03!", "2026-11-04!", "2026-11-11"));
+  EXPECT_THAT(events(), ElementsAre("03 version 1"));
+}
+
+TEST_F(HistoryOfNights, KeepsThePlaceOfNightsThatItCannotRead) {
+  write_night(1, {.version = "1"});
+  write("2026-11-02/all.db", "");
+  write("2026-11-03/report/report.json", "{\"runs\": 7}");
+  write("2026-11-04/report/report.json", "{");
+  write("2026-11-05/report.json",
+        R"({"runs": [], "verdicts": [], "headline": {"text": "of old", "clean": true}})");
+  write("no night/notes.txt", "");
+  std::filesystem::create_directory_symlink("2026-11-01", file("last"));
+  const History history = read_history(file(""));
+  std::vector<std::string> said;
+  for (const Night& each : history.nights) said.push_back(each.page + "|" + each.headline);
+  EXPECT_THAT(said,
+              ElementsAre("2026-11-01/report/index.html|the headline", "|no report",
+                          HasSubstr("expected what nearmiss report writes"),
+                          HasSubstr("2026-11-04/report/report.json: "), "2026-11-05/index.html|of old"));
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+TEST_F(HistoryOfNights, RefusesAFolderWithoutNights) {
+  EXPECT_REFUSED(read_history(file("")), "found no report, expected folders of nights");
+  EXPECT_REFUSED(read_history(file("none")), "none: cannot be read");
+}
+
+}  // namespace
+}  // namespace nearmiss
