@@ -20,6 +20,8 @@ namespace {
 constexpr std::size_t most_primitives = 8000;  // limit for primitives with a mark, and for those without
 constexpr std::uint32_t collides = 1, tangled = 2;
 constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
+constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
+constexpr std::uint32_t missed_by(std::size_t subject) { return 8U << (2 * subject); }
 
 /// The mark of a primitive, which is identified by its vertices.
 template <class Key>
@@ -102,7 +104,7 @@ void Marks::add(const Candidate& candidate, std::size_t subject, const Outcome& 
   if (outcome.collision) add(candidate, collides);
   if (subject >= most_subjects || outcome.verdict.fault != Fault::none) return;
   if (outcome.verdict.hit != outcome.collision)
-    add(candidate, Mark{outcome.collision ? 2U : 1U} << (2 + 2 * subject));
+    add(candidate, outcome.collision ? missed_by(subject) : falsely_reported_by(subject));
 }
 
 void Marks::add_tangled(const std::array<int, 2>& edge, const std::array<int, 3>& triangle) {
@@ -125,6 +127,16 @@ void Marks::merge(const Marks& other) {
   for (const auto& [primitive, mark] : other.triangles_) triangles_[primitive] |= mark;
   for (const auto& [primitive, mark] : other.edges_) edges_[primitive] |= mark;
   for (const auto& [point, mark] : other.points_) points_[point] |= mark;
+}
+
+std::size_t Marks::missed() const {
+  Mark is_missed = 0;
+  for (std::size_t subject = 0; subject < most_subjects; ++subject) is_missed |= missed_by(subject);
+  const auto number = [&](const auto& marks) {
+    return std::count_if(marks.begin(), marks.end(),
+                         [&](const auto& each) { return (each.second & is_missed) != 0; });
+  };
+  return static_cast<std::size_t>(number(triangles_) + number(edges_) + number(points_));
 }
 
 /// The marked primitives of a mesh, and its other primitives.

@@ -28,6 +28,9 @@ class Marks {
   /// The number of marked primitives.
   [[nodiscard]] std::size_t size() const { return triangles_.size() + edges_.size() + points_.size(); }
 
+  /// The number of primitives of pairs that some subject misses.
+  [[nodiscard]] std::size_t missed() const;
+
   /// The picture of a step; `subjects` has the names of the subjects. Triangles also show the marks of their
   /// edges. The picture has at most 8,000 primitives with a mark, and at most 8,000 without.
   [[nodiscard]] ScenePicture picture(const std::string& step, const MovingMesh& mesh,

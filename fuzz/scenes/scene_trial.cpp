@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -56,14 +58,30 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::funct
       for (const auto& [kind, funnel] : funnels)
         counted.statistics.funnels[{step_name(scene_, step), kind}].merge(funnel);
     trials_.add(std::move(counted));
-    if (sum.marks.size() <= most_marks_) return;
-    most_marks_ = sum.marks.size();
-    std::vector<std::string> names;
-    for (const auto& subject : trials_.subjects()) names.push_back(subject->name());
-    picture_ = sum.marks.picture(step_name(scene_, step), mesh, names);
+    add_picture(step, mesh, sum.marks);
   } catch (const Stopped&) {
     plan_.reset();
   }
+}
+
+void SceneTrial::add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks) {
+  constexpr std::size_t most_pictures = 5;  // a picture of a large mesh has up to 0.5 MB
+  const std::array rank{marks.missed(), marks.size()};
+  const auto place = std::find_if(pictures_.begin(), pictures_.end(),
+                                  [&](const RankedPicture& each) { return each.rank < rank; });
+  if (marks.size() == 0 || place - pictures_.begin() == most_pictures) return;
+  std::vector<std::string> names;
+  for (const auto& subject : trials_.subjects()) names.push_back(subject->name());
+  pictures_.insert(place, {rank, step, marks.picture(step_name(scene_, step), mesh, names)});
+  if (pictures_.size() > most_pictures) pictures_.pop_back();
+}
+
+std::vector<ScenePicture> SceneTrial::pictures() const {
+  std::map<std::size_t, ScenePicture> by_step;
+  for (const RankedPicture& each : pictures_) by_step.emplace(each.step, each.picture);
+  std::vector<ScenePicture> pictures;
+  for (auto& [step, picture] : by_step) pictures.push_back(std::move(picture));
+  return pictures;
 }
 
 std::vector<ReportedPair> SceneTrial::ask(std::size_t step, const MovingMesh& mesh, const IsAsked& is_asked,

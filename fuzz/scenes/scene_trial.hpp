@@ -1,6 +1,7 @@
 // Trials over the pairs of scenes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -29,8 +30,9 @@ class SceneTrial {
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
-  /// The picture of the step with the most marked primitives so far; nothing if no primitive is marked.
-  [[nodiscard]] const std::optional<ScenePicture>& picture() const { return picture_; }
+  /// The pictures of up to five steps, in their order: those with the most missed primitives so far, then those with
+  /// the most marked primitives. Steps without any have no picture.
+  [[nodiscard]] std::vector<ScenePicture> pictures() const;
 
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
@@ -52,15 +54,24 @@ class SceneTrial {
   [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask,
                                      const IsAsked& is_asked) const;
 
+  /// Keeps the picture of a step if it ranks among the highest.
+  void add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks);
+
   /// Makes the plan of a step. Throws Stopped.
   void make_plan(const MovingMesh& mesh);
 
   const Scene& scene_;
   LeaveOut leave_out_;
   Trials& trials_;
-  std::optional<Plan> plan_;    ///< of the last step
-  std::size_t most_marks_ = 0;  ///< of a step so far
-  std::optional<ScenePicture> picture_;
+  /// The picture of a step, and the numbers of its primitives that are missed, and marked.
+  struct RankedPicture {
+    std::array<std::size_t, 2> rank;
+    std::size_t step;
+    ScenePicture picture;
+  };
+
+  std::optional<Plan> plan_;             ///< of the last step
+  std::vector<RankedPicture> pictures_;  ///< the highest rank first
 };
 
 }  // namespace nearmiss

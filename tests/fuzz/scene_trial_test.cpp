@@ -16,7 +16,7 @@ namespace {
 /// The results of the trial of a step.
 struct Held {
   TrialResult result;
-  std::optional<ScenePicture> picture;
+  std::vector<ScenePicture> pictures;
 };
 
 Held hold(const MovingMesh& mesh, int jobs) {
@@ -32,7 +32,7 @@ Held hold(const MovingMesh& mesh, int jobs) {
     done = part;
   });
   EXPECT_EQ(done, 1);
-  held.picture = trial.picture();
+  held.pictures = trial.pictures();
   for (auto& [key, counts] : held.result.statistics.counts) counts.times = {};
   for (auto& [key, funnel] : held.result.statistics.funnels) funnel.finding_ns = funnel.deciding_ns = 0;
   return held;
@@ -47,8 +47,8 @@ TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(one.result.statistics, three.result.statistics);
   EXPECT_FALSE(one.result.findings.empty());
   EXPECT_EQ(one.result.findings, three.result.findings);
-  ASSERT_TRUE(one.picture.has_value());
-  EXPECT_EQ(one.picture, three.picture);
+  EXPECT_EQ(one.pictures.size(), 1);
+  EXPECT_EQ(one.pictures, three.pictures);
 }
 
 TEST(SceneTrial, CountsWhatThePlanLeaves) {
@@ -67,14 +67,36 @@ TEST(SceneTrial, CountsWhatThePlanLeaves) {
   EXPECT_EQ(collisions, expected.colliding.size());
 }
 
+TEST(SceneTrial, KeepsThePicturesOfTheStepsWithTheMostMisses) {
+  const Subjects subjects = testing::subjects_named({"basic"});
+  const Scene scene{.name = "falling", .frames = 9, .mesh = {}, .points = {}};
+  Trials trials(subjects, {}, 1, Stop::never(), false, [](TrialResult&&) {});
+  SceneTrial trial(scene, LeaveOut::all, trials);
+  for (std::size_t step = 0; step < 8; ++step) {
+    Mesh mesh;
+    std::vector<Eigen::Vector3d> end;
+    // So many vertices fall through a triangle as the number of the step, the last ones at its corners.
+    mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    for (std::size_t i = 0; i < step; ++i) mesh.points.push_back({0.1 * static_cast<double>(i), 1, 1});
+    end = mesh.points;
+    for (std::size_t i = 3; i < end.size(); ++i) end[i].z() = -1;
+    trial.hold(step, make_moving_mesh(std::move(mesh), end), [](double) {});
+  }
+  std::vector<std::string> steps;
+  for (const ScenePicture& each : trial.pictures()) steps.push_back(each.step);
+  EXPECT_EQ(steps, (std::vector<std::string>{"scene:falling#3", "scene:falling#4", "scene:falling#5",
+                                             "scene:falling#6", "scene:falling#7"}));
+}
+
 TEST(SceneTrial, ThePictureMarksWhatCollides) {
   Mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {8, 8, 8}}, {{0, 1, 2}}, {{3, 4}}};
   const MovingMesh moving =
       make_moving_mesh(std::move(mesh), {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {8, 8, 8}});
-  const auto picture = hold(moving, 1).picture;
-  ASSERT_TRUE(picture.has_value());
-  EXPECT_EQ(picture->step, "scene:grids");
-  const auto json = nlohmann::json::parse(picture->json);
+  const auto pictures = hold(moving, 1).pictures;
+  ASSERT_EQ(pictures.size(), 1);
+  EXPECT_EQ(pictures[0].step, "scene:grids");
+  const auto json = nlohmann::json::parse(pictures[0].json);
   EXPECT_EQ(json["meanings"].size(), 8);
   EXPECT_EQ(json["primitives"], 3);  // a triangle, a line, and the falling vertex
   const auto numbers = [&](const char* name) {

@@ -183,7 +183,7 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   }
   trials.finish([&] { progress.shrinking(trials.to_shrink()); });
   if (!stop.is_due()) exported.finish();
-  if (trial.picture()) record.add(*trial.picture());
+  for (ScenePicture& picture : trial.pictures()) record.add(std::move(picture));
   return held;
 }
 
