@@ -76,7 +76,7 @@ std::vector<Change> changes_in(const ordered_json& baseline) {
     changes.push_back({each.at("worse").get<bool>() ? "worse" : "better",
                        subject,
                        {"rate", subject, of},
-                       fmt::format("{}: {}, before {}", of, rate("now"), rate("before")),
+                       fmt::format("{}: {} (was {})", of, rate("now"), rate("before")),
                        ""});
   }
   for (const auto& each : list_in(baseline, "changed_times")) {
@@ -179,10 +179,9 @@ std::vector<Report> read_reports(const fs::path& folder) {
   if (reports.empty())
     throw Error(fmt::format("{}: found no report, expected folders of nights, each with report/report.json",
                             folder.string()));
-  const auto order =
-      [](const Report& report) {  // a night that set a date comes before those that have it as their baseline
-        return std::tuple(report.latest, report.latest != report.night.started, report.night.started);
-      };
+  const auto order = [](const Report& report) {  // a night comes before those that have it as their baseline
+    return std::tuple(report.latest, report.latest != report.night.started, report.night.started);
+  };
   std::stable_sort(reports.begin(), reports.end(),
                    [&](const Report& a, const Report& b) { return order(a) < order(b); });
   return reports;
@@ -305,7 +304,7 @@ void add_versions(const std::map<std::string, SubjectCode>& codes, bool is_first
       const bool by_version = before->second.text() != subject.code.text();
       night.events.push_back(
           {"version", name, 1,
-           fmt::format("{}, before {}", by_version ? subject.code.text() : subject.code.build,
+           fmt::format("{} (was {})", by_version ? subject.code.text() : subject.code.build,
                        by_version ? before->second.text() : before->second.build)});
     }
   }

@@ -136,8 +136,8 @@ function drawMesh(entries) {
       const number = primitives.filter((primitive) => primitive.mark & bits).length;
       const swatch = made("span", [], { class: "swatch" });
       swatch.style.background = fill;
-      return number === 0 ? [] : [made("span", [swatch, ` ${meaning} (${integer(number)}) `])];
-    }));
+      return number === 0 ? [] : [made("span", [swatch, ` ${meaning} (${counted(number, "primitive", "primitives")}) `])];
+    }), ...(missesOf(view.picture, view.subject).length > 0 ? [`Rings: small primitives that are ${view.picture.subjects.length > 0 ? "missed" : "tangled"}; the black one was chosen last.`] : []));
   }
 
   function change(next) {

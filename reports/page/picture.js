@@ -91,6 +91,16 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
       return corners.length < 2 ? [] : [svgMade("polygon", { points: corners.map((p) => p.map((c) => c.toFixed(1)).join(",")).join(" "), class: name })];
     };
     const circle = ([cx, cy], r, name) => (Math.max(Math.abs(cx), Math.abs(cy)) > far ? [] : [svgMade("circle", { cx: cx.toFixed(1), cy: cy.toFixed(1), r, class: name })]);
+    /** The names of vertices; those that are at one place in the picture have one label, "x0, x2". */
+    const labels = (all) => {
+      const groups = [];
+      for (const [i, [x, y]] of all.entries()) {
+        const group = groups.find((each) => Math.hypot(each.x - x, each.y - y) < 4);
+        if (group) group.names.push(`x${i}`);
+        else groups.push({ x, y, names: [`x${i}`] });
+      }
+      return groups.map(({ x, y, names }) => svgMade("text", { x: x + 7, y: y - 7 }, names.join(", ")));
+    };
     const places = at(now);
     const moments = [...others, [places, "moment"]];
     const plane = normal ? polygon(planeBetween(primitives.map((vertices) => vertices.map((i) => places[i])), normal), "plane") : [];
@@ -100,7 +110,7 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
         ...(vertices.length > 1 ? polygon(vertices.map((i) => points[i]), `${name} primitive${which}`) : []),
         ...vertices.flatMap((i) => circle(seen(points[i]), vertices.length === 1 ? 4 : 2, `${name} primitive${which}`)),
       ])),
-      ...(isLabelled ? [...circle(seen(contact), 9, "contact"), ...places.map(seen).map(([x, y], i) => svgMade("text", { x: x + 7, y: y - 7 }, `x${i}`))] : []));
+      ...(isLabelled ? [...circle(seen(contact), 9, "contact"), ...labels(places.map(seen))] : []));
   }
   return { svg, draw };
 }

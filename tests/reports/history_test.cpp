@@ -117,13 +117,13 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   EXPECT_EQ(std::tuple(b.first, b.last, b.lasts, b.gone, b.fixed),
             std::tuple(2, 2, false, 4, "in version 3"));
   const ordered_json json = history_json(history);
-  EXPECT_EQ(json["nights"][2]["events"][0]["text"], "version 2, before version 1");
+  EXPECT_EQ(json["nights"][2]["events"][0]["text"], "version 2 (was version 1)");
   EXPECT_EQ(json["nights"][2]["events"][2]["text"],
-            "1 worse rate: false negatives in vt uniform: 30 of 1,000, before 1 of 1,000");
+            "1 worse rate: false negatives in vt uniform: 30 of 1,000 (was 1 of 1,000)");
   EXPECT_EQ(json["nights"][0]["subjects"]["mine"]["classes"]["ordinary"]["false_negatives"], 3);
   EXPECT_EQ(json["ways_to_fail"][2]["last_code"], "version 2");
   EXPECT_THAT(describe(history),
-              HasSubstr("2026-11-09  FAIL  1,000  mine: version 6, before version 5; mine: 1 new"));
+              HasSubstr("2026-11-09  FAIL  1,000  mine: version 6 (was version 5); mine: 1 new"));
 }
 
 TEST_F(HistoryOfNights, ANightComesAfterItsBaselineEvenIfTheClockWasSetBack) {

@@ -34,7 +34,7 @@ export async function showsSimulations(browser) {
   const before = await mesh.evaluate((canvas) => canvas.toDataURL());
   await page.getByRole("button", { name: "next tangle" }).first().click();
   assert.notEqual(await mesh.evaluate((canvas) => canvas.toDataURL()), before);
-  assert.match(await page.locator("#simulation-pictures .mesh-legend").first().textContent(), /tangled \(\d+\)/);
+  assert.match(await page.locator("#simulation-pictures .mesh-legend").first().textContent(), /tangled \(\d+ primitives?\)/);
   assert.equal(await page.isVisible("#scenes-section"), false);
   await page.close();
 }
@@ -71,7 +71,7 @@ export async function showsSceneStepsAndMeshes(browser) {
   await changes(() => page.keyboard.press("ArrowLeft"));
   await changes(() => page.getByRole("button", { name: "larger" }).first().click());
   await changes(() => page.getByRole("slider").first().fill("0"));
-  assert.match(await page.locator(".mesh-legend").first().textContent(), /collides \(\d+\)/);
+  assert.match(await page.locator(".mesh-legend").first().textContent(), /collides \(\d+ primitives?\)/);
   await page.close();
   run("report", "scene.db", "mat@300.db", "-o", "two-scenes");
   const two = await open(browser, pageOf("two-scenes"));
