@@ -136,7 +136,8 @@ const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
 function foldedRows(rows) {
   const good = rows.filter(isGood);
   if (good.length <= fewSubjects) return [];
-  return good.filter(isNoRung).length <= fewSubjects ? good.filter((row) => !isNoRung(row)) : good;
+  const folded = good.filter(isNoRung).length <= fewSubjects ? good.filter((row) => !isNoRung(row)) : good;
+  return folded.length > 1 ? folded : [];
 }
 
 function drawScorecard() {
