@@ -30,8 +30,8 @@ class SceneTrial {
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
-  /// The pictures of up to five steps, in their order: those with the most missed primitives so far, then those with
-  /// the most marked primitives. Steps without any have no picture.
+  /// The pictures of up to five steps, in their order: those with the most missed primitives so far, then
+  /// those with the most marked primitives. Steps without any have no picture.
   [[nodiscard]] std::vector<ScenePicture> pictures() const;
 
  private:

@@ -5,7 +5,7 @@ const { nights, ways_to_fail: ways } = JSON.parse(element("history").textContent
 const latest = nights.at(-1);
 
 /** A night's name as a link to its report, if there is one. */
-const link = (night) => (night.page ? made("a", night.name, { href: encodeURI(night.page) }) : night.name);
+const link = (night) => (night.page ? made("a", night.name, { href: `./${night.page.split("/").map(encodeURIComponent).join("/")}` }) : night.name);
 const verdictOf = (night) => (!night.page ? "no report" : night.clean ? "ok" : "FAIL");
 
 function drawHead() {
@@ -37,9 +37,10 @@ function drawNights() {
 
 /** The nights that asked a subject, each with its numbers, and whether the subject's code is another than before. */
 function nightsOf(subject) {
-  const asked = nights.map((night, index) => ({ index, night, of: night.subjects[subject] })).filter(({ of }) => of);
-  return asked.map(({ index, night, of }, i) => ({ index, name: night.name, queries: of.queries ?? 0, ...of,
-    per_second: night.seconds > 0 ? of.queries / night.seconds : null, is_other: i > 0 && of.code !== asked[i - 1].of.code }));
+  const asked = nights.map((night, index) => ({ index, night, of: night.subjects[subject] })).filter(({ night }) => Object.hasOwn(night.subjects, subject));
+  return asked.map(({ index, night, of }, i) => ({ index, name: night.name, ...of,
+    per_second: night.seconds > 0 ? of.queries / night.seconds : null,
+    is_other: i > 0 && (of.code !== asked[i - 1].of.code || of.build !== asked[i - 1].of.build) }));
 }
 
 const inClasses = (rows) => rows.flatMap((row) => Object.entries(row.classes ?? {}).filter(([, of]) => of.collisions > 0)
@@ -78,7 +79,7 @@ async function drawSubjects() {
   for (const [i, name] of names.entries()) {
     const rows = nightsOf(name);
     const now = rows.at(-1);
-    const versions = rows.filter((row, at) => at === 0 || row.is_other).map((row) => `${row.code} since ${row.name.slice(0, 10)}`);
+    const versions = rows.filter((row, at) => at === 0 || row.is_other).map((row, at, all) => `${at > 0 && row.code === all[at - 1].code ? row.build : row.code} since ${row.name.slice(0, 10)}`);
     const charts = panels.map((_, j) => made("div", [], { id: `chart${i}-${j}`, class: "chart" }));
     element("subjects").append(made("div", [made("h3", name), made("p", [made("span", now.clean ? "ok" : "FAIL", now.clean ? {} : { class: "bad" }), `: ${now.text}`]),
       small(versions.length > 6 ? `${versions.length} versions; the last: ${versions.at(-1)}` : versions.join(", ")), made("div", charts, { class: "panels" })]));
@@ -91,10 +92,10 @@ function drawWays() {
   show("ways-section");
   const most = 100;
   const night = (field) => ({ title: field, number: (way) => way[field],
-    text: (way) => made("span", [link(nights[way[field]]), ` ${way[`${field}_code`]}`]) });
+    text: (way) => made("span", [link(nights[way[field]]), way[field] === 0 && nights[0].has_baseline ? " or before" : "", ` ${way[`${field}_code`]}`]) });
   const columns = [
     { title: "subject", text: (way) => way.subject || "the oracle" }, text("failure", "what"), text("way to fail", "signature"),
-    { title: "now", text: (way) => (way.lasts ? "seen" : way.gone === null ? "not seen since" : way.fixed ? `fixed ${way.fixed}` : "gone"), bad: (way) => way.lasts },
+    { title: "now", text: (way) => (way.lasts ? (way.last === nights.length - 1 ? "seen" : "seen when it was last asked") : way.gone === null ? "not seen since" : way.fixed ? `fixed ${way.fixed}` : "gone"), bad: (way) => way.last === nights.length - 1 },
     night("first"), night("last"), count("nights", "nights"), count("queries", "seen"),
   ];
   const fill = (some) => fillTable(element("ways"), columns, some, true);

@@ -1,9 +1,10 @@
 // The history of nights, from their reports.
-#include "reports/history.hpp"
+#include "reports/history/history.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "reports/text/json.hpp"
 #include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -86,9 +87,9 @@ class HistoryOfNights : public testing::TemporaryFolder {
   /// "05 new 1", for each event of each night.
   [[nodiscard]] std::vector<std::string> events() const {
     std::vector<std::string> all;
-    for (const Night& night : read_history(file("")).nights)
+    for (const Night& night : make_history(read_nights(file(""))).nights)
       for (const NightEvent& each : night.events)
-        all.push_back(fmt::format("{} {} {}", night.name.substr(8), each.what, each.count));
+        all.push_back(fmt::format("{} {} {}", night.report.name.substr(8), each.what, each.count));
     return all;
   }
 };
@@ -104,10 +105,10 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   write_night(7, {.version = "4", .gone = {"a", "b", "c"}, .ns = 390}, 6);  // the baseline got used to it
   write_night(8, {.version = "5", .gone = {"a", "b", "c"}, .ns = 110}, 7);
   write_night(9, {.version = "6", .seen = {"a"}, .created = {"a"}}, 8);
-  EXPECT_THAT(events(), ElementsAre("03 version 1", "03 new 2", "03 worse 1", "05 version 1", "05 slower 1",
-                                    "05 gone 2", "07 version 1", "08 version 1", "08 faster 1",
-                                    "09 version 1", "09 new 1"));
-  const History history = read_history(file(""));
+  EXPECT_THAT(events(), ElementsAre("03 new 2", "03 worse 1", "03 version 1", "05 slower 1", "05 version 1",
+                                    "05 gone 2", "07 version 1", "08 version 1", "08 faster 1", "09 new 1",
+                                    "09 version 1"));
+  const History history = make_history(read_nights(file("")));
   ASSERT_EQ(history.ways.size(), 3);
   const auto& [a, c, b] = std::tie(history.ways[0], history.ways[1], history.ways[2]);
   EXPECT_EQ(a.signature + c.signature + b.signature, "acb");
@@ -117,13 +118,49 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   EXPECT_EQ(std::tuple(b.first, b.last, b.lasts, b.gone, b.fixed),
             std::tuple(2, 2, false, 4, "in version 3"));
   const ordered_json json = history_json(history);
-  EXPECT_EQ(json["nights"][2]["events"][0]["text"], "version 2 (was version 1)");
-  EXPECT_EQ(json["nights"][2]["events"][2]["text"],
+  EXPECT_EQ(json["nights"][2]["events"][2]["text"], "version 2 (was version 1)");
+  EXPECT_EQ(json["nights"][2]["events"][1]["text"],
             "1 worse rate: false negatives in vt uniform: 30 of 1,000 (was 1 of 1,000)");
   EXPECT_EQ(json["nights"][0]["subjects"]["mine"]["classes"]["ordinary"]["false_negatives"], 3);
   EXPECT_EQ(json["ways_to_fail"][2]["last_code"], "version 2");
-  EXPECT_THAT(describe(history),
-              HasSubstr("2026-11-09  FAIL  1,000  mine: version 6 (was version 5); mine: 1 new"));
+  EXPECT_THAT(
+      describe(history),
+      HasSubstr("2026-11-09  FAIL  1,000  mine: 1 new way to fail: false-negative, a; mine: version"));
+}
+
+// The code of a program is not known, so it seems to stay the same.
+TEST_F(HistoryOfNights, TellsAnotherFailureOfTheSameCodeAfterARepair) {
+  write_night(1, {.version = "1"});
+  write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}}, 1);
+  write_night(3, {.version = "1", .seen = {"a", "b"}, .created = {"b"}}, 2);
+  write_night(4, {.version = "1", .gone = {"a", "b"}}, 3);
+  write_night(5, {.version = "1", .seen = {"c"}, .created = {"c"}, .gone = {"a", "b"}}, 4);
+  write_night(6, {.version = "1", .gone = {"a", "b", "c"}}, 5);
+  EXPECT_THAT(events(), ElementsAre("02 new 1", "04 gone 2", "05 new 1", "06 gone 1"));
+}
+
+TEST_F(HistoryOfNights, TellsNothingOfItsFirstNightWhoseBaselineIsNotKept) {
+  write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}, .worse = {"uniform"}}, 1);
+  write_night(3, {.version = "1", .seen = {"a"}, .worse = {"uniform"}}, 2);
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+TEST_F(HistoryOfNights, TellsEachNewDisagreementOfTheOracle) {
+  const auto night = [&](int day, const std::string& commit, const std::string& created) {
+    ordered_json report{{"runs", {{{"commit", commit}, {"started", fmt::format("2026-11-0{}", day)}}}},
+                        {"verdicts", ordered_json::array()},
+                        {"headline", {{"text", ""}, {"clean", true}}}};
+    report["baseline"]["new_signatures"] = ordered_json::array();
+    if (!created.empty())
+      report["baseline"]["new_signatures"].push_back(
+          {{"what", "oracle-disagreement"}, {"subject", ""}, {"signature", created}});
+    write(fmt::format("2026-11-0{}/report.json", day), report.dump());
+  };
+  night(1, "a", "");
+  night(2, "b", "x");
+  night(3, "b", "");
+  night(4, "c", "y");
+  EXPECT_THAT(events(), ElementsAre("02 new 1", "04 new 1"));
 }
 
 TEST_F(HistoryOfNights, ANightComesAfterItsBaselineEvenIfTheClockWasSetBack) {
@@ -131,11 +168,13 @@ TEST_F(HistoryOfNights, ANightComesAfterItsBaselineEvenIfTheClockWasSetBack) {
   write_night(3, {.version = "2"}, 10);
   write_night(4, {.version = "2"}, 10);
   write_night(11, {.version = "2"}, 10);
-  const History history = read_history(file(""));
+  const History history = make_history(read_nights(file("")));
   std::vector<std::string> names;
-  for (const Night& each : history.nights) names.push_back(each.name + (each.went_back ? "!" : ""));
+  for (const Night& each : history.nights) names.push_back(each.report.name + (each.went_back ? "!" : ""));
   EXPECT_THAT(names, ElementsAre("2026-11-10", "2026-11-03!", "2026-11-04!", "2026-11-11"));
   EXPECT_THAT(events(), ElementsAre("03 version 1"));
+  write_night(2, {.version = "2"}, 3);  // the clock was set back again
+  EXPECT_EQ(make_history(read_nights(file(""))).nights[2].report.name, "2026-11-02");
 }
 
 TEST_F(HistoryOfNights, KeepsThePlaceOfNightsThatItCannotRead) {
@@ -145,21 +184,34 @@ TEST_F(HistoryOfNights, KeepsThePlaceOfNightsThatItCannotRead) {
   write("2026-11-04/report/report.json", "{");
   write("2026-11-05/report.json",
         R"({"runs": [], "verdicts": [], "headline": {"text": "of old", "clean": true}})");
+  const std::string odd =
+      R"({"runs": [], "verdicts": [{"subject": "mine", "clean": true, "text": "", "counts":
+      {"ns_per_query": "fast"}, "classes": {"ordinary": 7}}], "headline": {"text": "odd", "clean": true}})";
+  write("2026-11-06/report.json", odd);
+  std::filesystem::create_directory(file("2026-11-07T220000Z"));  // was killed early
+  write("2026-11-08\n\x1b[31m <b>/report.json", odd);
+  std::filesystem::create_directory_symlink("report", file("2026-11-07T220000Z/report"));
   write("no night/notes.txt", "");
   std::filesystem::create_directory_symlink("2026-11-01", file("last"));
-  const History history = read_history(file(""));
+  const History history = make_history(read_nights(file("")));
   std::vector<std::string> said;
-  for (const Night& each : history.nights) said.push_back(each.page + "|" + each.headline);
+  for (const Night& each : history.nights) said.push_back(each.report.page + "|" + each.report.headline);
   EXPECT_THAT(said,
               ElementsAre("2026-11-01/report/index.html|the headline", "|no report",
                           HasSubstr("expected what nearmiss report writes"),
-                          HasSubstr("2026-11-04/report/report.json: "), "2026-11-05/index.html|of old"));
+                          HasSubstr("expected what nearmiss report writes"), "2026-11-05/index.html|of old",
+                          "2026-11-06/index.html|odd", HasSubstr("Too many levels of symbolic links"),
+                          HasSubstr("<b>/index.html|odd")));
   EXPECT_THAT(events(), IsEmpty());
+  EXPECT_THAT(describe(history), HasSubstr("2026-11-08 ?[31m <b>  ok      0\n"));
+  write("2026-12-01" + std::string(150, 'x') + "/report.json", odd);
+  std::istringstream lines(describe(make_history(read_nights(file("")))));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100);
 }
 
 TEST_F(HistoryOfNights, RefusesAFolderWithoutNights) {
-  EXPECT_REFUSED(read_history(file("")), "found no report, expected folders of nights");
-  EXPECT_REFUSED(read_history(file("none")), "none: cannot be read");
+  EXPECT_REFUSED(read_nights(file("")), "found no report, expected folders of nights");
+  EXPECT_REFUSED(read_nights(file("none")), "none: cannot be read");
 }
 
 }  // namespace

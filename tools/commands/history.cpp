@@ -1,10 +1,12 @@
 // nearmiss history: the reports of many nights as one page.
-#include "reports/history.hpp"
+#include "reports/history/history.hpp"
 
 #include <fmt/format.h>
 
+#include "ccd/query/printable.hpp"
 #include "corpus/file.hpp"
 #include "reports/page/page.hpp"
+#include "reports/text/json.hpp"
 #include "tools/commands.hpp"
 #include "tools/json_output.hpp"
 
@@ -21,12 +23,12 @@ void run(const Options& options) {
   const std::filesystem::path page = options.folder / "index.html";
   options.json.expect_writable();
   expect_different({options.json.file(), "--json"}, {page, "FOLDER"});
-  const History history = read_history(options.folder);
+  const History history = make_history(read_nights(options.folder));
   const nlohmann::ordered_json json = history_json(history);
   replace_file(page, history_page(json));
   options.json.write(json);
   fmt::print(options.json.text(), "{}history: {}\n", describe(history),
-             std::filesystem::absolute(page).lexically_normal().string());
+             printable(std::filesystem::absolute(page).lexically_normal().string()));
 }
 
 }  // namespace
