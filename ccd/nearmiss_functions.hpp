@@ -1,13 +1,13 @@
-// Plug-ins from functions with the field's usual signatures, in C++17. A plug-in includes the functions' own
-// header, then this one, and describes a detector; tools/subject compiles it:
+// Makes plug-ins from functions with the field's usual signatures, in C++17. A plug-in includes the
+// functions' own header, then this one, and describes a detector; tools/subject compiles it:
 //
 //   #include "mine.hpp"
 //   #include "ccd/nearmiss_functions.hpp"
 //   NEARMISS_SUBJECT(detector("mine").vertex_triangle(point_triangle_ccd).edge_edge(edge_edge_ccd))
 //
 // The signature of each function is recognised. V stands for the vertices x0 x1 .. at t = 0, then at t = 1: 8
-// for a vertex and a triangle, and for two edges; 6 for a vertex and an edge; 4 for two vertices. X are those
-// at t = 0, D their displacements, and h is the separation:
+// for a vertex and a triangle, and for two edges; 6 for a vertex and an edge; 4 for two vertices. X stands
+// for the vertices at t = 0, D for their displacements, and h for the separation:
 //
 //   signature                                          as in                gives times       takes h
 //   bool f(V, double& toi, double h, double tmax)      ipc-toolkit          lower bounds      yes
@@ -18,28 +18,29 @@
 //   bool f(x0, x0 at t = 1, 0, x1, x1 at t = 1, 1, ..) El Topo              none              no
 //   Answer f(const Question&)                          everything else      none              no
 //
-// The compiler cannot tell that a function wants its vertices in another order, such as the triangle first, or
-// that two numbers mean something else than in the table: call such a function from one that takes a Question
-// (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts, the
-// detector gives those that all of them give.
+// The compiler cannot tell that a function wants its vertices in another order, such as the triangle first,
+// or that two numbers mean something else than in the table: call such a function from one that takes a
+// Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts,
+// the detector claims the weakest of them.
 //
-// Codim-IPC's functions get eta = 0.1, toi = 1, and displacements that are rounded; a separation stands for
-// their thickness. A vertex may be a const double*, any type of Eigen's if Eigen is included before this
-// header, or a type that is made from three numbers by T{x, y, z}. `int` may take the place of `bool`.
+// Codim-IPC's functions get eta = 0.1, toi = 1, and rounded displacements; their thickness is the separation.
+// A vertex may be a const double*, any type of Eigen's if Eigen is included before this header, or a type
+// that is made from three numbers by T{x, y, z}. `int` may take the place of `bool`.
 //
 // A function that is overloaded, has default arguments or is a member is passed as NEARMISS_CALL(f), such as
-// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() changes what the table says, and any other field of
+// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() overrides the table, and sets any other field of
 // nearmiss_subject.h:
 //
 //   .set(&nearmiss_subject::time_sort, NEARMISS_NO_TIME).set(&nearmiss_contract::apart_at_start, 1)
 //
 // A function that returns the distance of two primitives at rest, from the vertices x0 x1 .., is added in the
-// same way; squared(f) is for one that returns its square:
+// same way; squared(f) is for a function that returns the square of the distance:
 //
 //   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
 //
-// A filter of steps, double f(const Question&, double* y), writes the positions at the end of the safe step, and
-// returns the clearance that it claims on the way (nearmiss_subject.h): .edge_edge_step(f), and so on.
+// A filter of steps is a double f(const Question&, double* y), added by .edge_edge_step(f), and so on. It
+// writes the positions at the end of the safe step to y, and returns the clearance that it claims on the way
+// there (nearmiss_subject.h).
 #pragma once
 
 #include <algorithm>
@@ -55,20 +56,20 @@
 #include <type_traits>
 #include <utility>
 
-// These two lie beside this header, in the source tree and where it is installed.
+// These two headers lie beside this one, both in the source tree and where it is installed.
 #include "nearmiss_subject.h"
 #include "subjects/number_options.hpp"
 
 namespace nearmiss::plugin {
 
-/// Becomes only this type of numbers, because compilers differ in whether T{x, y, z} may round a double.
+/// Converts to exactly the type Number, since compilers differ in whether T{x, y, z} may round a double.
 template <class Number>
 struct Exactly {
   template <class T, class = std::enable_if_t<std::is_same_v<T, Number>>>
   operator T() const;  // NOLINT(google-explicit-constructor)
 };
 
-/// Whether a T is made from three of these numbers.
+/// Whether T{x, y, z} takes three values of type Number.
 template <class T, class Number, class = void>
 constexpr bool is_braced = false;
 template <class T, class Number>
@@ -84,14 +85,14 @@ constexpr bool is_eigen =
     false;
 #endif
 
-/// A vertex: becomes a vector of any type that a function takes.
+/// A vertex that converts to any vector type that a function takes.
 class Point {
  public:
   explicit Point(const double* x) : x_(x) {}
 
   template <class T, class = std::enable_if_t<std::is_same_v<T, const double*> || is_eigen<T> ||
                                               is_braced<T, double> || is_braced<T, float>>>
-  operator T() const {  // NOLINT(google-explicit-constructor): functions are to take it for their vector
+  operator T() const {  // NOLINT(google-explicit-constructor): functions take it as their vector
     if constexpr (std::is_same_v<T, const double*>) return x_;
 #ifdef EIGEN_WORLD_VERSION
     else if constexpr (is_eigen<T>)  // without a copy, so that a Ref may refer to the coordinates
@@ -174,8 +175,8 @@ template <class F, class... Argument>
 constexpr bool answers<std::void_t<std::invoke_result_t<const F&, Argument...>>, F, Argument...> =
     is_answer<std::invoke_result_t<const F&, Argument...>>;
 
-/// A detector of one kind: asks a function of type F, in the way that its signature calls for. `State` is a
-/// tuple of what the function gets first: the options, or nothing.
+/// Asks a function of type F about queries of one kind, as its signature requires. `State` is the tuple of
+/// the function's first arguments: the options, or nothing.
 template <class F, class State, int kind>
 class Asked {
   using Vertices = std::make_index_sequence<vertices_of(kind)>;
@@ -197,7 +198,7 @@ class Asked {
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
 
   static constexpr bool is_question = takes<std::tuple<const Question&>>;
-  // A time is taken by reference: a function that takes a number there has another meaning for it.
+  // The time must be a reference: a function that takes a plain number there means something else by it.
   static constexpr bool is_ipc =
       takes<Points, double&, double, double> && !takes<Points, double, double, double>;
   static constexpr bool is_displaced =
@@ -282,7 +283,7 @@ double distance_by(const F& f, const Front& front, const double* x, std::index_s
   return 0;
 }
 
-/// For a function that returns the square of a distance: the distance.
+/// Turns a function that returns a squared distance into one that returns the distance.
 template <class F>
 auto squared(F f) {
   return [f](auto&&... argument) -> decltype(std::sqrt(f(std::forward<decltype(argument)>(argument)...))) {
@@ -292,7 +293,7 @@ auto squared(F f) {
 
 struct NoOptions {};
 
-/// A detector, as its members describe it step by step.
+/// A detector that its members describe step by step: each returns a copy with one more part or setting.
 template <class Settings, class... Parts>
 struct Detector {
   nearmiss_subject subject;
@@ -366,7 +367,8 @@ struct Detector {
     return changed;
   }
 
-  /// Lets the user set these options, KEY=NUMBER. Every function then gets them first, as a const Settings&.
+  /// Lets the user set these options, KEY=NUMBER. Every function then gets them as its first argument, a
+  /// const Settings&.
   template <const auto& settings>
   auto options() const {
     using State = decltype(owner_of(settings.data()));
@@ -411,9 +413,9 @@ struct Detector {
   }
 };
 
-constexpr int from_signatures = -1;  ///< of a field that nobody sets: what the functions' signatures say
+constexpr int from_signatures = -1;  ///< the value of a field that follows from the functions' signatures
 
-/// A detector that decides nothing yet. An adapter's name, version and a line about it are shown to users.
+/// A detector that decides nothing yet. Users see its name, its version and the line `about`.
 inline Detector<NoOptions> detector(const char* name, const char* version = "", const char* about = "") {
   nearmiss_subject subject{};
   subject.interface_version = NEARMISS_INTERFACE;
@@ -432,7 +434,7 @@ const auto& described() {
   return std::get<i>(all);
 }
 
-/// Answers n queries of a kind with the function of a detector that decides it.
+/// Answers n queries of a kind with the detector's function that decides this kind.
 template <class Detector>
 void decide_each(const Detector& detector, void* state, int kind, std::size_t n, const double* x,
                  const double* h, int* answer, double* toi) {
@@ -446,7 +448,7 @@ void decide_each(const Detector& detector, void* state, int kind, std::size_t n,
   });
 }
 
-/// The function distance() of the interface.
+/// Implements distance() of nearmiss_subject.h.
 template <class Described, std::size_t i>
 double distance_of(void* state, int kind, const double* x, double* /*weights*/) {
   const auto& detector = described<Described, i>();
@@ -458,7 +460,7 @@ double distance_of(void* state, int kind, const double* x, double* /*weights*/) 
   return distance;
 }
 
-/// The function step() of the interface.
+/// Implements step() of nearmiss_subject.h.
 template <class Described, std::size_t i>
 double step_of(void* state, int kind, const double* x, double* y) {
   const auto& detector = described<Described, i>();
@@ -474,7 +476,7 @@ double step_of(void* state, int kind, const double* x, double* y) {
 template <class Detector>
 nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
-  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that a function gives
+  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that any function gives or takes
   detector.for_each_part([&](const auto& part) {
     constexpr Role role = std::decay_t<decltype(part)>::role;
     if constexpr (role == Role::decide) {
@@ -495,7 +497,7 @@ nearmiss_subject described_by(const Detector& detector) {
   return subject;
 }
 
-/// The description of a detector without options, whose function decide() gets a pointer to it.
+/// The description of a detector without options. The state that decide() gets is a pointer to the detector.
 template <class... Parts>
 nearmiss_subject described_by_itself(const Detector<NoOptions, Parts...>& detector) {
   using Its = Detector<NoOptions, Parts...>;
@@ -534,13 +536,13 @@ const nearmiss_subject* numbered(std::size_t index) {
 
 }  // namespace nearmiss::plugin
 
-/// A callable object for a function, whatever its overloads and default arguments are.
+/// A callable object for a function that may have overloads or default arguments.
 #define NEARMISS_CALL(...)                                                                         \
   [](auto&&... argument) -> decltype(__VA_ARGS__(std::forward<decltype(argument)>(argument)...)) { \
     return __VA_ARGS__(std::forward<decltype(argument)>(argument)...);                             \
   }
 
-/// Makes the shared object a plug-in with these detectors, whichever symbols the compiler hides.
+/// Makes the shared object a plug-in with these detectors, even if the compiler hides other symbols.
 #define NEARMISS_SUBJECT(...)                                                                      \
   namespace {                                                                                      \
   struct NearmissDescribed {                                                                       \

@@ -1,23 +1,24 @@
-/* Records what a program asks its CCD, and what it is answered. C99 or C++, g++ or clang, POSIX.
+/* Records the queries that a program asks its CCD, and the answers. C99 or C++, g++ or clang, POSIX. After
+ * each call of the CCD, the program calls
  *
  *   nearmiss_record(NEARMISS_EDGE_EDGE, x, h, 1, answer, toi, 0);
  *
- * behind each call of a CCD keeps the latest queries in a file of fixed size, a ring:
+ * This keeps the latest queries in a file of fixed size, a ring:
  *
- *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is its size: 64M, or other
+ *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is its size; by default 64M
  *   nearmiss replay run.nmq --as-answered                judges the answers
  *
  * Without the environment variable, a call costs about a nanosecond. With it, any number of threads may
- * record at once, and a child that a process forks shares its file. A second process that is given the
- * same file takes one with its number in the name, run-4711.nmq, as do shared objects of one program that
- * cannot see each other. An earlier recording of that name becomes run.nmq~. If the program crashes, the
- * file has everything except records that were just being written. If there is no room for the file, a
- * line on stderr says so, and nothing is recorded. */
+ * record at once, and a child that a process forks shares its file. If another process, or a shared object
+ * with a recorder of its own, already records to this file, the new recording gets the process's number in
+ * its name: run-4711.nmq. An earlier recording in run.nmq becomes run.nmq~. If the program crashes, the file
+ * has everything except records that were just being written. If there is no room for the file, a line on
+ * stderr says so, and nothing is recorded. */
 #ifndef NEARMISS_RECORD_H
 #define NEARMISS_RECORD_H
 
 #ifndef _DEFAULT_SOURCE
-#define _DEFAULT_SOURCE 1 /* flock(2), posix_fallocate(3): also with -std=c99, if this header comes first */
+#define _DEFAULT_SOURCE 1 /* for flock(2), posix_fallocate(3) with -std=c99, if this header comes first */
 #endif
 #include <errno.h>
 #include <fcntl.h>
@@ -34,7 +35,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Kinds, and numbers of an answer, as in nearmiss_subject.h. */
+/* Kinds and answers, as in nearmiss_subject.h. */
 #ifndef NEARMISS_VERTEX_TRIANGLE
 #define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
 #define NEARMISS_EDGE_EDGE 2       /* edges x0x1 and x2x3 */
@@ -49,8 +50,8 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag: keep this record longer, in a part of the file that only such records use. For queries that
- * matter: slow ones, a time of 0, or those before a step that intersects. */
+/* A flag: keep this record longer, in a part of the file that only such records use. It is for queries that
+ * matter: slow ones, those with a time of 0, or those of a step that ends in an intersection. */
 #define NEARMISS_KEEP 1
 
 /* The file: this header, then `slots` records, then `kept_slots` for those with NEARMISS_KEEP. */
@@ -65,7 +66,7 @@ typedef struct {
   uint64_t unused[12];
   uint64_t next[8];      /* next[0]: the number of records so far, of both parts */
   uint64_t next_slot[8]; /* next_slot[0]: the number of records so far in the first part */
-  uint64_t next_kept[8]; /* next_kept[0]: in the second part */
+  uint64_t next_kept[8]; /* next_kept[0]: those in the second part */
   uint64_t rest[472];    /* up to 4096 bytes */
 } nearmiss_recording;
 
@@ -79,9 +80,10 @@ typedef struct {
   uint64_t unused[3];
 } nearmiss_record_slot;
 
-/* The program's recorder: one for all its files and shared objects, as far as the linker knows it. */
+/* The program's recorder. All source files share it, and so do those shared objects that can see its
+ * symbol. */
 typedef struct {
-  int state;  /* 0: not yet asked; 1: off; 2: on; 3: about to be one of these */
+  int state;  /* 0: not yet asked; 1: off; 2: on; 3: a thread is deciding */
   int opener; /* the process that opens the file, while `state` is 3 */
   nearmiss_recording* file;
 } nearmiss_recorder;
@@ -94,12 +96,12 @@ __attribute__((weak, visibility("default"))) nearmiss_recorder nearmiss_the_reco
 }
 #endif
 
-/* A number that depends on every byte of a record except its number, `check` and `unused`. */
+/* A checksum of all bytes of a record except its fields `number`, `check` and `unused`. */
 __attribute__((unused)) static uint32_t nearmiss_record_check(const nearmiss_record_slot* slot) {
   uint64_t words[28], sum = 0;
   size_t i;
   memcpy(words, (const char*)slot + offsetof(nearmiss_record_slot, check), sizeof words);
-  words[0] &= ~(uint64_t)UINT32_MAX; /* `check` itself; the order of bytes is that of x86 and ARM */
+  words[0] &= ~(uint64_t)UINT32_MAX; /* leaves out `check`, in the byte order of x86 and ARM */
   for (i = 0; i < 28; ++i) sum = (sum << 7 | sum >> 57) ^ words[i];
   sum *= UINT64_C(0x9e3779b97f4a7c15);
   return (uint32_t)(sum >> 32);
@@ -111,8 +113,8 @@ __attribute__((unused)) static int nearmiss_record_fails(const char* file, const
   return 0;
 }
 
-/* Opens and locks a new file of this name. An earlier file, which no process uses, gets a ~ behind its
- * name. Returns -1 for an error; EWOULDBLOCK means that a process uses the file. */
+/* Opens and locks a new file of this name. An earlier file that no process uses gets a ~ after its name.
+ * Returns -1 for an error; EWOULDBLOCK means that a process uses the file. */
 __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   struct stat found, named;
   char earlier[4097];
@@ -134,7 +136,7 @@ __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   }
   if (fstat(fd, &found) != 0 || stat(file, &named) != 0 || found.st_ino != named.st_ino) {
     close(fd);
-    errno = EWOULDBLOCK; /* another process has just put a new file in its place */
+    errno = EWOULDBLOCK; /* another process has just replaced this file */
     return -1;
   }
   if (found.st_size == 0) return fd;
@@ -151,8 +153,8 @@ __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   return fd;
 }
 
-/* Opens the file, or, if other processes or objects use it, one with this process's number in its name,
- * which is written to `own`. */
+/* Opens the file. If another process or shared object uses it, opens one with this process's number in its
+ * name instead. Writes the name of the opened file to `own`. */
 __attribute__((unused)) static int nearmiss_record_open_own(const char* file, char* own, size_t size) {
   const char* dot = strrchr(file, '.');
   const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
@@ -169,13 +171,13 @@ __attribute__((unused)) static int nearmiss_record_open_own(const char* file, ch
   return fd;
 }
 
-/* Whether a file may become so large. Beyond the limit, a signal would end the program. */
+/* Whether this process may write a file of this size. Beyond the limit, a signal would end the program. */
 __attribute__((unused)) static int nearmiss_record_may_have(size_t size) {
   struct rlimit limit;
   return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
 }
 
-/* Makes the file for so many bytes of records, and maps it into memory. Returns whether it succeeds. */
+/* Makes a file for this many bytes of records, and maps it into memory. Returns whether that succeeds. */
 __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t bytes) {
   char own[4097];
   nearmiss_recording* head;
@@ -189,7 +191,7 @@ __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t 
   if (!nearmiss_record_may_have(size)) return nearmiss_record_fails(file, strerror(EFBIG));
   fd = nearmiss_record_open_own(file, own, sizeof own);
   if (fd < 0) return nearmiss_record_fails(own, errno == EINVAL ? "no regular file" : strerror(errno));
-  error = posix_fallocate(fd, 0, (off_t)size); /* if the disk fills up later, a hole would end the program */
+  error = posix_fallocate(fd, 0, (off_t)size); /* writing to a hole on a full disk would end the program */
   memory = error == 0 ? mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
   if (memory == MAP_FAILED) {
     if (error == 0) error = errno;
@@ -207,8 +209,8 @@ __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t 
   return 1;
 }
 
-/* Records to this file from now on, whatever the environment says; NULL ends that for good. Returns
- * whether it will. Call it before other threads record. */
+/* Records to this file from now on, whatever the environment says; NULL ends recording for good. Returns
+ * whether queries are recorded from now on. Call it before other threads record. */
 __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t bytes) {
   int is_on;
   nearmiss_the_recorder.opener = (int)getpid();
@@ -218,8 +220,8 @@ __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t b
   return is_on;
 }
 
-/* The number of bytes in a text such as 1000000, 64K, 64M or 1G; `otherwise` if there is none, and 0 if it
- * is none. */
+/* The number of bytes that a text gives, such as 1000000, 64K, 64M or 1G: `otherwise` if the text is NULL or
+ * empty, and 0 if it is no such number. */
 __attribute__((unused)) static size_t nearmiss_record_bytes(const char* text, size_t otherwise) {
   unsigned long long number;
   char* end;
@@ -233,19 +235,19 @@ __attribute__((unused)) static size_t nearmiss_record_bytes(const char* text, si
   return errno != 0 || *end != '\0' || number > SIZE_MAX >> shift ? 0 : (size_t)number << shift;
 }
 
-/* Follows the environment, once. */
+/* Starts recording if the environment asks for it. Only the first call has an effect. */
 __attribute__((unused, noinline)) static void nearmiss_record_begin(void) {
   int asked = 0;
-  nearmiss_the_recorder.opener = (int)getpid(); /* whichever thread opens the file */
+  nearmiss_the_recorder.opener = (int)getpid(); /* the same for every thread that may open the file */
   if (!__atomic_compare_exchange_n(&nearmiss_the_recorder.state, &asked, 3, 0, __ATOMIC_ACQ_REL,
                                    __ATOMIC_ACQUIRE))
-    return; /* another thread does so */
+    return; /* another thread opens it */
   nearmiss_record_to(getenv("NEARMISS_RECORD"),
                      nearmiss_record_bytes(getenv("NEARMISS_RECORD_BYTES"), (size_t)64 << 20));
 }
 
-/* Whether queries are recorded. The first call opens the file; other threads wait for it. A child that was
- * forked meanwhile records nothing. */
+/* Whether queries are recorded. The first call opens the file; other threads wait for it. A child process
+ * that is forked while the file is being opened records nothing. */
 static inline int nearmiss_record_is_on(void) {
   int state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
   if (state == 0) nearmiss_record_begin();
@@ -258,7 +260,7 @@ static inline int nearmiss_record_is_on(void) {
   return state == 2;
 }
 
-/* Writes a record, whose number and check it sets. */
+/* Sets the number and the check of a record, and writes it. */
 __attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_record_slot* record) {
   nearmiss_recording* const file = nearmiss_the_recorder.file;
   nearmiss_record_slot* slot = (nearmiss_record_slot*)(file + 1);
@@ -268,7 +270,7 @@ __attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_rec
   else
     slot += __atomic_fetch_add(&file->next_slot[0], 1, __ATOMIC_RELAXED) % file->slots;
   record->check = nearmiss_record_check(record);
-  (void)__atomic_exchange_n(&slot->number, 0, __ATOMIC_ACQ_REL); /* before what follows */
+  (void)__atomic_exchange_n(&slot->number, 0, __ATOMIC_ACQ_REL); /* before other bytes change */
   memcpy((char*)slot + sizeof slot->number, (const char*)record + sizeof record->number,
          sizeof *record - sizeof record->number);
   __atomic_store_n(&slot->number, number, __ATOMIC_RELEASE);
@@ -299,7 +301,7 @@ __attribute__((unused)) static nearmiss_record_slot nearmiss_record_of(int kind,
  *   separation: 0 if the CCD is asked for contact
  *   tmax: the CCD is asked about t in [0, tmax]; usually 1
  *   answer: NEARMISS_COLLISION and so on
- *   toi: the time that it gives, NAN if none
+ *   toi: the time that the CCD gives, NAN if none
  *   flags: 0 or NEARMISS_KEEP */
 static inline void nearmiss_record(int kind, const double* x, double separation, double tmax, int answer,
                                    double toi, int flags) {
@@ -310,7 +312,7 @@ static inline void nearmiss_record(int kind, const double* x, double separation,
   nearmiss_record_write(&record);
 }
 
-/* The same for a program in float. Its numbers are kept exactly. */
+/* nearmiss_record() for a program in float, whose numbers are kept exactly. */
 static inline void nearmiss_record_float(int kind, const float* x, float separation, float tmax, int answer,
                                          float toi, int flags) {
   nearmiss_record_slot record;

@@ -1,6 +1,6 @@
 /* The plug-in interface of nearmiss, version 4: a shared object that exports nearmiss_get_subject() puts up
  * to 64 continuous collision detectors on trial. C99; this header is the whole interface. A field that an
- * initialiser leaves out is 0. A shared object that was compiled with version 2 or 3 goes on working. */
+ * initialiser leaves out is 0. Shared objects that were compiled with version 2 or 3 still work. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
 
@@ -27,15 +27,16 @@ extern "C" {
 #define NEARMISS_NO_TIME 0
 #define NEARMISS_TIME_ESTIMATE 1
 #define NEARMISS_TIME_LOWER_BOUND 2 /* nothing happens before this time */
-/* Nor before the end of the step to it: the straight way from x0 to x0 + toi (x1 - x0), where each
- * operation is rounded to double, or to float if `bits` is 24. Judged where there is a collision. */
+/* Nothing happens on the step to this time, either: on the straight way from a to a + toi (b - a), for each
+ * vertex at a at t = 0 and at b at t = 1, where each operation is rounded to double, or to float if `bits` is
+ * 24. Judged only if there is a collision. */
 #define NEARMISS_TIME_FREE_STEP 3
 
 /* Layouts of the coordinates of n queries. */
-#define NEARMISS_ROWS 0 /* query by query: coordinate k of query i is x[m * i + k]; m: coordinates a query */
-#define NEARMISS_ARRAYS 1 /* coordinate by coordinate: it is x[n * k + i] */
+#define NEARMISS_ROWS 0   /* coordinate k of query i is x[m * i + k], if a query has m coordinates */
+#define NEARMISS_ARRAYS 1 /* coordinate k of query i is x[n * k + i] */
 
-/* What a detector takes for granted. It is not judged on other queries. */
+/* What a detector requires of a query. It is not judged on queries that do not meet this contract. */
 typedef struct {
   int apart_at_start; /* 1: at t = 0, the distance of the primitives exceeds both apart_by and h */
   int one_root;    /* 1: the volume spanned by four vertices has at most one root in [0, 1], a simple one */
@@ -52,7 +53,7 @@ typedef struct {
    * and without any of : = / , - `version` and `about` are one line of text each, of which the first 255
    * bytes are shown. */
   const char *name, *version, *about;
-  int kinds;            /* sum of the kinds that it decides; 0 if it only gives distances */
+  int kinds;            /* sum of the kinds that it decides; 0 if it only gives distances or steps */
   int bits;             /* 53; or 24: it gets x and h rounded to float, and is judged on these; 0 means 53 */
   int time_sort;        /* the sort of time that it gives with every collision */
   int takes_separation; /* 1 if it uses h, for all of its kinds */
@@ -61,11 +62,11 @@ typedef struct {
 
   /* Opens the detector for one thread, and returns its state. `options` is what the user wrote after its
    * name, such as "tolerance=1e-6:iterations=1000", or "". To refuse, it writes a line of at most size - 1
-   * bytes to `message`, and returns NULL. If the function is NULL, there are no options, and the state is
+   * bytes to `message`, and returns NULL. If `open` is NULL, the detector has no options, and its state is
    * NULL. */
   void* (*open)(const char* options, char* message, size_t size);
-  /* Closes a state; may be NULL. It has a tenth of a second, after which the process ends. It is not called
-   * if a query ended the process, or took too long. A crash in it goes unnoticed. */
+  /* Closes a state; may be NULL. After a tenth of a second, nearmiss ends the process. `close` is not called
+   * if a query ended the process, or took too long. A crash in `close` goes unnoticed. */
   void (*close)(void* state);
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
@@ -73,48 +74,52 @@ typedef struct {
    *   x: n rows of finite doubles, x0 x1 .. at t = 0, then at t = 1; x, y, z of each: 24 numbers, or 12 for
    *      two vertices, and 18 for a vertex and an edge. The vertices move linearly. `layout` may change the
    *      order.
-   *   h: n separations, at least 0; 0 unless it uses h for this kind. Rounded to float, like x, if `bits` is
-   *      24.
+   *   h: n separations, at least 0; all 0 unless the detector uses h for this kind. Rounded to float, like x,
+   *      if `bits` is 24.
    *   answer: n answers, all to be written.
    *   toi: n times of impact in [0, 1], in the unit of the time step. They are NaN on entry, and matter only
    *        for collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is
    *        invalid. Pass on a NaN that your code computes: it is counted as an invalid answer, which another
    *        number would hide.
-   * A C++ exception may leave the function: the query that threw it has no answer, which is the fault
-   * `exception`, and what() is shown. The process and the state are kept, and answer the next queries. An
-   * answer must depend only on its own x and h and on the options: a failing query is asked again when it is
-   * shrunk, and one in 256 is asked twice; another answer is the fault `inconsistent`. Arithmetic rounds to
-   * nearest, keeps subnormals and does not trap; if the detector changes this, nearmiss restores it. */
+   * A C++ exception may leave the function. The query that threw it then has no answer (the fault
+   * `exception`), and what() is shown. The same process and state answer the next queries. An answer must
+   * depend only on the query's own x and h, and on the options: a failing query is asked again when it is
+   * shrunk, and one query in 256 is asked twice. If the answers differ, this is the fault `inconsistent`.
+   * Arithmetic rounds to nearest, keeps subnormals and does not trap; if the detector changes this, nearmiss
+   * restores it. */
   void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
 
-  /* The largest distance of a false positive, less h, that the detector claims for a query, in the unit of
-   * its coordinates, if that does not depend on h; NULL otherwise, or if it claims no bound. */
+  /* The bound that the detector claims for a query: if it reports the query falsely, the distance exceeds h
+   * by at most this, in the unit of the coordinates. NULL if it claims no bound, or if the bound depends on
+   * h. */
   double (*distance_bound)(void* state, int kind, const double* x);
 
   /* New in version 3: */
 
   int separation_kinds; /* sum of the kinds for which it uses h, if these are not all of its kinds */
-  /* As distance_bound, which is not called any more if this is not NULL, but it may depend on h. */
+  /* The bound, which may depend on h. If this function is not NULL, it is called in place of
+   * distance_bound(). */
   double (*distance_bound_within)(void* state, int kind, const double* x, double h);
 
   /* New in version 4: */
 
-  int distance_kinds; /* sum of the kinds for which it gives the distance; NULL below if there are none */
+  int distance_kinds; /* sum of the kinds for which distance() is asked; if 0, it is NULL */
   /* The distance of two primitives at rest, in the unit of the coordinates: finite and at least 0. A solver
-   * that moves them by at most this distance relies on it, so a larger one than the exact one is unsafe.
+   * relies on it when it moves them by at most this distance, so a value above the exact distance is unsafe.
    *   x: x, y, z of each vertex: 12 numbers, or 6 for two vertices, and 9 for a vertex and an edge.
    *   weights: the weights of the vertices in the closest points of the two primitives, in the order of x; those
    *      of each primitive add up to 1. They are NaN on entry, and may stay so. */
   double (*distance)(void* state, int kind, const double* x, double* weights);
 
-  int step_kinds; /* sum of the kinds for which it filters steps; NULL below if there are none */
+  int step_kinds; /* sum of the kinds for which step() is asked; if 0, it is NULL */
   /* The part of a step that is safe. Writes the positions to which the vertices may move, instead of those at
-   * t = 1, to `y`: 12 numbers, or 6 for two vertices, and 9 for a vertex and an edge. Returns the clearance that
-   * it claims, finite and at least 0: on the straight way from their positions at t = 0 to y, the primitives do
-   * not come nearer than that; 0 claims that they do not touch. x is one row, as for decide(). */
+   * t = 1, to `y`: 12 numbers, or 6 for two vertices, and 9 for a vertex and an edge. Returns the clearance
+   * that it claims, finite and at least 0: while the vertices move straight from their positions at t = 0 to
+   * y, the primitives do not come nearer to each other than the clearance; 0 claims that they do not touch. x
+   * is one row, as for decide(). */
   double (*step)(void* state, int kind, const double* x, double* y);
 
-  int layout; /* in which decide() reads x: NEARMISS_ROWS or NEARMISS_ARRAYS */
+  int layout; /* the layout of decide()'s x: NEARMISS_ROWS or NEARMISS_ARRAYS */
   /* The seconds that the last decide() took without copies to and from a device, or a negative number if that
    * is unknown; may be NULL. `nearmiss bench` shows them. */
   double (*seconds_of_kernels)(void* state);

@@ -25,7 +25,7 @@ Error cannot_be_written(const fs::path& file, const std::string& why) {
   return Error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
-/// If it fails, errno says why.
+/// Writes the text to a file, and returns whether that succeeded. If not, errno says why.
 bool write(const fs::path& file, std::string_view text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);
@@ -34,7 +34,7 @@ bool write(const fs::path& file, std::string_view text) {
   return static_cast<bool>(out);
 }
 
-/// Makes a file with a name that nothing else has.
+/// Makes a file with a new name, in the folder of `place`.
 fs::path new_file_beside(const fs::path& place) {
   for (int number = 0;; ++number) {
     const std::string name =
@@ -48,7 +48,8 @@ fs::path new_file_beside(const fs::path& place) {
   }
 }
 
-/// The path of a part file, for a signal handler, which may use only lock-free objects and allocate nothing.
+/// The path of a part file, as a signal handler can read it: it may use only lock-free objects and allocate
+/// nothing.
 struct KnownPart {
   enum State : std::uint8_t { unused, changing, used };
   std::atomic<State> state = unused;
@@ -61,8 +62,8 @@ std::array<KnownPart, 16>& known_parts() {
   return parts;
 }
 
-/// A part file beyond the number of those that can be known, or with a longer path, is left behind by a
-/// signal.
+/// Lets a signal handler find a part file, so that it can remove the file. A part file stays behind if too
+/// many others are known already, or if its path is too long.
 void remember(const fs::path& path) {
   const std::string& text = path.native();
   for (KnownPart& part : known_parts()) {
@@ -114,7 +115,7 @@ void remove_part_files() noexcept {
 
 namespace {
 
-/// Whether a path leads, perhaps through links, to an open file of a process, such as /dev/stdout.
+/// Whether a path leads, directly or through links, to an open file of a process, as /dev/stdout does.
 bool is_open_file(fs::path path) {
   constexpr int most_links = 40;
   std::error_code none;

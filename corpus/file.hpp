@@ -1,5 +1,5 @@
-// Files: reading them whole, writing them whole or not at all, resolving links, and refusing what is not a
-// regular file.
+// Reads whole files, writes files whole or not at all, resolves links, and refuses paths that are not regular
+// files.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace nearmiss {
 /// destructor removes it.
 class PartFile {
  public:
-  /// Makes an empty file. Throws Error.
+  /// Makes an empty file. Throws Error if that fails.
   explicit PartFile(std::filesystem::path place);
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -21,11 +21,11 @@ class PartFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Lets the system write what the file has so far, and forget it in memory. Otherwise, removing a file of
-  /// gigabytes takes seconds.
+  /// Asks the system to write the file's content to disk and drop it from memory. Without this, removing a
+  /// file of gigabytes takes seconds.
   void write_out() const;
 
-  /// Renames the file to `place`. Throws Error.
+  /// Renames the file to `place`. Throws Error if that fails.
   void put_in_place();
 
  private:
@@ -37,10 +37,10 @@ void remove_part_files() noexcept;
 
 /// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees
 /// half of it, and a full disk leaves the old file unchanged. If the file is a pipe or a device
-/// (/dev/stdout), the text is written to it directly. Throws Error.
+/// (/dev/stdout), the text is written to it directly. Throws Error if the file cannot be written.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
-/// Throws the Error that replace_file would throw because of the file or its folder.
+/// Throws Error if the file or its folder would make replace_file throw.
 void expect_replaceable(const std::filesystem::path& file);
 
 /// The absolute path of a file with all links resolved. The file need not exist.
@@ -50,7 +50,7 @@ std::filesystem::path true_path(const std::filesystem::path& path);
 /// that leads to nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
 
-/// The whole content of a stream. Throws Error, with this name, if it cannot be read to its end.
+/// The whole content of a stream. If it cannot be read to its end, throws an Error that names it `name`.
 std::string read_all(std::istream& in, std::string_view name);
 
 /// The whole content of a regular file. Throws Error if the file is something else, cannot be read, or has

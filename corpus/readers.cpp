@@ -34,7 +34,7 @@ bool is_case_file(const fs::path& path) {
   return extension == ".case" || extension == ".csv" || extension == ".nmq" || kind_of_extension(extension);
 }
 
-/// Throws Error if reading stopped before the end of the file.
+/// Throws Error if reading failed before the end of the file.
 void expect_end(const std::istream& in, const std::string& name) {
   if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
 }
@@ -61,7 +61,7 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   if (in.peek() == std::ifstream::traits_type::eof())
     throw Error(fmt::format("{}: found an empty file, expected cases", name));
   const auto extension = path.extension();
-  // A program records to a file of any name.
+  // A program may record to a file of any name.
   if (extension == ".nmq" || begins_as_recording(in)) return read_records(path, sink);
   if (extension == ".case") {
     sink(parse_case(in, name));

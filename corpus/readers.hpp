@@ -17,18 +17,19 @@ using CaseSink = std::function<void(Case&&)>;
 /// format:
 ///  - *.case: one case (case.hpp);
 ///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the
-///    truth. Every coordinate must be exactly a double. The folder, edge-edge or vertex-face, determines the
-///    kind, or the end of the file's name, ee or vf. FOLDER/NAME.csv may have no truths, or have them in
-///    FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as CCD-Query-IO reads them;
-///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. A file that is named itself, not
-///    found in a folder, may have any name if it begins as a recording;
+///    truth. Every coordinate must be exactly a double. The name of the folder (edge-edge or vertex-face), or
+///    the end of the file's name (ee or vf), determines the kind. FOLDER/NAME.csv may have no truths, or have
+///    them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as CCD-Query-IO does;
+///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If the path is a file and not a
+///    folder, it may have any name if it begins as a recording;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
 /// with file and line, also for a file that is empty, unreadable or of another format, for a recording without
 /// a usable record, for a line of more than 1 MiB, and for a folder without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
-/// Reads a stream with one query a line. Messages name the file `name`. Throws Error.
+/// Reads a stream with one query a line. Messages use `name` for the stream. Throws Error if a line is no
+/// query.
 void read_query_lines(std::istream& in, Kind kind, const std::string& name, const CaseSink& sink);
 
 }  // namespace nearmiss

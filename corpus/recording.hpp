@@ -1,4 +1,4 @@
-// Recordings: what a simulation asked its CCD, and what it was answered.
+// Recordings: the queries that a simulation asked its CCD, and the answers.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ struct Recorded {
   Query query;
   double tmax;    ///< the CCD was asked about t in [0, tmax]
   int answer;     ///< as in nearmiss_subject.h
-  double time;    ///< that the CCD gave; NaN if none
+  double time;    ///< the time that the CCD gave; NaN if none
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 
-  /// The query whose end is at tmax. Each operation is rounded to double.
+  /// The query with its end of the step moved to tmax. Each operation is rounded to double.
   [[nodiscard]] Query asked() const;
 };
 
@@ -30,10 +30,11 @@ struct UnusedRecords {
   std::uint64_t not_queries = 0;  ///< no query has their kind, coordinates, separation or tmax
 };
 
-/// Whether a stream begins as a recording does. Goes back to its beginning.
+/// Whether a stream begins as a recording does. Returns the stream to its beginning.
 bool begins_as_recording(std::istream& in);
 
-/// Passes on the records of a file in the order of the calls. Throws Error if it is no recording of this version.
+/// Passes the records of a file to `sink` in the order of the calls. Throws Error if it is no recording of
+/// this version.
 UnusedRecords read_recording(const std::filesystem::path& file,
                              const std::function<void(const Recorded&)>& sink);
 

@@ -19,7 +19,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The kind that the folder or the end of the file's name says.
+/// The kind that the name of the folder, or the end of the file's name, determines.
 Kind kind_of_file(const std::filesystem::path& path) {
   const auto folder = std::filesystem::absolute(path).lexically_normal().parent_path().filename();
   const std::string stem = path.stem().string();
@@ -32,7 +32,8 @@ Kind kind_of_file(const std::filesystem::path& path) {
                   path.string(), folder.string()));
 }
 
-/// The recorded truths of a file without a column for them: those of sample_truths(), if there is such a file.
+/// The recorded truths of a file without a column for them: they are in the file sample_truths(), if it
+/// exists.
 class SeparateTruths {
  public:
   explicit SeparateTruths(const std::filesystem::path& csv)
@@ -56,13 +57,13 @@ class SeparateTruths {
     are_known_ = true;
   }
 
-  /// The truth of the query with this number. Throws Error if the file ends before.
+  /// The truth of the query with this number. Throws Error if the file of truths ends before it.
   [[nodiscard]] std::optional<bool> operator[](std::size_t query) const {
     if (!are_known_) return std::nullopt;
     if (query >= truths_.size()) refuse_count("more");
     return truths_[query];
   }
-  /// Throws Error if there are truths of more queries than these.
+  /// Throws Error if there are more truths than queries.
   void expect_end(std::size_t queries) const {
     if (are_known_ && queries < truths_.size()) refuse_count("fewer");
   }
@@ -72,7 +73,7 @@ class SeparateTruths {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     return first == std::string_view::npos ? "" : text.substr(first);
   }
-  /// Removes white space, and then this word. Returns whether it was there.
+  /// Removes white space, and then this word. Returns whether the word was there.
   static bool skip(std::string_view& text, std::string_view word) {
     text = trimmed(text);
     if (!text.starts_with(word)) return false;

@@ -1,5 +1,5 @@
-// The sample-query CSV format: coordinates as rational numbers, with recorded truths in a column, in a file of
-// their own, or without.
+// The sample-query CSV format: coordinates as rational numbers. Recorded truths are in a column, in a file of
+// their own, or absent.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,21 @@
 
 namespace nearmiss {
 
-/// See read_cases. `path` determines the kind; errors name it.
+/// Reads the *.csv format of read_cases. `path` determines the kind, and errors name it.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
-/// The kind of a file's queries is that of its folder, or of the end of its name.
+/// The name of a folder, and the end of a file's name, that determine the kind of the queries in a file.
 struct SampleNames {
   std::string_view folder, ending;
 };
-/// Those of a kind; nothing for a kind that the format does not have.
+/// The names for a kind; nothing for a kind that the format does not have.
 std::optional<SampleNames> sample_names(Kind kind);
 
-/// The file with the truths of a file of queries without a column for them.
+/// The file with the truths of the queries in `csv`, if that has no column for them.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);
 
-/// The eight lines of a query without a separation, of a kind that the format has, with a column for its truth
-/// if it is given.
+/// The eight lines of a query. It must have no separation, and a kind that the format has. The lines have a
+/// column for the truth if it is given.
 std::string to_sample_csv(const Query& query, std::optional<bool> truth);
 
 }  // namespace nearmiss

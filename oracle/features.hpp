@@ -12,7 +12,7 @@ namespace nearmiss {
 /// The earliest contact of a query's primitives, determined by exact arithmetic.
 struct ContactFeatures {
   enum class Multiplicity : std::uint8_t {
-    planar,    ///< F is zero identically
+    planar,    ///< F is identically zero
     simple,    ///< the time is a simple root of F
     multiple,  ///< the time is a double or triple root of F
   };

@@ -19,7 +19,7 @@ struct Decision {
   FilterStage stage{};  ///< `undecided` if exact arithmetic decided
   /// The smallest distance is exactly h > 0, so that both answers are right.
   bool is_tie = false;
-  KnownTimes known = {};  ///< from which EarliestTime can start
+  KnownTimes known = {};  ///< where EarliestTime can start
 };
 
 /// The answer that a stage of the filter means; if the stage is `undecided`, exact arithmetic decides.

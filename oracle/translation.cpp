@@ -15,7 +15,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using certified::DoubleWord;
 
-/// end - start; exact if `hi` is finite, because then no step of the sum overflows.
+/// end - start of a coordinate; exact if `hi` is finite, because then no step of the sum overflows.
 DoubleWord velocity(const Query& query, std::size_t point, std::size_t k) {
   return certified::two_sum(query.x[12 + 3 * point + k], -query.x[3 * point + k]);
 }

@@ -15,8 +15,8 @@ enum class RelativeMotion : std::uint8_t {
   other,
 };
 
-/// Exact: it compares the differences of the given coordinates without rounding. The result is `other` if a
-/// difference overflows.
+/// The relative motion of a query's primitives. It is exact: it compares the differences of the given
+/// coordinates without rounding. The result is `other` if a difference overflows.
 RelativeMotion relative_motion(const Query& query);
 
 /// Whether the primitives of a query at relative rest or in relative translation meet, by exact static

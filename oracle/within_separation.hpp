@@ -15,7 +15,7 @@ struct KnownApproach {
   /// Contains the earliest time at which the distance is at most h, and the time at which it falls below h,
   /// if there are such times.
   Enclosure time{0, 1};
-  double estimate = 1;  ///< of the earliest time; not certain
+  double estimate = 1;  ///< an uncertified estimate of the earliest time
 };
 
 /// Decides by boxes, planes, and a search for a time at which the distance is below h. The enclosure of the

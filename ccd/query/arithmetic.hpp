@@ -12,8 +12,8 @@
 #endif
 
 // Assumptions about the compiler. Only the plug-ins of fuzz/studies/environments, which measure other
-// arithmetic, define NEARMISS_ANY_ARITHMETIC. No macro shows whether a compiler contracts to FMA (see
-// README.md).
+// arithmetic, define NEARMISS_ANY_ARITHMETIC. No macro shows whether a compiler contracts a product and a sum
+// to an FMA (README.md).
 #ifndef NEARMISS_ANY_ARITHMETIC
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)

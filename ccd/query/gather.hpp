@@ -105,7 +105,7 @@ class Reader {
   }
 
   const nearmiss_queries& queries_;
-  std::size_t vertices_;  ///< of a query
+  std::size_t vertices_;  ///< the number of vertices of each query
   bool is_packed_;
 };
 

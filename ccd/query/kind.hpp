@@ -23,7 +23,8 @@ enum class Kind : std::uint8_t {
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::vertex_vertex,
                                   Kind::vertex_edge};
 
-/// The kinds of the pairs that decide whether triangle meshes collide. Families and scenes have them in turn.
+/// The kinds of the pairs that decide whether triangle meshes collide. Families and scenes alternate between
+/// them.
 inline constexpr std::array kinds_of_meshes{Kind::vertex_triangle, Kind::edge_edge};
 
 /// The other kinds, with less than four vertices.
@@ -40,7 +41,7 @@ struct VertexPair {
 
 /// A vertex of one primitive and an edge of the other.
 struct VertexAndEdge {
-  std::uint8_t vertex;  ///< of one primitive
+  std::uint8_t vertex;  ///< the vertex, of one primitive
   std::uint8_t from;    ///< one end of the edge
   std::uint8_t to;      ///< its other end
 };
@@ -50,12 +51,12 @@ struct VertexAndEdge {
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
-  Primitive first;                    ///< with the vertices x[0 .. split)
-  Primitive second;                   ///< with the vertices x[split .. vertices)
-  std::span<const VertexPair> edges;  ///< of both primitives
+  Primitive first;                    ///< the one with the vertices x[0 .. split)
+  Primitive second;                   ///< the one with the vertices x[split .. vertices)
+  std::span<const VertexPair> edges;  ///< the edges of both primitives
   std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
   /// Each vertex with each edge of the other primitive; those with a vertex of the first primitive come
-  /// first. Two vertices count as a vertex and the edge x1x2 of no length.
+  /// first. Two vertices count as a vertex x0 and an edge x1x2 of length 0.
   std::span<const VertexAndEdge> vertices_and_edges;
   std::span<const VertexAndEdge> first_to_second;  ///< the part with a vertex of the first primitive
   std::span<const VertexAndEdge> second_to_first;  ///< the part with a vertex of the second
@@ -79,7 +80,7 @@ inline constexpr std::array<VertexPair, 1> edges_of_ve{{{1, 2}}};
 inline constexpr std::array<VertexPair, 2> gaps_of_ve{{{0, 1}, {0, 2}}};
 inline constexpr std::array<VertexAndEdge, 1> vertex_and_edge{{{0, 1, 2}}};
 
-/// In the order of Kind.
+/// The topologies, in the order of Kind.
 inline constexpr std::array<Topology, 4> of_kinds{
     {{.short_name = "vt",
       .name = "vertex_triangle",
@@ -144,9 +145,9 @@ constexpr int vertices(Kind kind) { return split(kind) + static_cast<int>(topolo
 /// The number of coordinates at t = 0 and t = 1 together.
 constexpr std::size_t coordinate_count(Kind kind) { return static_cast<std::size_t>(6 * vertices(kind)); }
 
-/// Whether the formulas of a vertex and a triangle hold, with weights α, β >= 0 and α + β <= 1 of the edges
-/// x1x2 and x1x3. Then the second primitive is a triangle, an edge or a vertex; a query repeats its last
-/// vertex up to x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
+/// Whether the formulas of a vertex and a triangle apply: the edges x1x2 and x1x3 have weights α, β >= 0 with
+/// α + β <= 1. Then the second primitive is a triangle, an edge or a vertex; a query repeats its last vertex
+/// up to x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
 constexpr bool has_triangle(Kind kind) { return kind != Kind::edge_edge; }
 
 /// The number of a kind in the C interfaces, such as NEARMISS_VERTEX_TRIANGLE: one bit of a set of kinds.
@@ -162,15 +163,15 @@ constexpr std::optional<Kind> kind_of_bit(int bit) {
   return std::nullopt;
 }
 
-/// Calls a function template with the kind whose formulas hold for a kind that is known at run time only:
-/// vertex_triangle or edge_edge (has_triangle).
+/// Calls a function template for a kind that is known only at run time. Its argument is the kind whose
+/// formulas apply: vertex_triangle if has_triangle(kind), else edge_edge.
 template <class Function>
 constexpr decltype(auto) with_kind(Kind kind, const Function& f) {
   return has_triangle(kind) ? f.template operator()<Kind::vertex_triangle>()
                             : f.template operator()<Kind::edge_edge>();
 }
 
-/// Calls a function template with each kind of the pairs of triangle meshes.
+/// Calls a function template with each of kinds_of_meshes.
 template <class Function>
 constexpr void for_each_kind_of_meshes(const Function& f) {
   f.template operator()<Kind::vertex_triangle>();

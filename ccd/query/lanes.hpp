@@ -63,7 +63,7 @@ struct Lanes {
     return lanes;
   }
   void store(double* to) const { std::memcpy(to, &v, sizeof(v)); }
-  /// number(0), number(1), ...
+  /// The lanes number(0), number(1), ...
   template <class Number>
   static Lanes gather(const Number& number) {
     std::array<double, n> numbers;
@@ -107,7 +107,8 @@ struct Lanes {
   static void transpose(Lanes* rows) { transpose<n / 2>(rows); }
 
  private:
-  /// Exchanges the off-diagonal blocks of s × s numbers, then recursively the smaller ones within all blocks.
+  /// Exchanges the off-diagonal blocks of s × s numbers, then does the same within all blocks, with half the
+  /// size.
   template <int s>
   static void transpose(Lanes* rows) {
     for (int i = 0; i < n; ++i)

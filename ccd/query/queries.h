@@ -1,10 +1,11 @@
 /** \file
  * Queries in the caller's own memory, for the functions of wang.h and oracle.h. C99.
  *
- * A query is vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, the edges
- * x0x1 and x2x3, the vertices x0 and x1, or a vertex x0 and an edge x1x2. All coordinates have one unit,
- * which is arbitrary; times are fractions of the step. The question is whether the distance of the two closed
- * primitives is at most the separation h at some t in [0, 1]; h = 0 asks whether they touch. */
+ * A query has two primitives: a vertex x0 and a triangle x1 x2 x3, the edges x0x1 and x2x3, the vertices x0
+ * and x1, or a vertex x0 and an edge x1x2. The vertices move linearly from t = 0 to t = 1. All coordinates
+ * have one unit, which is arbitrary; times are fractions of the step. The question is whether the distance of
+ * the two closed primitives is at most the separation h at some t in [0, 1]; h = 0 asks whether they
+ * touch. */
 #ifndef NEARMISS_QUERIES_H
 #define NEARMISS_QUERIES_H
 
@@ -45,7 +46,7 @@ extern "C" {
   2 /**< nothing is answered: a null pointer, a number out of range, or a separation that wang does not take */
 #define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
-/** Queries of one kind, whose queries have n vertices (nearmiss_vertices()). Coordinate k (0 to 2) of vertex i
+/** Queries of one kind, with n vertices each (nearmiss_vertices()). Coordinate k (0 to 2) of vertex i
  * (0 to n - 1) of query q is at
  *
  *     start + q * query_stride + v * vertex_stride + k * coordinate_stride

@@ -22,13 +22,13 @@ template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
 /// Vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, for the given
-/// double coordinates. A kind with fewer than four vertices repeats the last one up to x3 (repeat_vertices),
-/// so that every query of a vertex is one of a triangle, which may be an edge or a point. The unit of length
-/// is arbitrary. Coordinates are finite; readers refuse any others. The question is whether the distance of
-/// the two closed primitives is at most h, the separation, at some t in [0, 1]. Their distance is 0 where
-/// they touch, so h = 0 asks for contact.
+/// double coordinates. A kind with fewer than four vertices repeats the last one up to x3 (repeat_vertices).
+/// So every kind but two edges can be treated as a vertex and a triangle that may be only an edge or a point.
+/// The unit of length is arbitrary. Coordinates are finite; readers refuse any others. The question is
+/// whether the distance of the two closed primitives is at most h, the separation, at some t in [0, 1]. Their
+/// distance is 0 where they touch, so h = 0 asks for contact.
 struct Query {
-  Kind kind{};  ///< which primitives they are
+  Kind kind{};  ///< the kind of the pair
   /// x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each.
   std::array<double, 24> x{};
   /// The separation h, finite and not negative, in the unit of the coordinates.

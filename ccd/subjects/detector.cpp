@@ -117,7 +117,7 @@ std::string fault_of_name(std::string_view name) {
   if (name.find_first_of(":=/,") != std::string_view::npos)
     return "the name '" + std::string(name) + "' with ':', '=', '/' or ','";
   if (name == "oracle") return "the name 'oracle', under which the oracle's own errors are reported";
-  if (name.ends_with(" (beyond contract)"))  // the name of a subject that is asked what its contract excludes
+  if (name.ends_with(" (beyond contract)"))  // marks a subject that is asked queries outside its contract
     return "the name '" + std::string(name) + "', which --beyond-contract gives";
   return "";
 }

@@ -21,9 +21,9 @@ struct DetectorInfo {
   int kinds = 0;
   bool is_narrow = false;  ///< whether it takes coordinates of 24 bits
   TimeSort time_sort{};
-  int separation_kinds = 0;  ///< those for which it uses h, as a sum of bits
-  int distance_kinds = 0;    ///< those for which it gives the distance, as a sum of bits
-  int step_kinds = 0;        ///< those for which it filters steps, as a sum of bits
+  int separation_kinds = 0;  ///< the kinds for which it uses h, as a sum of bits
+  int distance_kinds = 0;    ///< the kinds for which it gives distances, as a sum of bits
+  int step_kinds = 0;        ///< the kinds for which it filters steps, as a sum of bits
   std::size_t batch = 1;
   bool in_arrays = false;  ///< whether it reads coordinates in the layout NEARMISS_ARRAYS
   bool claims_bound = false;
@@ -40,8 +40,8 @@ inline constexpr std::size_t largest_batch = 10'000'000;
 
 /// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
-/// Throws an Error that begins with `where` if a detector does not follow nearmiss_subject.h, of a version
-/// that is known, or has one of the other names.
+/// Throws an Error that begins with `where` if a detector contradicts nearmiss_subject.h, was compiled with
+/// an unknown version of it, or has one of `other_names`.
 void expect_usable(const std::string& where, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names = {});
 std::string fault_of_name(std::string_view name);
@@ -58,7 +58,8 @@ bool takes_separation(const DetectorInfo& info, Kind kind);
 /// The query that a detector decides. If the detector is narrow, numbers are rounded to float, and those
 /// beyond the range of float to the largest float.
 Query rounded_for(const DetectorInfo& info, const Query& query);
-/// Writes the coordinates of query i of n, all of one kind, to where a detector reads them in `x`.
+/// Writes the coordinates of query i, one of n queries of one kind, to the places in `x` at which a detector
+/// reads them.
 void lay_out(const DetectorInfo& info, const Query& query, std::size_t i, std::size_t n, double* x);
 /// A detector's answer as a verdict. `time` is the time that it gave, or NaN.
 Verdict verdict_of(const DetectorInfo& info, int answer, double time);
@@ -81,7 +82,7 @@ class PluginLibrary {
 
   std::string path_;
   std::unique_ptr<void, Unload> library_;
-  std::vector<const nearmiss_subject*> subjects_;  // owned by the library
+  std::vector<const nearmiss_subject*> subjects_;  // `library_` owns them
 };
 
 /// A detector that is open, for one thread. It may change the rounding mode, the treatment of subnormals or
@@ -90,7 +91,7 @@ class Detector {
  public:
   /// Opens the detector. The subject must outlive it. Throws Error if the subject refuses the options.
   Detector(const nearmiss_subject& subject, const std::string& options);
-  /// A detector that is open, and that somebody else closes: `state` is what its functions get.
+  /// Uses a detector that is already open, with the state `state`. The caller closes it.
   Detector(const nearmiss_subject& subject, void* state);
   Detector(const Detector&) = delete;
   Detector& operator=(const Detector&) = delete;
@@ -103,11 +104,11 @@ class Detector {
   /// rounded to float if the detector is narrow.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
-  /// The bound for one query.
+  /// The bound that the detector claims for one query.
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
-  /// The distance at t = 0, for a kind of which the detector gives distances.
+  /// The detector's distance at t = 0, for a kind for which it gives distances.
   [[nodiscard]] DistanceAnswer distance(Kind kind, const double* x) const;
-  /// The filtered step, for a kind of which the detector filters steps.
+  /// The step that the detector filters, for a kind for which it does so.
   [[nodiscard]] StepAnswer step(Kind kind, const double* x) const;
   /// The time that the last decision took without copies, in ns; 0 if the detector does not say it.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const;

@@ -18,8 +18,8 @@ struct Option {
   double least, most;  ///< the range of allowed values
 };
 
-/// Sets the option KEY=VALUE, and says in `is_set` which one this was. False if there is no such option, it
-/// was set before, or the value is not allowed.
+/// Sets the option KEY=VALUE, and marks it in `is_set`. Returns false if no option has this key, if it is
+/// already marked, or if the value is not allowed.
 template <class State, std::size_t n>
 bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state,
                 std::array<bool, n>& is_set) {

@@ -20,7 +20,7 @@ namespace {
 
 /// The path at the start of a plug-in's name: the shortest prefix that has a '/', is a file, and ends at a
 /// ':' or at the end of the name. If no prefix is a file, the path ends at the first ':' after the last '/'
-/// before any option, so that a message can name it.
+/// in front of the options, so that a message can name the path.
 std::string_view path_in(std::string_view name) {
   for (std::size_t end = 0; end != std::string_view::npos;) {
     end = name.find(':', end + 1);

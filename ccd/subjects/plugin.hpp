@@ -38,7 +38,7 @@ struct PluginName {
 /// A subject that runs a detector of a shared object in this process, one thread at a time.
 class Plugin final : public DescribedSubject {
  public:
-  /// Throws Error.
+  /// Throws Error if the plug-in cannot be loaded, or refuses its options.
   explicit Plugin(std::string_view name);
 
   using DescribedSubject::decide;
@@ -50,12 +50,13 @@ class Plugin final : public DescribedSubject {
  private:
   struct Loaded {
     std::unique_ptr<PluginLibrary> library;
-    std::unique_ptr<Detector> detector;  ///< one of the library's
+    std::unique_ptr<Detector> detector;  ///< exported by `library`
   };
   static Loaded load(const PluginName& name);
   explicit Plugin(Loaded loaded);
 
-  /// Returns act(detector, seen, x) for the query that the detector sees, and that query's coordinates.
+  /// Returns act(detector, seen, x), where `seen` is the query as the detector sees it, and x are its
+  /// coordinates.
   template <class Act>
   auto ask(const Query& query, const Act& act) const;
 

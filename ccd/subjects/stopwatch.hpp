@@ -60,9 +60,8 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
 }
 
 /// The shortest time of three tries, since a disturbance seldom affects all three. The CPU clock is too
-/// inaccurate for most decisions, and reading it takes longer than they do. So short work is timed by the
-/// wall clock only. Long work, once the wall clock has shown it to be long, is timed three more times by both
-/// clocks.
+/// inaccurate for most decisions, and reading it takes longer than a decision. So only the wall clock times
+/// short work. If it shows that the work is long, both clocks time three more tries.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   constexpr std::uint64_t short_time = 5000;  // ns

@@ -22,7 +22,7 @@ enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< a time near t*
   lower_bound,  ///< a time that is not after t*: nothing happens before it
-  free_step,    ///< likewise, and nothing happens on the way to x0 + time (x1 - x0), rounded to its scalar
+  free_step,    ///< a lower bound; also, nothing happens on the step to the rounded positions then
 };
 
 /// Names of the sorts of time in reports, in order.
@@ -41,7 +41,7 @@ struct Contract {
   double apart_by = 0;    ///< used with apart_at_start
   double grid = 0;        ///< a power of two of which every coordinate is a multiple
   double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least this long
-  double longest = 0;     ///< these edges and the paths of the vertices are at most this long
+  double longest = 0;     ///< all these edges, and the paths of the vertices, are at most this long
 
   bool operator==(const Contract&) const = default;
 };
@@ -66,7 +66,8 @@ struct DistanceAnswer {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   double distance = none;
-  /// Of the vertices in the closest points; those of each primitive add up to 1. NaN if the subject gives none.
+  /// The weights of the vertices in the closest points. Those of each primitive add up to 1. NaN if the
+  /// subject gives none.
   std::array<double, 4> weights{none, none, none, none};
   Fault fault = Fault::none;    ///< if not `none`, there is no distance
   std::int32_t fault_code = 0;  ///< as in Verdict
@@ -81,7 +82,7 @@ struct DistanceAnswer {
 /// A subject's answer when it is asked to filter a step.
 struct StepAnswer {
   std::array<double, 12> y{};  ///< the positions to which the vertices may move; x, y, z of each
-  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< that it claims on the way
+  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< the clearance that it claims on the way
   Fault fault = Fault::none;                                    ///< if not `none`, there is no answer
   std::int32_t fault_code = 0;                                  ///< as in Verdict
 
@@ -100,7 +101,7 @@ struct StepAnswer {
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
 /// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
-  std::size_t queries = 0;  ///< timed queries, without the part of a batch in which a process failed
+  std::size_t queries = 0;  ///< timed queries; a part of a batch in which a process failed does not count
   std::uint64_t nanoseconds = 0;
   std::uint64_t kernel_nanoseconds =
       0;  ///< the part without copies to a device; 0 if the subject does not say
@@ -146,7 +147,7 @@ class Subject {
   /// Whether the subject gives distances of primitives of a kind.
   [[nodiscard]] virtual bool gives_distance(Kind /*kind*/) const { return false; }
 
-  /// The distance of the primitives at t = 0, for a kind of which the subject gives distances.
+  /// The distance of the primitives at t = 0, for a kind for which the subject gives distances.
   [[nodiscard]] virtual DistanceAnswer ask_distance(const Query& /*query*/) const {
     return {.fault = Fault::not_asked};
   }
@@ -154,7 +155,7 @@ class Subject {
   /// Whether the subject filters steps of primitives of a kind.
   [[nodiscard]] virtual bool filters_step(Kind /*kind*/) const { return false; }
 
-  /// The part of the query's step that is safe, for a kind of which the subject filters steps.
+  /// The part of the query's step that is safe, for a kind for which the subject filters steps.
   [[nodiscard]] virtual StepAnswer ask_step(const Query& /*query*/) const {
     return {.fault = Fault::not_asked};
   }
@@ -199,8 +200,8 @@ class Subject {
   }
 
  protected:
-  /// A subject that decides nothing and is asked in the same way; its time is subtracted from this subject's
-  /// time.
+  /// A subject that decides nothing and is asked like this one. Its time is subtracted from the time of this
+  /// one.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 

@@ -209,7 +209,8 @@ constexpr std::array<Option<WangEps>, 1> options_of<WangEps>{{{"h", &WangEps::h,
 
 struct Entry {
   SubjectInfo info;
-  /// Makes the subject `name`, which has these options. Returns null if the policy takes none.
+  /// Makes the subject `name` with these options. Returns null if there are options but the policy takes
+  /// none.
   std::unique_ptr<Subject> (*make)(std::string_view name, const std::string& options,
                                    std::optional<double> given);
 };

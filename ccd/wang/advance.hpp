@@ -58,7 +58,7 @@ DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   return DifferencePolygon<kind, T>(query, frame);
 }
 
-/// A point of a polygon that is nearest to the origin, up to rounding.
+/// The point of a polygon nearest to the origin, up to rounding.
 template <class T>
 struct NearestPoint {
   T squared_distance = std::numeric_limits<T>::infinity();
@@ -115,12 +115,12 @@ template <Kind kind, class T, std::size_t size>
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
 /// - The step, a quotient whose numerator has two roundings: 3u times at most √3 X, 6uX.
-/// - t + step: u, in which a corner moves by at most 2√3 X, 4uX.
-/// The sum is 54uX = 27εX, and 32 has room for terms of second order.
+/// - t + step has an error of u, in which a corner moves by at most 2√3 uX <= 4uX. The sum is 54uX = 27εX,
+///   and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
-/// A collision is reported if the computed distance is at most h + `advance_reach` εX. This is more than h +
-/// `advance_error` εX, which the advancement would approach forever.
+/// A collision is reported if the computed distance is at most h + `advance_reach` εX. The advancement would
+/// approach h + `advance_error` εX forever, so `advance_reach` is larger.
 inline constexpr int advance_reach = 128;
 
 /// If a collision is reported in this way, the exact distance is at most h + `advance_bound` εX.
@@ -128,8 +128,8 @@ inline constexpr int advance_reach = 128;
 /// The computed point c0 + αf + βg differs by at most 38uX in each component from a point of the exact
 /// polygon: 24uX from the corners, since |1 - α - β| + α + β <= 3; 4uX from f and g, 4uX from the products,
 /// 2uX from the sums, and 4uX because the computed α + β may exceed 1 by 2u. The points of edges have smaller
-/// errors. The distance has an error of √3 · 38uX, and of 6uX from its own operations, together 36εX. With
-/// 1εX for the rounding of h + `advance_reach` εX, 165 would do.
+/// errors. The distance has an error of √3 · 38uX from the point, and of 6uX from its own operations,
+/// together 36εX. With `advance_reach` = 128, and 1εX for the rounding of h + 128εX, 165 would do.
 inline constexpr int advance_bound = 192;
 
 /// The largest number of iterations. Primitives that slide past each other at a distance that is tiny

@@ -17,7 +17,7 @@ namespace nearmiss {
 namespace detail {
 
 /// The zeros in (0, 1) of a polynomial with the coefficients c[0], c[1] and so on, as far as double shows
-/// them: those of its derivative divide (0, 1) into parts in which it is monotone.
+/// them. The zeros of the derivative divide (0, 1) into parts in which the polynomial is monotone.
 inline std::vector<double> zeros_in_step(const std::vector<double>& c) {
   if (c.size() < 2) return {};
   std::vector<double> derivative;
@@ -52,8 +52,8 @@ inline std::vector<double> product(const std::vector<double>& a, const std::vect
   return c;
 }
 
-/// The squared distance of a vertex from an edge. Both are relative to one end of the edge, which may be a
-/// point.
+/// The squared distance of a vertex from an edge. Both vectors are relative to one end of the edge; the edge
+/// may be a point.
 inline double squared_edge_distance(const Vector3<double>& vertex, const Vector3<double>& edge) {
   const double ll = edge.dot(edge);
   const double weight = ll > 0 ? std::clamp(vertex.dot(edge) / ll, 0.0, 1.0) : 0;
@@ -104,7 +104,8 @@ struct Approach {
 }  // namespace detail
 
 /// Whether two vertices, or a vertex and an edge, are within the query's separation at the time of a closest
-/// approach. It guarantees nothing. The time is the first at which they are, within rounding errors.
+/// approach. It guarantees nothing. The reported time is the first at which they are within the separation,
+/// up to rounding.
 template <bool plane_culling>
 Verdict closest_approach(const Query& query) {
   const double h = query.separation;

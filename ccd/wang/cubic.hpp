@@ -37,9 +37,10 @@ Cubic<T> coplanarity(const Pair<kind, T>& pair) {
 namespace detail {
 
 // A time with |F| <= μ between lo and hi, found by Newton's method safeguarded by bisection. At lo and hi, F
-// has different signs, and |F| > μ. It terminates: bisection replaces a step that leaves the bracket or is
-// more than half as long as the step before it. If the bracket cannot shrink any more, the end with the
-// smaller residual is returned. This and `next == t` happen only if μ is smaller than `solve_cubic` requires.
+// has different signs, and |F| > μ. The iteration ends: bisection replaces a step that leaves the bracket or
+// is more than half as long as the step before it. A bracket that cannot shrink any more, or `next == t`,
+// occurs only if μ is smaller than `solve_cubic` requires. In the first case, the end of the bracket with the
+// smaller residual is returned.
 template <class T>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
   using std::abs;
@@ -72,8 +73,8 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
 // Adds the critical points of F in [0, 1], in ascending order.
 template <class T>
 void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
-  // F' has the Bernstein coefficients c, c + b, 3a + 2b + c. If they have one sign, F is monotone and has no
-  // node inside.
+  // F' has the Bernstein coefficients c, c + b, 3a + 2b + c. If they have the same sign, F is monotone and
+  // has no node inside.
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
   if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
@@ -83,8 +84,8 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
   }
 }
 
-// The nodes, which are 0, the critical points of F in (0, 1) and 1, and the values of F at them. Interval i
-// is between nodes i and i + 1.
+// The nodes (0, the critical points of F in (0, 1), and 1), and the values of F at the nodes. Interval i is
+// between nodes i and i + 1.
 template <class T>
 struct Nodes {
   std::array<T, 4> time{0}, value;
@@ -139,8 +140,8 @@ T clearance(const Cubic<T>& F) {
 /// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1].
 ///
 /// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes contributes its left
-/// node if |F| <= μ there, else its right node if |F| <= μ there, else nothing if F has one sign at both,
-/// else a refined root.
+/// node if |F| <= μ there, else its right node if |F| <= μ there, else nothing if F has the same sign at
+/// both, else a refined root.
 ///
 /// Claim (Appendix B), for μ >= `cubic_residual`: for each root t0 of the exact F*, a time t is returned such
 /// that |F*| is at most μ + `cubic_residual` between t0 and t.
@@ -151,11 +152,11 @@ T clearance(const Cubic<T>& F) {
 ///     of m. The inner nodes are the critical points of F + (c' - c) t (`solve_quadratic`, |c' - c| <= 3ω
 ///     |c|), each up to a factor 1 + θ. That function is monotone between its exact critical points, and it
 ///     changes by O(ω²) between such a point, where its slope is 0, and the node. So m is 54 ω + O(ω²). If
-///     the computed Bernstein coefficients have one sign, the last one has an error of at most 72 ω, and the
-///     slope has one of at most 72 ω t²: m is 24 ω.
-/// (2) If |F̂| > μ with one sign at both nodes, then |F| > μ - h - m between them. A root t0 of F* has |F| <=
-///     e, so there is none between them. `clearance` has an error of at most 114 ω; if it exceeds μ, F* has
-///     no root.
+///     the computed Bernstein coefficients have the same sign, the last one has an error of at most 72 ω, and
+///     the slope has one of at most 72 ω t²: m is 24 ω.
+/// (2) If |F̂| > μ at both nodes with the same sign, then |F| > μ - h - m between them. A root t0 of F* has
+///     |F| <= e, so there is none between them. `clearance` has an error of at most 114 ω. If `clearance`
+///     exceeds μ, F* has no root.
 /// (3) `refine_root` ends with |F̂| <= μ. F̂ has different signs at the ends of its bracket, with |F̂| > μ.
 ///     If F̂ has different signs at two neighbouring numbers, |F̂| <= 72 ω + h at one of them, so the bracket
 ///     can always shrink. A step that leaves t unchanged is at most ω t, but |F̂| > 73 ω gives a longer step.

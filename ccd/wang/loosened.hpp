@@ -1,5 +1,5 @@
-// How near a pair is to the other answer: the factor by which the tolerances must be loosened, or tightened,
-// to get that answer.
+// How near the answer for a pair is to changing: the factor by which the tolerances must be loosened, or
+// tightened, to change it.
 #pragma once
 
 #include "ccd/wang/elementary.hpp"
@@ -7,7 +7,7 @@
 
 namespace nearmiss {
 
-/// The tolerances of a rule. The accepting ones are multiplied by s when taken as lengths: D, √δ, √ψ, S and
+/// The tolerances of a rule, where those that accept, taken as lengths, are multiplied by s: D, √δ, √ψ, S and
 /// ∛μ.
 template <class Rule>
 struct Loosened {
@@ -42,7 +42,7 @@ struct Loosened {
 };
 
 /// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) is the answer with
-/// Loosened tolerances. If it does not change between 2^-40 and 2^8, the nearer of the two is returned.
+/// Loosened tolerances. Returns 2^-40 if the answer is true even there, and 2^8 if it is false even there.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   double lo = -40;

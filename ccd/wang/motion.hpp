@@ -137,17 +137,17 @@ inline constexpr int bound_needs = 40;
 
 namespace detail {
 
-// B = (E + W)(1 + 64 ε), where E bounds the edges at t = 0 and W is the extent of the box of all velocities
-// relative to one vertex, which is the extent of the velocities themselves. W = 2 V_max with the relative
-// V_max of §4.1, and is never above 2 max ‖v_i‖∞.
+// B = (E + W)(1 + 64 ε). E bounds the edges at t = 0. W is the extent of the box of all velocities relative
+// to one vertex; the velocities themselves have the same extent. W = 2 V_max with the relative V_max of §4.1,
+// and is never above 2 max ‖v_i‖∞.
 //
-// Rounding errors, with exact E* and W* and B* = E* + W*, for a pair that collides (others need no bound):
-// every edge is within B* at both times, and the vertex of VT is within B* of all others. Any two end points
-// of EE are within B* + 2E* <= 3B* of each other at t = 0 (some pair is within B*, and the edges are within
-// E*), and within 4B* at t = 1. So the errors are at most
+// Rounding errors, with exact E* and W* and B* = E* + W*, for a pair that collides (other pairs need no
+// bound): every edge is within B* at both times, and the vertex of VT is within B* of all others. Any two end
+// points of EE are within B* + 2E* <= 3B* of each other at t = 0 (some pair is within B*, and the edges are
+// within E*), and within 4B* at t = 1. So the errors are at most
 // - u(|start| + |end|) + u|v| <= 8uB* for a velocity,
 // - 17uB* for a sum of two velocities (v30 = v20 + v32),
-// - 34uB* + u for an extent, which is the difference of two,
+// - 34uB* + u for an extent, which is the difference of two such sums,
 // - 4uB* for an edge (x32 = x31 - x21).
 // The sum E + W adds u. All together are below 40uB* = 20 ε B* (17 is proven). The factor 1 + 64 ε leaves
 // room for the rounding of its own product: B >= B*(1 + 40ε).
@@ -168,8 +168,8 @@ void form_bound(Pair<kind, T>& pair) {
   const Six edges = has_triangle(kind) ? extent : Six(hi.max(-lo));
   pair.E = max_component(edges.template head<3>());
   pair.W = max_component(extent.template tail<3>());
-  // r is NaN where p and v32 are infinite with opposite signs, and whether p or the NaN is then the larger one
-  // for Eigen depends on the processor. p is never above a finite W.
+  // r is NaN where p and v32 are infinite with opposite signs. Whether Eigen's max then returns p or NaN
+  // depends on the processor, so compare p once more. This never changes a finite W.
   using std::max;
   if constexpr (is_scalar<T>) pair.W = max(pair.W, max_component(pair.p.v()));
   pair.B = (pair.E + pair.W) * (1 + bound_margin * epsilon<T>());

@@ -32,10 +32,10 @@ template <Kind kind, class Coordinate>
   return std::array{first[0], first[1], second[0], second[1]};
 }
 
-// Whether one primitive lies entirely on one side of the other in the given coordinate, at t = 0 and, on the
-// same side, at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
-// at all times between them. The same holds for every convex combination, so the primitives never meet.
-// The answer is one truth value, or a vector of them if the coordinates are vectors.
+// Whether one primitive lies entirely on one side of the other in the given coordinate at t = 0, and on the
+// same side at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
+// at all times between them. The same holds for every convex combination, so the primitives never meet. The
+// answer is one truth value, or a vector of them if the coordinates are vectors.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
   const auto start = extents<kind>(coordinate, 0);
@@ -83,8 +83,8 @@ bool separated_by_plane(const Query& query) {
   return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
 }
 
-/// Whether the primitives are more than h apart along one axis at both ends, on the same side, and hence always.
-/// Rounding is monotone, so fl(a - b) > h implies a - b > h.
+/// Whether one primitive is more than h above the other along an axis, at t = 0 and at t = 1, and hence
+/// always. Rounding is monotone, so fl(a - b) > h implies a - b > h.
 inline bool separated_across_axis_by(double h, const Query& query) {
   const auto x = coordinates(query);
   const auto axis = [&](std::size_t k) {

@@ -37,10 +37,10 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
 /// Errors, for operations with a relative error of at most ω: there is one c' with |c' - c| <= 2ω |c| such
 /// that, for each root t' of a t² + b t + c' in [0, 1], a time t'(1 + θ) with |θ| <= 6ω is returned, unless
 /// it is beyond 1. (All to first order; tests/proofs/ has all orders.) The proof: the computed discriminant
-/// disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)(1 + δ3) times the discriminant of a, b and c' =
-/// c(1 + δ2)/(1 + δ1), and has its sign. The relative errors are then 2ω for its square root, 3ω for q (a sum
-/// of two terms of one sign), 4ω for q/2a, and 6ω for 2c/q with c in place of c'. An error of 1ω in a, such
-/// as that of 3a in a cubic's derivative, enters c' and θ too, which makes them 3ω and 7ω.
+/// disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)(1 + δ3) times the exact discriminant of a, b and c'
+/// = c(1 + δ2)/(1 + δ1), and has the same sign. The relative errors are then 2ω for its square root, 3ω for q
+/// (a sum of two terms of one sign), 4ω for q/2a, and 6ω for 2c/q with c in place of c'. An error of 1ω in a,
+/// such as that of 3a in a cubic's derivative, enters c' and θ too, which makes their bounds 3ω and 7ω.
 template <class T, int capacity>
 void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c) {
   using std::sqrt;

@@ -39,7 +39,8 @@ struct Tolerances {
   T h;        ///< a time: half the width of the fixed interval of VE culling (§5)
 
   /// The largest distance of a false positive, about 41 B e. VV accepts a computed squared distance of up to
-  /// D² + δ, which has an error of at most δ, and the other tests accept nothing farther away (§4.3 to §4.5).
+  /// D² + δ, and this distance has an error of at most δ. The other tests accept no pair that is farther
+  /// apart (§4.3 to §4.5).
   [[nodiscard]] T distance_bound() const {
     using std::sqrt;
     return sqrt(D2 + 2 * delta);
@@ -68,8 +69,8 @@ Tolerances<T> paper_tolerances(T B) {
   return tol;
 }
 
-/// A rule for tolerances: a function of B that `wang` takes, and functions of B and R for VV and VE alone. This
-/// one gives the paper's tolerances.
+/// A rule for tolerances: a function of B, which `wang` uses, and functions of B and R, which `wang_within`
+/// uses. This one gives the paper's tolerances.
 struct PaperTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {

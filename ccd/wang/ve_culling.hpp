@@ -15,7 +15,7 @@ namespace nearmiss {
 /// How to choose h, the half width of an interval around a computed root that must contain the true root.
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
-  fixed,     ///< h of the tolerances: ε^½, as the paper proposes, or another one
+  fixed,     ///< h of the tolerances: ε^½, as the paper proposes, or another value
   per_root,  ///< h from the slope of F at the root
 };
 
@@ -48,17 +48,17 @@ inline constexpr int weight_error = 1160;
 /// 1427 is proven, and 1914 for this error and that of the weight together.
 inline constexpr int spread_error = 4400;
 
-/// The same bounds for a configuration in a wider scalar, whose operations have relative errors of at most 4 ε².
-/// The errors of the relative vectors remain: ε of a position and 3ε of a velocity, so k = 4 for x + t v, or 5
-/// for the p of edges. Then N and p × q have k = 8, or 9 with that p. A weight has k = 16 with B_f = 12 B⁴, or
-/// 17 for edges, the sum of two has 24 B⁴, and N·N has 12 B⁴ with k = 16: 36 · 16 = 576. All roundings in the
-/// wider scalar are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
+/// `weight_error` for a configuration in a wider scalar, whose operations have relative errors of at most 4
+/// ε². The errors of the relative vectors remain: ε of a position and 3ε of a velocity, so k = 4 for x + t v,
+/// or 5 for the p of edges. Then N and p × q have k = 8, or 9 with that p. A weight has k = 16 with B_f = 12
+/// B⁴, or 17 for edges, the sum of two has 24 B⁴, and N·N has 12 B⁴ with k = 16: 36 · 16 = 576. All roundings
+/// in the wider scalar are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
 inline constexpr int weight_error_if_wide = 590;
 
-/// As for `spread_error`. The error of N is 3 · 2 B² · 8 ε = 48 B²ε, which contributes 48 · 6 √3 <= 499, and
-/// that of the edges 6 · 4 Bε, which contributes 24 · 6 √3 <= 250. W is not wider: 2183. Two conversions to the
-/// scalar of the pair, √3, four products, t ± h and the sum of both errors contribute 9 · 36 √3 <= 562. The sum
-/// is 3494, plus terms of second order.
+/// `spread_error` for a configuration in a wider scalar. The error of N is 3 · 2 B² · 8 ε = 48 B²ε, which
+/// contributes 48 · 6 √3 <= 499, and that of the edges 6 · 4 Bε, which contributes 24 · 6 √3 <= 250. W is not
+/// wider: 2183. Two conversions to the scalar of the pair, √3, four products, t ± h and the sum of both
+/// errors contribute 9 · 36 √3 <= 562. The sum is 3494, plus terms of second order.
 inline constexpr int spread_error_if_wide = 3700;
 
 namespace detail {
@@ -79,7 +79,7 @@ T culling_threshold(T mu, T eps, T B) {
 // The largest number of times that `per_root` doubles h.
 inline constexpr int culling_doublings = 4;
 
-// The most by which a weight may move within h.
+// The most by which a weight may move within the time h.
 template <Kind kind, class T, class Wide>
 T weight_spread(const Configuration<kind, T, Wide>& configuration, T W, T h) {
   const T edges = static_cast<T>(Wide(norm_1(configuration.q) + norm_1(configuration.r)));
@@ -107,10 +107,10 @@ auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps,
 /// exceeds μ + E + m there, and |t0 - t| < h. Points that touch at t0 are within δ = √3 W h of each other at
 /// t, since the components of their relative velocity are at most W (the velocity of a point of a primitive
 /// is a convex combination of the velocities of its vertices). A weight is linear in p, so moving p by δ
-/// changes the weight by at most ‖N‖‖edge‖ δ. If a weight is farther outside [0, N·N] than that plus the
-/// rounding error, nothing touches at t0. The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the
-/// configuration's own lengths (‖·‖₁ >= ‖·‖₂). All this holds for any h in (0, 1], and for a configuration in any
-/// scalar, since only the bounds of rounding errors depend on it.
+/// changes the weight by at most ‖N‖‖edge‖ δ. If a weight is outside [0, N·N] by more than this change plus
+/// the rounding error, nothing touches at t0. The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses
+/// the configuration's own lengths (‖·‖₁ >= ‖·‖₂). All this holds for any h in (0, 1], and for a
+/// configuration in any scalar, since only the bounds of rounding errors depend on it.
 template <VeCulling culling, Kind kind, class T, class Wide>
 bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
                         const Configuration<kind, T, Wide>& configuration, T t, const Tolerances<T>& tol) {

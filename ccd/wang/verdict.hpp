@@ -20,7 +20,7 @@ enum class Stage : std::uint8_t {
   vv,           ///< VV (KKT case 5)
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< the subject does not say; plug-ins never do
+  unspecified,  ///< the subject does not say; true of all plug-ins
   unknown,      ///< no test: the subject cannot tell, which counts as a collision
 };
 
@@ -63,7 +63,7 @@ enum class Fault : std::uint8_t {
   invalid,       ///< it gave an unknown answer, or a collision without the time that it promises
   load,          ///< it could not be loaded again after it had failed
   contract,      ///< it was not asked, because the query breaks its contract
-  inconsistent,  ///< it gave the other answer when asked once more, among other queries
+  inconsistent,  ///< it gave another answer when asked again, among other queries
 };
 
 inline constexpr std::size_t fault_count = 12;

@@ -70,7 +70,7 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 //
 // Both bounds must be in range, the given one at least as large as the pair's own, and all vectors within B.
 // Then `wang_careful` would give the same verdict, since it would change neither the frame nor the order of
-// end points. It would keep the frame only if all vectors are finite, but they are: the pair's own B is not
+// end points. It would keep the frame only if all vectors are finite, and they are: the pair's own B is not
 // in range if an edge or a velocity is infinite, p is within B, and a velocity is NaN only if a position is
 // infinite.
 template <Kind kind, class T>

@@ -18,14 +18,15 @@ constexpr bool is_decided(const Verdict& verdict) {
 }
 
 /// Gives the verdicts of `wang` (wang.hpp), with each pair's own bound or a given one, on those queries that
-/// need no vertex-edge tests, no other frame and no other order of end points. All others, those without a
-/// triangle or two edges, those whose own bound exceeds the given one, and queries with a coordinate that is
-/// not finite, are left undecided.
+/// need no vertex-edge tests, no other frame and no other order of end points. It leaves these undecided: all
+/// other queries, queries of kinds vv and ve, queries whose own bound exceeds the given one, and queries with
+/// a coordinate that is not finite.
 void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
                    const std::optional<double>& given = std::nullopt,
                    Instructions instructions = chosen_instructions());
 
-/// The largest number of queries in a batch, whose intermediate results fit into the nearest caches.
+/// The largest number of queries in a batch. The intermediate results of a full batch fit into the nearest
+/// caches.
 inline constexpr std::size_t wang_batch_size = 128;
 
 /// Decides a batch as wang_in_lanes does, with one instruction set.

@@ -111,8 +111,8 @@ class WangLanes {
     std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(size), n, 0);
   }
 
-  /// Rejects the queries that a plane separates, and returns the others, except queries with a coordinate
-  /// that is not finite, which stay undecided.
+  /// Rejects the queries that a plane separates, and returns the others. Queries with a coordinate that is
+  /// not finite are neither rejected nor returned, and stay undecided.
   Rows reject_separated(const Rows& rows) {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
@@ -133,8 +133,8 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose F stays clear of 0, as keeps_clear and solve_cubic do. Keeps F, W and B of those
-  /// other pairs that need no other frame or order.
+  /// Rejects the pairs whose F stays clear of 0, as keeps_clear and solve_cubic do. For the other pairs,
+  /// keeps F, W and B, unless they need another frame or order.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;

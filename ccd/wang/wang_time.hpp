@@ -85,13 +85,13 @@ T separated_until(const Pair<kind, T>& pair) {
   return latest;
 }
 
-/// A time in interval i before which the exact F has no root in the interval.
+/// A time in interval i. The exact F has no root in the interval before this time.
 ///
-/// By (2) of `solve_cubic`, there is no root between two times at which F has one sign and |F| exceeds the
-/// residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by twice
-/// the residual; the shifted cubic has the same nodes. There, `refine_root` ends with at most half of the
-/// residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals minus h at the
-/// returned time.
+/// By (2) of `solve_cubic`, there is no root between two times at which F has the same sign and |F| exceeds
+/// the residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by
+/// twice the residual; the shifted cubic has the same nodes. There, `refine_root` ends with at most half of
+/// the residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals minus h at
+/// the returned time.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);

@@ -115,7 +115,7 @@ template <class Rule = PaperTolerances, class T = double>
 double within_distance_bound(const Query& query, const std::optional<double>& given = std::nullopt,
                              const Rule& rule = {}) {
   const WithinQuery<T> pair(query, given);
-  if (pair.is_always_within()) return std::numeric_limits<double>::denorm_min();  // there are none
+  if (pair.is_always_within()) return std::numeric_limits<double>::denorm_min();  // all pairs are within R
   const Tolerances<T> tol = pair.tolerances(query.kind, rule);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!(tol.D2 < T(infinity))) return infinity;

@@ -17,7 +17,7 @@ class Votes {
     names.append(names.empty() ? "" : ", ").append(name);
   }
 
-  /// Appends the question if the answers differ.
+  /// Appends `question` to `text` if the answers to it differ.
   void complain(std::string& text, std::string_view question) const {
     if (yes_.empty() || no_.empty()) return;
     text.append(text.empty() ? "" : ", ").append(question);

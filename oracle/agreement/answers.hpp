@@ -22,11 +22,11 @@ class Answers {
   [[nodiscard]] bool collision() const;
 
   /// Whether no two methods contradict each other about the collision, the boundary or the number of roots,
-  /// and every complete method says whether there is a collision. If another one says that the smallest
-  /// distance is exactly h > 0, it may leave that open.
+  /// and every complete method says whether there is a collision. A complete method may leave the collision
+  /// open if another one says that the smallest distance is exactly h > 0.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if they agree. The filter takes
-  /// part if its answer is given.
+  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if they agree. `by_filter` is
+  /// compared, too, if it is given.
   [[nodiscard]] std::string disagreement(const Answer& by_filter = {}) const;
 
   /// Whether there is a collision that root parity cannot detect, because the number of roots is even.
@@ -40,7 +40,8 @@ class Answers {
 /// Asks all methods.
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// Asks all methods except the first one, which is complete, and whose answer `first` is already known.
+/// Asks all methods except the first one, whose answer `first` is already known. The first method is
+/// complete.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
 }  // namespace nearmiss

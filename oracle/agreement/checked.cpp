@@ -46,12 +46,13 @@ Query with_next_separation(const Query& query, double towards) {
   return with_separation(query, std::nextafter(query.separation, towards));
 }
 
-/// The same for the double above h. There is none above the largest one, for which nothing needs a proof.
+/// is_proved_to_meet() for the double above h. If h is the largest double, nothing needs a proof.
 bool is_proved_to_meet_above(const Query& query, const Span& span) {
   return query.separation == largest || is_proved_to_meet(with_next_separation(query, largest), span);
 }
 
-/// Whether a certificate, which may end earlier, proves that the distance is below h > 0 before a time.
+/// Whether a certificate proves that the distance is below h > 0 at some time before `time`. The part of the
+/// step that the certificate covers may end earlier.
 bool is_proved_below(const Query& query, double time) {
   const Span span = time > 1 ? Span{} : Span{0, time, true};
   const auto said = proved(certify_meets(query, span, true));

@@ -1,4 +1,5 @@
-// The oracle's certificates, judged by the checker of tools/certificates/, which shares no code with it.
+// Judges the oracle's certificates by the checker of tools/certificates/, which shares no code with the
+// oracle.
 #pragma once
 
 #include <optional>
@@ -22,20 +23,21 @@ std::optional<certificates::Statement> proved(const std::optional<std::string>& 
 
 /// Whether certificates prove a decision. A smallest distance of exactly h > 0 that is reached only at an
 /// irrational time has no certificate. So every tie is proved only up to the doubles next to h: the smallest
-/// distance is above the one below h, and at most the one above h, if there is one.
+/// distance is above the double below h, and at most the double above h, if there is one.
 bool is_proved(const Query& query, const Decision& decision);
 
 /// Checks the certificates of the narrowest enclosure of the earliest time of a query with a collision or a
-/// tie: nothing happens before it, and something happens in it. For h > 0, they must also show whether the
-/// distance falls below h right after it. If it only touches h there, it is enough to prove that it is at most
-/// the double above h, and above the one below h. Returns "" if the checker accepts them, else what is not
-/// proved, such as "time (not proved: before)".
+/// tie: the distance is above h before the enclosure, and at most h at some time in it. For h > 0, the
+/// certificates must also show whether the distance falls below h before the double after the enclosure. If
+/// it only touches h there, it is enough to prove that the distance is at most the double above h, and above
+/// the double below h. Returns "" if the checker accepts them, else what is not proved, such as "time (not
+/// proved: before)".
 ///
-/// Bounds of distances have certificates, too, which take several times as long.
+/// The certificates of bounds of distances are not checked, because they take several times as long.
 std::string time_disagreement(const Query& query, const Decision& decision);
 
-/// How the answers of all methods contradict each other and the decision, or what of the decision and of the
-/// earliest time is not proved; "" if all agree, and all is proved.
+/// How the answers of all methods and the decision contradict each other, or else which part of the decision
+/// or of the earliest time is not proved; "" if all agree, and all is proved.
 std::string disagreement(const Query& query, const Decision& decision, const Answers& answers);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-// The table of methods that decide a query. The comparison of answers and the command line use it, and
-// README.md repeats it and says how to add a method.
+// The table of methods that decide a query. The comparison of answers and the command line use this table.
+// README.md repeats the table, and says how to add a method.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ enum class Claim {
 
 /// A decision as the answer of a method.
 Answer to_answer(const Query& query, const Decision& decision);
-/// The same if the boxes or the filter decided; an empty answer if exact arithmetic did.
+/// A decision as the answer of the filter; an empty answer if exact arithmetic decided.
 Answer filter_answer(const Query& query, const Decision& decision);
 
 /// The answer that the certificate of the oracle's decision proves; an empty one if there is no certificate,

@@ -123,9 +123,10 @@ struct Bernstein {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// The magnitude that the value at t must exceed for a certain sign. The ends of [t - h, t + h] within [0,
-  /// 1] may have been rounded, by at most `end_rounding`. The slope of the exact coefficients exceeds that of
-  /// the computed ones by at most two of their errors; `spread_growth` covers the roundings in this function.
+  /// The magnitude that the value at t must exceed so that the sign on [t - h, t + h] is certain. The ends of
+  /// [t - h, t + h] within [0, 1] may have been rounded, by at most `end_rounding`. The slope of the exact
+  /// coefficients exceeds that of the computed ones by at most two of their errors; `spread_growth` covers
+  /// the roundings in this function.
   [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {
     using std::abs;
     using std::max;

@@ -1,8 +1,8 @@
-// A pair that is apart is separated by planes. At any time, the direction between the closest points
-// separates the primitives strictly, and so does the normal of the closest features, which moves with them:
-// x - y for two vertices, (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. What separates
-// at a time does so for a while, and [from, to] is compact; so cutting it ends, unless the smallest distance
-// is exactly h.
+// Planes prove that a pair stays apart. At any time, the direction between the closest points separates the
+// primitives strictly. So does the normal of the closest features, which moves with them: x - y for two
+// vertices, (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. A direction that separates at
+// a time also separates for a while, and [from, to] is compact. So a search that cuts [from, to] into parts
+// ends, unless the smallest distance is exactly h.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,27 +32,27 @@ using certificates::Gaps;
 using certificates::Normal;
 using certified::ClosestFeatures;
 
-constexpr int most_tries = 500'000;  ///< of a normal in an interval
+constexpr int most_tries = 500'000;  ///< tests of a normal on an interval
 constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
-constexpr int depth_of_doubles = 50;  ///< below it, doubles tell which features are closest
+constexpr int depth_of_doubles = 50;  ///< at smaller depths, doubles show which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
 
 struct Piece {
   Number lo, hi;
   Normal normal;
-  bool is_extended = false;  ///< as far as the normal separates the primitives
+  bool is_extended = false;  ///< whether it extends as far as its normal separates
 };
 
 /// A part of the step for which a normal is to be found.
 struct Part {
   Number lo, hi;
-  int depth = 0;                 ///< how often it was halved, at least
+  int depth = 0;                 ///< at least how often it was halved
   int kept_lo = 0, kept_hi = 0;  ///< how many cuts in a row kept this end
 
-  /// The parts behind and before a cut in the middle. If cuts approach an end and `may_be_uneven`, the cut
-  /// divides by 2^n instead: what happens near an end may last only 2^-2000, so each further cut makes the part
-  /// near the end smaller by a larger power of two.
+  /// The parts after and before a cut, which is in the middle at first. If `may_be_uneven` and many cuts in a
+  /// row kept one end, the part at that end gets 2^-n of the length, and n grows with each cut: what happens
+  /// near an end may last only 2^-2000.
   [[nodiscard]] std::array<Part, 2> cut(bool may_be_uneven) const {
     constexpr int usual = 4;
     const int kept = std::max(kept_lo, kept_hi);
@@ -85,8 +85,8 @@ Gaps gaps_of(const Query& query, const exact::Unit& unit, const std::array<Polyn
 /// Separates the primitives of a query piece by piece.
 class Separator {
  public:
-  /// If the primitives come within h, a proof exists only if a cut is where they do, so all cuts are in the
-  /// middle, and few normals are tried.
+  /// `reaches_h`: the primitives come within h. A proof then exists only if they do so at a cut, so all cuts
+  /// are in the middle, and few normals are tried.
   Separator(const Query& query, bool is_strict, bool reaches_h)
       : kind_(query.kind),
         unit_(query),
@@ -96,9 +96,10 @@ class Separator {
         cuts_unevenly_(!reaches_h),
         tries_left_(reaches_h ? most_tries_if_reached : most_tries) {}
 
-  /// Whether the pieces cover [lo, hi], to whose end `open` applies. Parts without a normal are cut.
+  /// Covers [lo, hi], or [lo, hi) if `open`, with pieces, and cuts each part for which it finds no normal.
+  /// Returns false if it gives up.
   bool cover(const Number& lo, const Number& hi, bool open) {
-    std::vector<Part> parts{{lo, hi}};  // the first one last
+    std::vector<Part> parts{{lo, hi}};  // the earliest part is the last element
     while (!parts.empty()) {
       const Part part = std::move(parts.back());
       parts.pop_back();
@@ -164,7 +165,7 @@ class Separator {
     return take_normal({Combination::interiors}, part, open);
   }
 
-  /// Tries the normal of these features, on the side on which it separates in the middle of the part.
+  /// Tries the normal of these features, with the sign with which it separates in the middle of the part.
   bool take_normal(const ClosestFeatures& features, const Part& part, bool open) {
     const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
                          features.to};
@@ -210,8 +211,8 @@ class Separator {
   int tries_left_;
 };
 
-/// Whether the primitives come within h in a span that begins with the step. Then the search for normals does
-/// not end, unless the distance is exactly h, and only at the ends of pieces.
+/// Whether the primitives come within h in a span that begins with the step. Then the search for normals ends
+/// only if the distance never falls below h, and is exactly h only at ends of pieces.
 bool is_reached(const Query& query, const Span& span) {
   if (span.from != 0) return false;
   auto time = earliest_time(query);

@@ -1,4 +1,4 @@
-// Certificates: proofs of what the oracle says about a query, which a short program checks with fractions.
+// Certificates: proofs of the oracle's answers about a query. A short program checks them with fractions.
 // tools/certificates/README.md describes their form.
 #pragma once
 
@@ -18,13 +18,13 @@ struct Span {
 };
 
 /// Proof that the distance is always above the query's separation h in a part of the step; or, unless
-/// `is_strict`, that it is never below h > 0. Nothing if that is wrong, or if no proof is found.
+/// `is_strict`, that it is never below h > 0. Nothing if the statement is wrong, or if no proof is found.
 std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict = true);
 
 /// Proof that the distance is at most the query's separation h at some time in a part of the step; or, if
-/// `is_strict`, that it is below h > 0. If the span is open, the certificate's own `to` is below that of the
-/// span: the double before it if possible, otherwise a fraction. Nothing if that is wrong, or if no proof is
-/// found.
+/// `is_strict`, that it is below h > 0. If the span is open, the certificate ends before the span's `to`: at
+/// the double before it if possible, otherwise at a fraction. Nothing if the statement is wrong, or if no
+/// proof is found.
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false);
 
 /// The certificate of decide(query). If the smallest distance is exactly h > 0, it proves that the distance
@@ -34,14 +34,15 @@ std::optional<std::string> certify(const Query& query);
 /// The certificate of each statement; nothing for a statement without a proof.
 using Certificates = std::vector<std::optional<std::string>>;
 
-/// Proofs of the narrowest enclosure [lo, hi] of the earliest time: nothing happens in [0, lo), unless lo is
-/// 0, and something happens in [lo, hi]. If there is no collision, the proof of that.
+/// Proofs of the narrowest enclosure [lo, hi] of the earliest time: that the distance is above h in [0, lo),
+/// unless lo is 0, and that it is at most h at some time in [lo, hi]. If there is no collision, one proof
+/// that there is none.
 Certificates certify_time(const Query& query);
 
 /// Proofs of the enclosure that minimum_distance(query) gives: the smallest distance is at least lo, unless
-/// lo is 0, and at most hi, unless hi is infinite. If the smallest distance is exactly lo or hi, and only at
-/// irrational times, there may be no proof of that. Then it is proved to be above the double before lo, or at
-/// most the double after hi.
+/// lo is 0, and at most hi, unless hi is infinite. If the distance is exactly lo or hi only at irrational
+/// times, there may be no proof of that bound. Then the proof has the double before lo in place of lo, or the
+/// double after hi in place of hi.
 Certificates certify_distance(const Query& query);
 
 }  // namespace nearmiss

@@ -15,7 +15,7 @@ using certified::dot;
 using certified::operator-;
 using certified::Vec;
 
-/// The weights of a point of each primitive: of the vertices of the first one, then of the second one.
+/// The weights of the vertices in a point of each primitive: first those of the first primitive.
 template <class Real>
 using WeightsOfPoints = std::array<Real, 4>;
 

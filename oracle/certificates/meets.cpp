@@ -1,7 +1,6 @@
-// Two points that are within h of each other at a rational time prove that the primitives come within h.
-// Without a separation, the time may be irrational. Then either the four vertices become coplanar while all
-// weights are positive, or the contact is that of a vertex and the inside of an edge
-// (tools/certificates/README.md says why).
+// Two points that are within h of each other at a rational time prove that the primitives come within h. For
+// h = 0, the time of contact may be irrational. Then either the four vertices become coplanar while all
+// weights are positive, or a vertex touches the inside of an edge (tools/certificates/README.md says why).
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -48,7 +47,8 @@ bool is_in(const Time& time, const Span& span) {
   return Time(span.from) <= time && (span.is_open ? time < Time(span.to) : time <= Time(span.to));
 }
 
-/// The beginning of a proof that looks at no time after `last`. If the span is open, the proof ends there.
+/// The heading of a proof that looks at no time after `last`. Its `to` is `last` if the span is open, else
+/// the end of the span.
 std::string heading_until(const std::string& last, const Query& query, const Span& span) {
   return heading(query, "meets", span.from, span.is_open ? last : certificates::to_text(Number(span.to)));
 }
@@ -62,8 +62,8 @@ class Meeting {
         is_strict_(is_strict),
         squared_h_(mpq_class(query.separation) * mpq_class(query.separation)) {}
 
-  /// The proof that the primitives come within h at t. It has points that are about the closest ones if these
-  /// are near enough, because their weights need fewer digits.
+  /// The proof that the primitives come within h at t. If approximately closest points are near enough, it
+  /// uses these, because their weights need fewer digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
     if (!is_in(t, span_)) return std::nullopt;
     const auto x = positions<mpq_class>(query_, t);
@@ -84,13 +84,14 @@ class Meeting {
     return is_strict_ ? squared_distance < squared_h_ : squared_distance <= squared_h_;
   }
 
-  /// Weights of points that are about closest; not numbers after overflow, which `shortened` refuses.
+  /// Weights of approximately closest points. After overflow, they are not finite, and `shortened` refuses
+  /// them.
   [[nodiscard]] WeightsOfPoints<double> about_closest(double t) const {
     const auto x = positions<double>(query_, t);
     return ClosestWeights<double>(query_.kind, x).weights();
   }
 
-  /// The weights rounded to the first of these numbers of bits with which the points are within h.
+  /// The weights, rounded to the first number in `bits` with which the points are within h.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(
       const WeightsOfPoints<Real>& weights, std::initializer_list<unsigned> bits,
@@ -156,7 +157,7 @@ class Crossing {
     return is_proof ? text(p, q) : std::nullopt;
   }
 
-  /// The shortest such proof for an interval that contains the known one.
+  /// The proof of bracket() for the interval with the fewest bits that contains `known`.
   [[nodiscard]] std::optional<std::string> wide_bracket(const Enclosure& known) const {
     for (const int bits : {3, 6, 10, 15, 21, 28, 36, 44}) {
       const double lo = std::max(std::ldexp(std::floor(std::ldexp(known.lo, bits)), -bits), span_.from);
@@ -192,7 +193,7 @@ class Crossing {
                     "}");
   }
 
-  /// Whether all components are multiples of one, which changes its sign.
+  /// Whether all components of `area` are multiples of one polynomial that changes its sign from p to q.
   [[nodiscard]] static bool is_line_of_one_root(const PolynomialVector& area, const Number& p,
                                                 const Number& q) {
     const Polynomial* one = nullptr;
@@ -210,7 +211,7 @@ class Crossing {
   exact::Interiors of_;
 };
 
-/// Any proof of the first contact, which exact arithmetic finds.
+/// Any proof of the first contact, for a time that exact arithmetic finds.
 std::optional<std::string> certify_first_contact(const Query& query, const Span& span, const Meeting& meeting,
                                                  const Crossing& crossing) {
   constexpr int most_refinements = 40;
@@ -244,7 +245,7 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span)
 /// A search for a proof gives up when its time is known to about this many bits.
 constexpr unsigned most_bits = 5'000;
 
-/// The proof that the distance is h at the first such time, if that is rational, or soon after it, if the
+/// The proof that the distance is h: at the first such time if this is rational, or soon after it if the
 /// distance stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));

@@ -16,17 +16,17 @@ using exact::Number;
 using exact::Polynomial;
 using exact::PolynomialVector;
 
-/// A vector of polynomials in doubles. It tells quickly that a direction does not separate the primitives;
-/// whether one does is left to exact arithmetic.
+/// A vector of polynomials in doubles. It quickly rejects directions that do not separate the primitives.
+/// Only exact arithmetic accepts one.
 class RoughVector {
  public:
   explicit RoughVector(const PolynomialVector& v);
 
-  /// About the value at t, and what bounds the rounding errors of its components together with a factor.
+  /// The approximate value at t. Its rounding errors are at most a constant factor times `size`.
   struct Value {
     certified::Vec<double> v{}, size{};
   };
-  /// For t in [0, 1].
+  /// The value at t in [0, 1].
   [[nodiscard]] Value at(double t) const;
 
  private:
@@ -41,8 +41,8 @@ struct Gaps {
   std::vector<PolynomialVector> exact;
   std::vector<RoughVector> rough;
   Number squared_h;
-  double h;        ///< about
-  bool is_strict;  ///< if not, they may also be exactly as long as h > 0
+  double h;        ///< the separation, rounded
+  bool is_strict;  ///< if not, a length of exactly h > 0 suffices
 };
 
 /// A direction that moves with time. The gaps must outlive it.
@@ -52,19 +52,19 @@ class Normal {
 
   [[nodiscard]] const PolynomialVector& vector() const { return n_; }
 
-  /// Whether it clearly does not separate the primitives at an end of [lo, hi] or in the middle.
+  /// Whether the direction clearly does not separate the primitives at an end of [lo, hi] or in the middle.
   [[nodiscard]] bool clearly_fails(const Number& lo, const Number& hi) const;
 
-  /// Whether the checkers see that it separates the primitives in all of [lo, hi] or, if `open`, [lo, hi).
+  /// Whether the checkers see that the direction separates the primitives in all of [lo, hi] or, if `open`,
+  /// [lo, hi).
   [[nodiscard]] bool separates(const Number& lo, const Number& hi, bool open);
 
-  /// Whether the first primitive is behind the second one at t, seen in this direction, as far as their first
-  /// vertices tell.
+  /// Whether the first primitive is behind the second one at t, seen in this direction, judged by their first
+  /// vertices.
   [[nodiscard]] bool is_behind_at(const Number& t) { return along(0).n_d.sign_at(t) < 0; }
 
  private:
-  /// n · d for the gap d of this number, and (n · d)² - h² n · n, which is needed for h > 0. These are made
-  /// when they are asked for first.
+  /// For one gap d: n · d, and for h > 0 also (n · d)² - h² n · n. They are computed on first use.
   struct Along {
     Polynomial n_d, excess;
   };
@@ -80,7 +80,8 @@ class Normal {
 /// Bits of the integers to which normals are rounded, in turn; 0: not rounded.
 constexpr std::array roundings{6, 20, 50, 0};
 
-/// A vector rounded to integers, of which the largest has about so many bits; 0 bits leave it as it is.
+/// The vector with its coefficients rounded to integers, the largest of about `bits` bits; the vector itself
+/// if `bits` is 0.
 PolynomialVector rounded(const PolynomialVector& n, int bits);
 
 /// The normal of a pair of features in both directions, rounded to integers of various sizes.
@@ -88,8 +89,9 @@ class FeatureNormal {
  public:
   FeatureNormal(const PolynomialVector& n, const Gaps& gaps);
 
-  /// The direction in which the first primitive is in front of the second one at t, as far as their first
-  /// vertices tell. The one with the smallest integers comes first, the one that is not rounded last.
+  /// The versions of the direction in which the first primitive is in front of the second one at t, judged by
+  /// their first vertices. The version with the smallest integers comes first, and the one that is not
+  /// rounded last.
   [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
 
  private:

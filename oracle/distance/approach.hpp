@@ -24,16 +24,16 @@ Approach closest_approach(const VertexDifferences& differences, const NeededDist
 
 /// When the distance first falls below a bound.
 struct FirstTime {
-  bool never = false;  ///< certainly never in [0, 1]: the distance even stays at or above `required`
-  bool comes = false;  ///< it certainly falls below the bound
+  bool never = false;  ///< the distance certainly stays above the bound: it is at least `required`
+  bool comes = false;  ///< the distance certainly falls below the bound
   Enclosure
       time;  ///< contains the first such time, if any. Earlier, the distance is at least the required one
-  double estimate = 1;  ///< of the first such time, not certain
+  double estimate = 1;  ///< an uncertified estimate of the first such time
 };
 
 /// Looks for the first time at which the distance is below `low`, as closest_approach does, in double and in
 /// double words. If the search succeeds, the enclosure is at most `width` wide, or as narrow as doubles
-/// allow. Before that time, certified bounds must show a distance of at least `required`, which must be
+/// allow. Before that time, certified bounds must show a distance of at least `required`. `required` must be
 /// greater than `low`. Both distances are in the unit of the differences.
 FirstTime first_time_below(const VertexDifferences& differences, double low, double required, double width);
 

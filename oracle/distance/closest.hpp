@@ -24,7 +24,7 @@ Real quotient(const Real& a, const Real& b) {
 struct ClosestFeatures {
   enum class Combination : std::uint8_t {
     vertices,         ///< one vertex of each primitive: `vertex` and `from`
-    vertex_and_edge,  ///< `vertex` of one, and the edge `from`, `to` of the other or of its triangle
+    vertex_and_edge,  ///< `vertex` of one primitive, and the edge (`from`, `to`) of the other
     interiors,        ///< the vertex and the inside of the triangle, or the insides of both edges
   };
   Combination combination{};
@@ -47,9 +47,9 @@ constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size
 
 namespace detail {
 
-/// A candidate for the closest points, whose difference is p - (a q + b r). For interiors, p, q and r are
-/// those of NormalPairs. For a vertex and an edge, p is the vertex and q the edge, both relative to `from`,
-/// and b is 0.
+/// A candidate for the closest points. The difference of its points is p - (a q + b r). For interiors, p, q
+/// and r are those of NormalPairs. For a vertex and an edge, p is the vertex and q the edge, both relative to
+/// `from`, and b is 0.
 template <class Real>
 struct Candidate {
   ClosestFeatures features;
@@ -88,7 +88,7 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
 }
 
 /// Considers the interiors of the triangle or the edges: the foot of the normal N, from p = q a + r b + N c.
-/// It counts if the weights are a, b >= 0, with a + b <= 1 for a triangle and a, b <= 1 for edges.
+/// The foot counts if its weights are a, b >= 0, with a + b <= 1 for a triangle and a, b <= 1 for edges.
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const Kind kind = x.differences().kind();
@@ -139,8 +139,8 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   return detail::points_of(x, best);
 }
 
-/// The closest points of the parts in `features`, which takes less time than closest_points(). If these are
-/// interiors that contain no closest points, all parts are considered.
+/// The closest points of the parts that `features` names; this takes less time than closest_points(). If
+/// these parts are interiors that do not contain the closest points, all parts are considered.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

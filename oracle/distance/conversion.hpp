@@ -8,8 +8,8 @@
 
 namespace nearmiss::certified {
 
-/// The next double above x >= 0, and the next below, but at least 0: the bits of positive doubles, read as
-/// integers, are in the order of the doubles.
+/// above(x) is the next double above x >= 0, and below(x) the next one below, but at least 0. The bits of
+/// positive doubles, read as integers, are in the order of the doubles.
 inline double above(double x) {
   return x < std::numeric_limits<double>::infinity()
              ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(x + 0.0) + 1)

@@ -68,7 +68,7 @@ class DistanceSearch {
     Real t;
     Moment moment;
     bool is_covered = false;  ///< whether the step is covered from here to the next time
-    Reach ahead{}, behind{};  ///< as last determined
+    Reach ahead{}, behind{};  ///< the last results of covered()
   };
 
   /// A part of the step that no certified bound covers. It lies between the range that the time `before`
@@ -100,14 +100,14 @@ class DistanceSearch {
     return time;
   }
 
-  /// Looks at the double nearest to t, in double, if that is precise enough, else precisely at t.
+  /// Looks at the double nearest to t, in double. If that is not precise enough, looks precisely at t.
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
     note(time);
     if (!resolves(time.moment) && !is_low(time)) return look_precisely(t);
     return time;
   }
-  /// Looks at a time between two others; precisely, if the double nearest to t is not between them.
+  /// Looks at a time t between a and b; precisely at t if the double nearest to t is not between them.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
     const Real rough(to_double(t));
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
@@ -132,7 +132,7 @@ class DistanceSearch {
   }
 
   /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
-  /// The next time is that of the minimum that one end predicts, or the middle if the predictions do not
+  /// The next time to look at is the minimum that one end predicts, or the middle if the predictions do not
   /// help.
   void descend(SampledTime a, SampledTime b) {
     if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
@@ -353,7 +353,7 @@ class DistanceSearch {
   double upper_ = std::numeric_limits<double>::infinity();
   double required_ = std::numeric_limits<double>::infinity();
   double best_time_ = 0;
-  double low_ = 0;  ///< for first()
+  double low_ = 0;  ///< the bound for first()
 };
 
 }  // namespace nearmiss::certified

@@ -23,7 +23,7 @@ struct Moment {
   double step = 0;           ///< time from here to the minimum of the distance, estimated
   double predicted = 0;      ///< the distance at that minimum, estimated
   double rate = 0;           ///< derivative of the distance, estimated
-  Vec<double> direction{};   ///< from the second primitive to the first, between closest points, or 0
+  Vec<double> direction{};   ///< between the closest points, towards the first primitive; or 0
 
   /// The separation that fits the features best; then others, if requested.
   boost::container::small_vector<Separation, 1> separations;
@@ -37,8 +37,8 @@ inline Vec<double> direction_of(const Vec<double>& v) {
   return size > 0 ? (1 / size) * v : Vec<double>{};
 }
 
-/// Predicts the minimum for features that move linearly, as d + s v; the component of v along the features is
-/// left out.
+/// Predicts the minimum of |d + s v|, for closest points with the difference d and the velocity v. v must not
+/// have a component along the features.
 inline void predict(Moment& moment, const Vec<double>& difference, const Vec<double>& velocity) {
   const double squared_speed = dot(velocity, velocity);
   const double squared_distance = dot(difference, difference);
@@ -66,7 +66,7 @@ inline void predict(Moment& moment, double distance, const Powers<double>& F) {
 }  // namespace detail
 
 /// A bound of the error of the difference of closest points. It is a sum of at most three vertex differences,
-/// which are rounded four times each, with exact weights up to 1; this takes at most three more roundings.
+/// which are rounded four times each, with exact weights up to 1. The sum takes at most three more roundings.
 /// The weights of interiors may add up to 1 + 2 U.
 template <class Real>
 double points_error(const VertexDifferences& differences) {
@@ -80,7 +80,8 @@ double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& 
          least_distance;
 }
 
-/// The separation that fits the features of the closest points best; `direction` is that of their difference.
+/// The separation that fits the features of the closest points best; `direction` is the direction of their
+/// difference.
 template <class Real>
 Separation separate_by_features(const VerticesAt<Real>& x, const ClosestFeatures& features,
                                 const Vec<double>& direction) {

@@ -42,7 +42,7 @@ Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<d
 }
 
 /// The time from here until a point that moves from d with velocity v enters the ball of radius r around the
-/// origin, negative if in the past; NaN if it never does.
+/// origin, negative if it entered in the past; NaN if it never enters.
 double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   const double a = dot(v, v);
   const double b = dot(d, v);
@@ -51,9 +51,9 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   return b < 0 ? c / (root - b) : -(root + b) / a;
 }
 
-/// The next time to look at in a gap, as an offset from one of its ends. The gap is `open` long, and the
-/// bound beyond that end covers the length `covered`. If little is covered, the distance is small there, so
-/// the offset is short.
+/// The next time to look at in a gap, as an offset from one of its ends. The gap has the length `open`, and
+/// beyond that end, a bound covers the length `covered`. If little is covered, the distance is small there,
+/// so the offset is short.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }

@@ -39,7 +39,7 @@ class QuickSearch {
   };
   struct Crossing {
     double time;
-    ClosestFeatures features;  ///< of the closest points around that time
+    ClosestFeatures features;  ///< the features of the closest points around that time
   };
   static constexpr std::size_t most_gaps = 8;
   static constexpr int most_times = 24;
@@ -55,12 +55,12 @@ class QuickSearch {
   /// others are dropped. Else the gap is replaced by what the bounds around this time leave of it. Returns
   /// false if they cover nothing, or leave too many gaps.
   bool look_into_first_gap();
-  /// Requires that the distance is below `low` at the end of the first gap. Moves this end to just after the
-  /// time at which the distance falls below `low` if it is certainly below `low` at the new end, too. Chooses
-  /// the next time to look at.
+  /// Requires that the distance is below `low` at the end of the first gap. Estimates when the distance falls
+  /// below `low`. Moves the end to just after that time if the distance is certainly below `low` there. Then
+  /// chooses the next time to look at.
   void look_for_crossing();
-  /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0
-  /// if it may be low from the beginning.
+  /// Estimates the time in the first gap at which the distance falls below `low`, given that it is below
+  /// `low` at the end of the gap; 0 if it may be below `low` from the beginning.
   [[nodiscard]] Crossing crossing() const;
 
   const VertexDifferences& differences_;

@@ -21,12 +21,12 @@
 // - N(t), the normal of the triangle, or of both edges: all products are ±F, the coplanarity cubic.
 //
 // Errors of the coefficients. Each coefficient is a sum of products of components of two or three vectors.
-// Each product is rounded at most n times on its way into the coefficient, which is a relative error of at
-// most n U (U = roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c
-// the magnitudes of the products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents);
-// for two vectors, to at most a b. The sums of magnitudes in the components of a cross product form a vector
-// of length at most 2/√3 a b. A vector x_i - x_j has a length of at most R = reach(i, j), and its velocity
-// one of at most 2 R. So the errors, in units of U times the lengths, are:
+// Each product is rounded at most n times on its way into the coefficient, so its relative error is at most n
+// U (U = roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c the
+// magnitudes of the products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for
+// two vectors, to at most a b. The sums of magnitudes in the components of a cross product form a vector of
+// length at most 2/√3 a b. A vector x_i - x_j has a length of at most R = reach(i, j), and its velocity one
+// of at most 2 R. So the errors, in units of U times the lengths, are:
 //
 //               n                lengths        error                       taken
 //   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
@@ -66,8 +66,8 @@ struct Separation {
   }
 };
 
-/// An upper bound of the length of a vector whose components are rounded to double and which is known up to
-/// `error`.
+/// An upper bound of the length of a vector that is known up to `error`. `v` has its components, rounded to
+/// double.
 inline double longest(const Vec<double>& v, double error) {
   return length(v) * (1 + 0x1p-48) + error + least_distance;
 }

@@ -12,8 +12,8 @@
 namespace nearmiss::certified {
 
 /// The vectors p, q and r (x_to - x_from), with the normal N = q × r and the coplanarity cubic F = p · N.
-/// They are chosen so that p = a q + b r + c N gives the weights a and b of the closest points: x0 - x1,
-/// x2 - x1 and x3 - x1 for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
+/// For vertex and triangle, they are x0 - x1, x2 - x1 and x3 - x1; for edges, x0 - x2, x0 - x1 and x3 - x2.
+/// So p = a q + b r + c N gives the weights a and b of the closest points.
 struct NormalPairs {
   VertexPair p, q, r;
 };
@@ -30,7 +30,7 @@ constexpr std::size_t number_of_pair(std::size_t i, std::size_t j) {
   return numbers[i][j];
 }
 
-/// Calls `use(i, j)` with i < j for each pair of vertices of a kind. The numbers are constants for the compiler.
+/// Calls `use(i, j)` with i < j for each pair of vertices of a kind. After inlining, i and j are constants.
 template <class Use>
 [[gnu::always_inline]] inline void for_each_pair(Kind kind, const Use& use) {
   const int count = vertices(kind);
@@ -43,8 +43,8 @@ template <class Use>
 }
 
 /// The differences x_i - x_j of all pairs of vertices at both ends of the step; 0 for vertices that the kind
-/// does not have. Their unit, 2^exponent, is
-/// such that the largest component is between 1 and 2 (all are 0 if all vertices coincide).
+/// does not have. The unit is 2^exponent, chosen so that the largest component is between 1 and 2 (all are 0
+/// if all vertices coincide).
 ///
 /// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
 /// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference, or the sum
@@ -86,9 +86,9 @@ class VertexDifferences {
 };
 
 /// The vertices at one time. Each component of a position is a sum of two products that are rounded at most
-/// four times: 1 - t, the product, the sum and, in double, the difference itself; with more than 106 bits the
-/// last rounding is that of summing the halves of a double word. A velocity is rounded twice, and is at most
-/// twice as large.
+/// four times: 1 - t, the product, the sum and, in double, the difference itself; with more than 106 bits,
+/// the last rounding is in the sum of the halves of a double word. A velocity is rounded twice, and is at
+/// most twice as large as a position.
 template <class Real>
 class VerticesAt {
  public:

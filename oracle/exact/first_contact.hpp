@@ -27,7 +27,8 @@ struct FirstContact {
 /// The first contact of the primitives; nothing if they never meet in [0, 1].
 std::optional<FirstContact> first_contact(Predicates& predicates);
 
-/// Whether the primitives meet in [0, 1] at all. The first time is given if the search happens to find it.
+/// Whether the primitives meet in [0, 1] at all. `first` is set if the search happens to find the first
+/// contact.
 struct Collision {
   bool any = false;
   std::optional<Root> first = std::nullopt;

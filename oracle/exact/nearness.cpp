@@ -45,7 +45,7 @@ Interiors two_edges(const std::array<PolynomialVector, 4>& x) {
   const PolynomialVector v = x[3] - x[2];
   const PolynomialVector x20 = x[2] - x[0];
   const PolynomialVector N = cross(u, v);
-  const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by it
+  const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by this
   const Polynomial alpha = dot(cross(x20, v), N);
   const Polynomial beta = dot(cross(x20, u), N);
   return {dot(x20, N), whole, {Polynomial() - alpha, alpha - whole, Polynomial() - beta, beta - whole}};

@@ -10,9 +10,9 @@ namespace nearmiss::exact {
 /// long coefficients.
 ///
 /// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest
-/// common divisor over the integers. Its leading coefficient divides that of p. If the prime does not divide
-/// that of p, g modulo the prime has the same degree as g. It divides both polynomials modulo the prime. So
-/// if these have no common factor, g is a constant.
+/// common divisor over the integers. The leading coefficient of g divides that of p. If the prime does not
+/// divide the leading coefficient of p, g modulo the prime has the same degree as g. Modulo the prime, g
+/// divides both polynomials. So if the residues have no common factor, g is a constant.
 bool are_coprime_by_residues(const Polynomial& p, const Polynomial& q);
 
 }  // namespace nearmiss::exact

@@ -45,9 +45,9 @@ FilterStage filter(const Query& query);
 /// The width to which most times can be enclosed without double words.
 inline constexpr double rough_time = 0x1p-30;
 
-/// An interval that contains the time of the first contact, if there is one, found in the same arithmetic;
-/// nothing if there certainly is none. Most intervals are at most `width` wide, or as narrow as doubles
-/// allow. The box test is not included.
+/// An interval that contains the time of the first contact, if there is one, found in the arithmetic of
+/// filter(); nothing if there certainly is none. Most intervals are at most `width` wide, or as narrow as
+/// doubles allow. The box test is not included.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
 /// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the

@@ -99,8 +99,9 @@ inline constexpr double root_of_two = 1.4142136;  ///< rounded up, with a relati
 inline constexpr double height_rounding =
     0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
 
-/// For a separation h, and heights along a diagonal, which are sums of two coordinates, rounded once. The
-/// diagonal vector has length √2, so heights of points at a distance of at most h differ by at most √2 h.
+/// For a separation h: whether a height along a diagonal is so far above another one that the points are more
+/// than h apart. Heights along a diagonal are sums of two coordinates, rounded once. The diagonal vector has
+/// length √2, so heights of points at a distance of at most h differ by at most √2 h.
 ///
 /// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact.
 /// D = fl(A - B) is at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact

@@ -14,7 +14,7 @@
 
 namespace nearmiss::certified {
 
-/// A subinterval that becomes a part of its own is widened by this on both sides.
+/// When a subinterval becomes a part of its own, both its ends move outward by this much.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
 /// The question to a search: whether there is a contact, or also its first time, roughly or to neighbouring
@@ -50,8 +50,8 @@ class ContactSearch {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
   }
-  /// Whether the time of the first contact is certainly not an end of this interval: F is certainly not zero
-  /// at the ends of an interval in which it changes its sign.
+  /// Whether the time of the first contact is certainly no end of the interval of first(): F is certainly not
+  /// zero at the ends of an interval in which it changes its sign.
   [[nodiscard]] bool is_between() const { return is_between_ && !unclear_; }
 
  private:
@@ -224,7 +224,7 @@ class ContactSearch {
     return FilterStage::weights;
   }
 
-  /// Searches the interval as a part of its own, if that is much smaller than this part.
+  /// Searches the interval as a part of its own, if it is much smaller than this part.
   FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;

@@ -15,9 +15,9 @@ namespace nearmiss {
 
 /// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at
 /// some t in [0, tmax], and sets `toi` to the largest double that is not after the first such t. So nothing
-/// happens in [0, toi), and no rescaling is needed. If there is no such t, `toi` is infinite. If a coordinate
-/// is not finite, `min_distance` negative, or tmax above 1, the functions report a collision with toi = 0,
-/// because a simulation must not step on.
+/// happens in [0, toi), and `toi` need not be scaled down. If there is no such t, `toi` is infinite. If a
+/// coordinate is not finite, `min_distance` negative, or tmax above 1, the functions report a collision with
+/// toi = 0, because a simulation must not take that step.
 ///
 /// Points may have any type with operator[] or operator(). They have three coordinates; if their size() is 2,
 /// the third coordinate is 0.

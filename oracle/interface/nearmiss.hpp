@@ -53,8 +53,8 @@ enum class Prove : int {
   distance = NEARMISS_PROVE_DISTANCE,
 };
 
-/// Two numbers that enclose a time or a distance. Both are infinite for a time if there is no collision, and
-/// NaN if there is no answer.
+/// Two numbers that enclose a time or a distance. If there is no answer, both are NaN. If there is no
+/// collision, both ends of a time are infinite.
 struct Interval {
   double lo = std::numeric_limits<double>::quiet_NaN();  ///< the lower one
   double hi = std::numeric_limits<double>::quiet_NaN();  ///< the upper one
@@ -106,7 +106,7 @@ class Queries {
 
   /// Number of queries.
   [[nodiscard]] std::size_t size() const noexcept { return layout_.count; }
-  /// Whether the separations, if they were given as a span, are one for each query.
+  /// Whether the span of separations, if one was given, has one element for each query.
   [[nodiscard]] bool has_its_separations() const noexcept {
     return separations_ == any_number || separations_ == size();
   }
@@ -117,7 +117,8 @@ class Queries {
 
  private:
   static int to_c(Kind kind) { return static_cast<std::size_t>(kind) < kinds.size() ? bit_of(kind) : 0; }
-  /// How many queries have `size` numbers, so many for each vertex. An unknown kind is refused later.
+  /// The number of whole queries in `size` numbers, with `of_a_vertex` numbers for each vertex. An unknown
+  /// kind is refused later.
   static std::size_t count_of(Kind kind, std::size_t size, int of_a_vertex) {
     const int of_a_query = of_a_vertex * nearmiss_vertices(to_c(kind));
     return of_a_query > 0 ? size / static_cast<std::size_t>(of_a_query) : size;
@@ -133,7 +134,7 @@ class Queries {
   static constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
   nearmiss_queries layout_;
-  std::size_t separations_ = any_number;  // length of the span of separations, if one was given
+  std::size_t separations_ = any_number;  // the length of the span of separations, if one was given
 };
 
 namespace detail {
@@ -144,8 +145,8 @@ bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
   return to.size() == queries.size() || (may_be_empty && to.empty());
 }
 
-/// Calls a C function with the layout, unless spans do not fit or there is nothing to ask: an empty span may
-/// be a null pointer.
+/// Calls a C function with the layout, unless a span does not fit, or there are no queries: an empty span may
+/// be a null pointer, which the C functions refuse.
 template <class Call>
 Status ask(const Queries& queries, bool fit, const Call& call) {
   if (!fit || !queries.has_its_separations()) return Status::bad_argument;
@@ -225,7 +226,8 @@ inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noex
   });
 }
 
-/// One query: x0 x1 .. at t = 0, then at t = 1, as many numbers as the kind demands. Too few are not answered.
+/// One query: x0 x1 .. at t = 0, then at t = 1, as many numbers as the kind demands. With too few, there is
+/// no answer.
 using Coordinates = std::span<const double>;
 
 /// nearmiss_collides() for one query.

@@ -67,7 +67,7 @@ int enclose(const nearmiss_queries* queries, double width, double* lo, double* h
       });
 }
 
-/// t* of a query, at most `width` wide; infinite if there is no collision.
+/// An enclosure of a query's t*, at most `width` wide; infinite if there is no collision.
 Enclosure enclosed_time(const Query& query, double width) {
   auto time = earliest_time(query);
   return time ? time->enclosure(width) : Enclosure{HUGE_VAL, HUGE_VAL};

@@ -1,12 +1,12 @@
 /** \file
  * Exact answers for queries in the caller's memory. C99.
  *
- * The answers are those of exact arithmetic, for all finite coordinates: degenerate, huge and subnormal ones,
- * too. Nearly all queries are decided in double arithmetic with certified error bounds, without memory from
- * the heap. Exact arithmetic decides the others, and contact at t = 0 or t = 1 where double cannot. It
- * allocates memory and takes microseconds to milliseconds; the slowest known queries, with coordinates of
- * very different sizes, take seconds. Distances allocate memory, too. A program cannot go on after an
- * allocation that fails inside GMP or CGAL.
+ * The answers are those of exact arithmetic, for all finite coordinates, including huge and subnormal ones
+ * and degenerate primitives. Nearly all queries are decided in double arithmetic with certified error bounds,
+ * without memory from the heap. Exact arithmetic decides the others, and contact at t = 0 or t = 1 where
+ * double cannot. It allocates memory and takes microseconds to milliseconds; the slowest known queries, with
+ * coordinates of very different sizes, take seconds. Distances allocate memory, too. A program cannot go on
+ * after an allocation that fails inside GMP or CGAL.
  *
  * All functions may be called from many threads at once; each call works in its own thread. They set the
  * processor's rounding mode if need be and restore it, and neither print nor throw. */
@@ -34,15 +34,15 @@ extern "C" {
  * and may be null. */
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by);
 
-/** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are the
- * same if t* is a double, and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of
- * impact: nothing happens before it. Both are infinite if there is no collision, and NaN if there is no
- * answer. `hi` may be null. */
+/** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are equal
+ * if t* is a double, and neighbouring doubles if not. If `width` is above 0, hi - lo may be up to `width`. So
+ * lo is a safe time of impact: nothing happens before it. Both lo and hi are infinite if there is no
+ * collision, and NaN if there is no answer. `hi` may be null. */
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi);
 
-/** The earliest time as a simulation needs it: whether each query is a collision at some t in [0, tmax], and,
- * if so, the largest double that is not after t* as toi[q]. Else toi[q] is infinite. If there is no answer,
- * toi[q] is 0, because a simulation must not step on. tmax must be at most 1. */
+/** The earliest time as a simulation needs it. answers[q] says whether query q is a collision at some t in
+ * [0, tmax]. If it is, toi[q] is the largest double that is not after t*; else toi[q] is infinite. If there
+ * is no answer, toi[q] is 0, because a simulation must not take that step. tmax must be at most 1. */
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi);
 
 /** The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi,
@@ -51,14 +51,14 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
 
-/** The certificate of query q, from which the short programs in tools/certificates/ of the sources see with
- * fractions alone that the answer is right. It is a text of lines, with '\n' between two of them. Each line
- * is JSON, and proves one statement about the query:
+/** The certificate of query q. It lets the short programs in tools/certificates/ of the sources verify the
+ * answer with fractions alone. It is a text of lines, with '\n' between two of them. Each line is JSON, and
+ * proves one statement about the query:
  *
  *     what                       statements
  *     NEARMISS_PROVE_DECISION    the primitives never come within h; or they do so at some time
- *     NEARMISS_PROVE_TIME        they do not do so in [0, lo), unless lo is 0; and they do so in [lo, hi]. If
- *                                there is no collision, as NEARMISS_PROVE_DECISION
+ *     NEARMISS_PROVE_TIME        they never do so in [0, lo), unless lo is 0; they do so at some time in
+ *                                [lo, hi]. If there is no collision, as NEARMISS_PROVE_DECISION
  *     NEARMISS_PROVE_DISTANCE    the distance is at least lo, unless lo is 0; and at some time at most hi,
  *                                unless hi is infinite. Separations are ignored
  *

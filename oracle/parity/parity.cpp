@@ -31,7 +31,7 @@ Gmpz determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVe
 
 // --- directions -------------------------------------------------------------------------------------------
 
-/// A direction of the ray: a given vector, or the infinitesimally perturbed (1, ε, ε²).
+/// A direction of the ray: a given vector; if unset, the infinitesimally perturbed (1, ε, ε²).
 using RayDirection = std::optional<IntegerVector>;
 
 /// The sign of n · d. For the perturbed direction it is that of n's first component that is not zero.
@@ -51,8 +51,8 @@ const std::vector<RayDirection>& directions() {
 
 // --- triangles --------------------------------------------------------------------------------------------
 
-/// The number of times a ray crosses a surface; nothing if it is undefined, because the ray meets an edge or
-/// runs in the surface's plane.
+/// The number of times a ray crosses a surface; nothing if the ray meets an edge or runs in the surface's
+/// plane, where the number is undefined.
 using Crossings = std::optional<int>;
 
 /// The crossings with a triangle that does not contain the origin.
@@ -122,7 +122,7 @@ bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h
   const Gmpq D = g[1] * g[1] - 4 * g[0] * g[2];
   if (sign(D) < 0) return false;
   const Gmpq scale = 1 / (2 * g[2]);
-  const Gmpq part = h[2] / g[2];  // h - part g is linear and equal to h at the roots
+  const Gmpq part = h[2] / g[2];  // h - part g is linear, and equal to h at the roots of g
   const Gmpq A = h[0] - part * g[0];
   const Gmpq B = h[1] - part * g[1];
   for (const int branch : {1, -1}) {
@@ -157,7 +157,7 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
 /// the side on which the left product is larger.
 struct Position {
   bool on_patch = false;
-  bool in_plane = false;    ///< the origin is in a flat patch's plane; rays out of it never cross the patch
+  bool in_plane = false;    ///< the origin is in the plane of a flat patch; rays that leave the plane miss it
   bool other_pair = false;  ///< the triangles with the diagonal p10 p01, not p00 p11, replace the patch
 };
 
@@ -247,7 +247,7 @@ IntegerVector difference(const Query& query, int i, int j, std::size_t time, con
   return {along(0), along(1), along(2)};
 }
 
-/// The images of the faces of the domain. A triangle is stored as a patch with a side of length 0.
+/// The images of the faces of the prism or the cube. A triangle is stored as a patch with a side of length 0.
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>

@@ -59,7 +59,7 @@ TEST(Advance, MeasuresTheDistanceOfEveryFeatureOfEdges) {
     EXPECT_FALSE(decide(with_separation(query, distance * (1 - 1e-9))).hit) << distance;
   };
   expect_distance(edges_at(-0.5, 0.5, 2), 2);  // the lines' nearest points
-  expect_distance(edges_at(3, 0.5, 4), 5);     // an end and the other edge
+  expect_distance(edges_at(3, 0.5, 4), 5);     // an end of one edge and the inside of the other
   expect_distance(edges_at(2, 4, 6), 7);       // two ends
   expect_distance(edges_at(-3, 0.5, 1.5), 2.5);
 }

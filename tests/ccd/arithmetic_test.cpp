@@ -1,4 +1,4 @@
-// Arithmetic that is not plain is detected, named and undone.
+// Arithmetic modes that are not plain are detected, named and reset.
 #include "ccd/query/arithmetic.hpp"
 
 #include <gtest/gtest.h>

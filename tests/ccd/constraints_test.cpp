@@ -19,15 +19,15 @@ constexpr std::array members{&Errors::area,      &Errors::height_vt, &Errors::he
                              &Errors::weight_ee, &Errors::length2,   &Errors::weight_ve, &Errors::F,
                              &Errors::residual,  &Errors::delta,     &Errors::least_mu,  &Errors::least_psi};
 
-// The errors that §4.2 to §4.5 of the paper state, in units of ε, with ε^½ = 2^-26.
+// The errors that §4.2 to §4.5 of the paper state, in units of ε. ε^½ is 2^-26.
 TEST(RoundingErrors, AreThePapersAsPrinted) {
   const Errors printed = printed_errors(0x1p-52);
   const std::array<double, 12> expected{13, 21, 16, 565, 362, 22, 44, 0, 0, 311, 33492, 725 * 0x1p26};
   for (std::size_t i = 0; i < members.size(); ++i) EXPECT_EQ(printed.*members[i], expected[i] * 0x1p-52) << i;
 }
 
-// For x = k u, (1 + u)^k - 1 is below x + x²/2 + x³/6 + ... by less than x u.
-// The bound is x + x²/2 + x³/4 + ...
+// For x = k u, (1 + u)^k - 1 is at most x u less than x + x²/2 + x³/6 + ... The bound is x + x²/2 + x³/4 +
+// ...
 TEST(RoundingErrors, OfTheTheoremAreTightToSecondOrder) {
   for (const double u : {0x1p-10, 0x1p-24, 0x1p-52})
     for (const int k : {1, 8, 40}) {

@@ -37,7 +37,7 @@ Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
 /// A linear F with this slope and with the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
-/// Tolerances with μ = 2^-40, this h, and zeros otherwise.
+/// Tolerances with μ = 2^-40 and this h; all others are 0.
 Tolerances<double> tolerances(double h) {
   Tolerances<double> tol{};
   tol.mu = 0x1p-40;
@@ -96,7 +96,7 @@ TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
   }
 }
 
-// F is 1/4 - t², which is 15/64 at 1/8 and 7/64 at 3/8.
+// F is 1/4 - t², which is 15/64 at t = 1/8, and 7/64 at t = 3/8.
 TEST(VeCulling, ARootIsBracketedOnBothSides) {
   const Cubic<double> F{0, -1, 0, 0.25};
   const auto brackets = [&](double at_most) { return detail::brackets_root(F, 0.25, 0.125, at_most); };

@@ -1,6 +1,6 @@
-// The table of the vertices and edges of each kind. The oracle and wang both read it, so comparing them would
-// not reveal an error in it. Here, each list is compared with what it must contain, computed only from the
-// numbers of vertices.
+// Tests the table of the vertices and edges of each kind. The oracle and wang both read this table, so
+// comparing their answers would not reveal an error in it. Here, each list is compared with its definition,
+// which uses only the numbers of vertices.
 #include "ccd/query/kind.hpp"
 
 #include <gmock/gmock.h>
@@ -49,7 +49,8 @@ std::pair<int, int> ordered(const Pair& pair) {
   return std::minmax<int>(pair.from, pair.to);
 }
 
-/// Expects that the table lists these elements, each once. `of` makes an element of what is listed.
+/// Expects that the table lists each of these elements once. `of` makes an element from an entry of the
+/// table.
 template <class Element, class Listed, class Of>
 void expect_each_once(Kind kind, std::span<const Listed> listed, const std::set<Element>& expected,
                       const Of& of) {

@@ -39,7 +39,7 @@ TEST(Quadratic, SmallRootDoesNotCancel) {
   EXPECT_EQ(quadratic_roots(1, 1e8, -1), (Roots{1e-8}));
 }
 
-/// Describes a random case: its index, by which it can be repeated, and its cubic.
+/// Describes a random case: its index, which repeats it, and its cubic.
 std::string shown(std::uint64_t index, const Cubic<double>& F) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << F.a << ' ' << F.b << ' ' << F.c << ' ' << F.d;

@@ -59,7 +59,7 @@ TEST(Stopwatch, TheBestTimeIsTheShortest) {
   EXPECT_EQ(calls, 4);
 }
 
-/// Keeps the calling thread, and another one that computes all the time, on one processor.
+/// Keeps the calling thread on one processor, together with another thread that computes all the time.
 class Shared {
  public:
   Shared() {
@@ -67,7 +67,7 @@ class Shared {
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(sched_getcpu(), &one);
-    sched_setaffinity(0, sizeof one, &one);  // the other thread inherits it
+    sched_setaffinity(0, sizeof one, &one);  // the other thread inherits this affinity
     other_ = std::jthread([](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
       }

@@ -1,4 +1,4 @@
-// VV and VE report everything within their thresholds, and nothing farther away than the bound.
+// VV and VE report every pair within their thresholds, and none farther apart than the bound.
 #include "ccd/wang/vertex_edge.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,8 @@ TEST(Tolerances, AreThePapersForDouble) {
 
 TEST(VertexVertex, ReportsWhatIsWithinD) {
   const double D = std::sqrt(tol.D2);
-  // Two vertices pass at distance D at t = 1/2; rest at this distance; or are slightly farther apart.
+  // Two vertices pass each other at distance D at t = 1/2, rest at this distance, or pass slightly farther
+  // apart.
   EXPECT_EQ(vertex_vertex(moving({D, -0.5, 0}, {0, 1, 0}), tol), 0.5);
   EXPECT_EQ(vertex_vertex(moving({D, 0, 0}, {0, 0, 0}), tol), 0);
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
@@ -62,8 +63,8 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_EQ(vertex_vertex(moving({0.5, 0, 0}, {-0.5, 0, 0}), tol), 1);
 }
 
-// One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. Only this case reports the pair:
-// cases that the algorithm tries earlier do not.
+// The tests below have a vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. The cases that
+// the algorithm tries earlier do not report the pair.
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -147,7 +148,7 @@ VertexEdge<double> pair_at_distance(Random& random, double distance, double& tim
   return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
 }
 
-/// Describes a random case: its index, by which it can be repeated, and its vectors.
+/// Describes a random case: its index, which repeats it, and its vectors.
 std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << "x0i " << pair.x0i.xv.transpose() << ", xji "

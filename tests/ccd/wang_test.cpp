@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, EveryWang,
                          ::testing::Values("wang", "wang-eps", "wang-eps:h=0.001", "wang-plain",
                                            "wang-tight"));
 
-// tests/fuzz/corpus_test.cpp asks the same subjects the collisions of corpus/cases.
+// tests/fuzz/corpus_test.cpp asks the same subjects about the collisions of corpus/cases.
 TEST_P(EveryWang, ReportsContactInsideTheStep) {
   for (const auto& [query, time] :
        {std::pair(falling_vertex(0.25, 0.25, 1, -1), 0.5), {falling_edge(1, -3), 0.25}}) {
@@ -62,7 +62,7 @@ TEST(Wang, TellsWhatRejectedAPair) {
   EXPECT_EQ(rejection("wang", falling_vertex(0.25, 0.25, 1, -1)), Rejection::untold);
 }
 
-// The cubic is always below its threshold, so its only root is t = 0, where the vertex is outside of the
+// |F| is always below its threshold, so the solver returns only t = 0, where the vertex is outside of the
 // triangle. Therefore t = 1 must be tested separately.
 TEST_P(EveryWang, TestsTheEndOfTheStepWhereTheCubicSeesOnlyItsStart) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);

@@ -1,4 +1,4 @@
-// What is written in each file format is read back exactly, and each error gives one clear line.
+// Each file format is read back exactly as it was written, and each error gives one clear line.
 #include "corpus/readers.hpp"
 
 #include <fcntl.h>
@@ -127,7 +127,7 @@ TEST(CaseFile, HasThePointsOfItsKind) {
                  "x.case:6: found x2, expected only the points of kind vv");
 }
 
-/// Writes `each` as text, puts other text before and behind each line, and reads the case back.
+/// Writes `each` as text, puts `before` and `behind` around each line, and reads the case back.
 Case read_with(const Case& each, const std::string& before, const std::string& behind) {
   std::istringstream lines(to_text(each));
   std::string text;

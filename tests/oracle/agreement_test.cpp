@@ -32,7 +32,7 @@ std::string disagreement(const std::vector<Method>& methods, std::optional<bool>
   return ask_all(hit, methods).disagreement({.collision = by_filter});
 }
 
-/// Three methods that agree on one root inside.
+/// Three methods that agree: there is one root, and the contact is not on the boundary.
 std::vector<Method> three() {
   return {saying("first", Claim::complete, {.collision = true}),
           saying("second", Claim::complete, {.collision = true, .on_boundary = false, .odd = true}),
@@ -100,7 +100,7 @@ TEST(Agreement, AWrongDecisionIsNotProved) {
 
 TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
   constexpr double M = std::numeric_limits<double>::max();
-  // The triangle is an edge, which is exactly M below the vertex when 2 t² = 1, and never nearer.
+  // The triangle is an edge. It is exactly M below the vertex when 2 t² = 1, and never nearer.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
                         -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},

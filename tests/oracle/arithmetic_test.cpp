@@ -1,4 +1,4 @@
-// The oracle gives the same answers in any arithmetic of the caller, and restores this arithmetic.
+// The oracle gives the same answers in every arithmetic mode of its caller, and restores that mode.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -18,7 +18,7 @@ using testing::falling_edge;
 using testing::falling_vertex;
 using testing::HostileArithmetic;
 
-/// Queries that the last bit decides, with primitives down to the smallest ones.
+/// Queries that the last bit decides, with primitives down to the size of the smallest double.
 std::vector<Query> close_calls() {
   std::vector<Query> queries;
   for (const double scale : {1.0, 0x1p-1000, 0x1p-1021, 0x1p-1050, 0x1p-1070})

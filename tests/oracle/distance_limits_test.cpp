@@ -1,5 +1,5 @@
 // The hardest cases for certified distances: subnormal units, ratios and distances that overflow, the
-// narrowest enclosures, and minima that no initial guess is near to.
+// narrowest enclosures, and minima that are far from every initial guess.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
   EXPECT_LE(ratio.hi, 0x1.2p0 / 0x1.1p0 * (1 + 0x1p-48));
 }
 
-// The distance is 1. The double nearest to 1/3 is below it, so an upper end must be larger.
+// The distance is 1. The double nearest to 1/3 is below 1/3, so an upper end must be larger than that double.
 TEST(DistanceInUnits, IsRoundedOutward) {
   const Query query = falling_vertex(0.25, 0.25, 2, 1);
   const Enclosure third = distance_in_units(query, 3, [](double hi) { return hi * (1 - 0x1p-40); });

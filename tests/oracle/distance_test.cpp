@@ -31,8 +31,8 @@ void expect_encloses(const Query& query, double distance) {
 TEST(Distance, IsThatOfTheClosestFeatures) {
   expect_encloses(falling_vertex(0.25, 0.25, 3, 3), 3);
   expect_encloses(falling_vertex(0.25, 0.25, 3, 2), 2);
-  expect_encloses(falling_vertex(-0.5, 0.5, 1, -1), 0.5);  // from an edge
-  expect_encloses(falling_vertex(-3, -4, 1, -1), 5);       // from a vertex
+  expect_encloses(falling_vertex(-0.5, 0.5, 1, -1), 0.5);  // nearest to an edge
+  expect_encloses(falling_vertex(-3, -4, 1, -1), 5);       // nearest to a corner
   expect_encloses(falling_edge(2, 0.5), 0.5);
 }
 

@@ -1,5 +1,5 @@
-// Exact arithmetic confirms the bounds of double words, and of the errors of products. tests/proofs/ proves all
-// others.
+// Exact arithmetic confirms the error bounds of double words and of products. tests/proofs/ proves all other
+// bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>

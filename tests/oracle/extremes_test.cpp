@@ -147,8 +147,8 @@ TEST(Extremes, AllCoordinatesEqual) {
     }
 }
 
-// Multiplied by a power of two, such coordinates lie between the largest subnormal number and the smallest
-// normal one.
+// After scaling by a power of two, these coordinates lie between the largest subnormal number and the
+// smallest normal number.
 TEST(Extremes, CoordinatesThatAreRoundedToTheSmallestNormalNumber) {
   for (int exponent = -1026; exponent <= -1014; ++exponent) {
     const double z = std::ldexp(1.0, exponent);
@@ -176,7 +176,7 @@ TEST(Extremes, RootsOfEveryMultiplicity) {
   expect_collision(triple, true);
   EXPECT_EQ(testing::count_roots(triple).with_multiplicity, 3);
   EXPECT_EQ(earliest_time(triple)->rational(), "1/2");
-  // The same triangle with a vertex that moves away from the origin.
+  // The triangle of `triple`, with a vertex that moves away from the origin.
   Query missed = triple;
   for (int k = 0; k < 3; ++k) missed.x[static_cast<std::size_t>(12 + k)] = 1;
   expect_consistent(missed);

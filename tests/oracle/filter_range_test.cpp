@@ -1,5 +1,5 @@
-// The filter when products of coordinates, or sums of products, overflow or underflow. Tests the filter for
-// one query, and the filter for many queries with every instruction set of this machine.
+// Tests the filter where products of coordinates, or sums of products, overflow or underflow: for one query,
+// and for many queries with every instruction set of this machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,7 +71,8 @@ Query stretched(Query query, int xy, int z) {
   return query;
 }
 
-/// Collisions of small numbers. Contact is between t = 0 and t = 1, and a change of F's sign shows it.
+/// Collisions with small coordinates. The contact is between t = 0 and t = 1, and a change of F's sign shows
+/// it.
 std::vector<Named> plain_collisions() {
   return {{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)}, {"falling edge", falling_edge(1, -1)}};
 }
@@ -97,8 +98,8 @@ Query planar_edges(double size) {
                     {{0, 3 * size, size}, {0, size, 0}, {0, size, 3 * size}, {0, 0, 0}});
 }
 
-/// A contact. If `size` is 2^511, the weights' middle coefficients overflow along an axis. F, which is a sum
-/// of products with the coordinates along this axis, does not overflow.
+/// A contact. If `size` is 2^511, the weights' middle coefficients overflow along an axis. F is a sum of
+/// products with the coordinates along this axis, and does not overflow.
 Query flat_vertex(double size) {
   return make_query(Kind::vertex_triangle, {{0, 0, 1}, {0, 0, size}, {0, 1, 0}, {1, -2 * size, 0}},
                     {{0, 2.5, 1}, {0, 0, -1.5 * size}, {0, 1, 0}, {1, size, 0}});
@@ -117,8 +118,8 @@ Query flat_vertex_apart(double size) {
 }
 
 /// A contact. If `size` is 2^511, F's products of three differences are far from overflow, because
-/// coordinates along y are small. But F multiplies such a coordinate by a sum of products of two, which
-/// overflows.
+/// coordinates along y are small. But F multiplies such a coordinate by a sum of products of two coordinates,
+/// and this sum overflows.
 Query thin_edges(double size) {
   return make_query(Kind::edge_edge,
                     {{0, 0.5, 1.5 * size}, {0, 0x1.8p-6, 0}, {0, 0, -0.09375 * size}, {1.5 * size, 0, 0}},
@@ -187,7 +188,8 @@ Query neighbour(Random& random, Query query) {
   return query;
 }
 
-// Tests every exponent at which a product of two or three, or a sum of them, may leave the range of double.
+// Tests every exponent at which a product of two or three coordinates, or a sum of products, may leave the
+// range of double.
 TEST(FilterRange, IsRightAtEveryExponentNearTheEndsOfTheRange) {
   const auto expect_neighbours_right = [&](const std::string& name, const Query& query, int xy, int z) {
     for (std::size_t i = 0; i < 60; ++i) {

@@ -1,5 +1,5 @@
-// The filter never gives a wrong answer, decides what it should, and gives the same answers for one query and
-// for many.
+// The filter never gives a wrong answer, decides the queries that it should, and gives the same answers for
+// one query and for many.
 #include "oracle/filter/filter.hpp"
 
 #include <gmock/gmock.h>
@@ -108,8 +108,9 @@ TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
   EXPECT_LT(apart, queries.size() / 2);
 }
 
-// If the filter guessed worse where to look for contact, its answers would still be right, but it would leave
-// more queries to exact arithmetic, which is slow. The limit is about the number that it leaves now.
+// With worse guesses of where to look for contact, the filter's answers would still be right, but it would
+// leave more queries to exact arithmetic, which is slow. The limit is about the number of queries that it
+// leaves now.
 TEST(Filter, LeavesAsFewQueriesAsItDid) {
   std::vector<FilterStage> stages;
   for (const Query& query : hard_queries(5, 50000)) stages.push_back(filter(query));
@@ -145,7 +146,7 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, even before number i is replaced
+      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, also before coordinate i is replaced
       query.x[i] = c;
       queries.push_back(query);
       EXPECT_EQ(filter(query), FilterStage::undecided);

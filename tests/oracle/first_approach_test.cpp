@@ -84,8 +84,8 @@ TEST(Separation, ATieIsNeverLate) {
 }
 
 TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
-  // For t <= 1/2, the vertex is exactly 1 above the triangle, which is the edge x = 0 then; later, the
-  // triangle rises.
+  // For t <= 1/2, the vertex is exactly 1 above the nearest point of the triangle, which is on its edge x =
+  // 0. Later, the rest of the triangle rises above this edge.
   const Query query =
       testing::make_query(Kind::vertex_triangle, {{0, 0.5, 1}, {0, 0, 0}, {1, 0, -4}, {0, 1, 0}},
                           {{0, 0.5, 1}, {0, 0, 0}, {1, 0, 4}, {0, 1, 0}});
@@ -141,8 +141,8 @@ void expect_agreement(const Query& query, const std::string& repeat) {
   }
 }
 
-/// A query of small integers. In half of them, the primitives move without turning, so that their distance is
-/// often an integer.
+/// A query of small integers. In half of these queries, the primitives move without turning, so that their
+/// distance is often an integer.
 Query small_integer_query(Random& random, Kind kind) {
   Query query = testing::integer_query(random, kind, 1);
   if (random.one_in(2)) return query;
@@ -175,7 +175,7 @@ TEST(Separation, RandomQueriesAreDecidedAlikeByAllMethods) {
   }
 }
 
-// The separation is next to the smallest distance, so that only exact arithmetic can tell.
+// The separation is next to the smallest distance, so that only exact arithmetic can decide.
 TEST(Separation, NextToTheSmallestDistanceIsDecidedAlikeByAllMethods) {
   int tried = 0;
   for (std::size_t i = 0; i < 60; ++i) {

@@ -10,8 +10,8 @@
 
 namespace nearmiss::testing {
 
-/// Makes numbers and queries that are difficult for rounding: with magnitudes far apart, with cancellation,
-/// with few bits or with all bits. They are a pure function of the seed and the number of the case.
+/// Makes numbers and queries that are difficult for rounding: with very different magnitudes, with
+/// cancellation, with few bits or with all bits. They depend only on the seed and the index of the case.
 class Hard : public Random {
  public:
   Hard(std::uint64_t seed, std::size_t index) : Random(seed, 0, index) {}

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 const fs::path source = NEARMISS_SOURCE;
 
-/// The project's own headers that a file includes, in quotes or angle brackets, as "folder/file.hpp".
+/// The headers that a file includes in quotes or angle brackets, as "folder/file.hpp".
 std::set<std::string> includes(const fs::path& file) {
   static const std::regex line("^\\s*#\\s*include\\s*[\"<]([^\">]+)[\">].*");
   std::set<std::string> found;
@@ -38,7 +38,7 @@ std::vector<fs::path> code(const std::string& folder) {
   return files;
 }
 
-/// The project's headers that the files of a folder include from other folders, by file.
+/// For each file of a folder, the project's headers that it includes from other folders.
 std::map<std::string, std::set<std::string>> borrowed(const std::string& folder) {
   std::map<std::string, std::set<std::string>> by_file;
   for (const fs::path& file : code(folder))

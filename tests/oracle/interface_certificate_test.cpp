@@ -1,4 +1,5 @@
-// nearmiss_certificate(): the checker accepts what it writes, which states exactly what was asked.
+// The checker accepts the certificates that nearmiss_certificate() writes, and each states exactly what was
+// asked.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,7 +117,8 @@ TEST(InterfaceCertificate, LeavesOutStatementsThatHaveNoProof) {
   EXPECT_EQ(text, "");
 }
 
-/// Two queries of a mesh of floats, with a separation each. The second one has the vertices in reverse.
+/// Two queries of a mesh of floats, each with a separation of its own. The second query has the vertices in
+/// reverse order.
 TEST(InterfaceCertificate, IsThatOfOneQueryInAnyLayout) {
   const auto falls = falling(-1);
   const std::vector<float> start(falls.begin(), falls.begin() + 12), end(falls.begin() + 12, falls.end());
@@ -158,7 +160,7 @@ TEST(InterfaceCertificate, IsCutOffAsBySnprintf) {
   }
 }
 
-/// The edges pass each other at a distance that is tiny beside their lengths.
+/// The edges pass each other at a distance that is tiny compared with their lengths.
 TEST(InterfaceCertificate, IsAsLongAsItMustBe) {
   constexpr std::array x{1., -2., -0x1p1022, -2., -3., -0x1p1023, 0., 1., -0x1p1023, 2., -2., 0x1p1022,
                          1., 2.,  -0x1p1023, 3.,  -3., -0x1p1023, 0., 1., -0x1p1023, 3., -2., 0x1p1022};

@@ -26,7 +26,7 @@ constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1,
                                          0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 #ifndef _GLIBCXX_ASSERTIONS  // the sanitizers, whose preset defines this, need a larger stack
-/// This query takes the deepest stack of all queries that were tried.
+/// This query needs the deepest stack of all queries that were tried.
 TEST(Interface, WorksOnASmallStack) {
   static constexpr std::array deepest{-0x1p+0,
                                       0x1.87e92154ef7acp-665,

@@ -1,5 +1,5 @@
-// The functions of oracle/interface: what they refuse, and what they leave unchanged. tests/installed
-// compares their answers with the harness's.
+// Tests what the functions of oracle/interface refuse, and what they leave unchanged. tests/installed
+// compares their answers with those of the harness.
 #include "oracle/interface/nearmiss.hpp"
 
 #include <gmock/gmock.h>
@@ -236,7 +236,7 @@ TEST(Interface, TheSmallestDistanceIsAsNarrowAsAsked) {
 TEST(Interface, VerticesAndTheStrideOfQueriesAreAddedUp) {
   const std::vector<std::int32_t> vertices{0, 1, 2, 3, 3, 2, 1, 0};
   std::vector<double> x(falling.begin(), falling.end());
-  for (const std::size_t vertex : {3U, 2U, 1U, 0U})  // the second query at t = 0, in the other order
+  for (const std::size_t vertex : {3U, 2U, 1U, 0U})  // the second query at t = 0, in reverse order
     x.insert(x.end(), &falling[3 * vertex], &falling[3 * vertex] + 3);
   for (const std::size_t vertex : {3U, 2U, 1U, 0U})
     x.insert(x.end(), &falling[12 + 3 * vertex], &falling[12 + 3 * vertex] + 3);
@@ -248,7 +248,8 @@ TEST(Interface, VerticesAndTheStrideOfQueriesAreAddedUp) {
   EXPECT_THAT(toi, Each(0.5));
 }
 
-/// A vertex that passes the vertex (1, 0, 0) at a distance of 1/2, and the edge from there to (1, 1, 0) too.
+/// A vertex that passes at a distance of 1/2 from both the vertex (1, 0, 0) and the edge from there to (1, 1,
+/// 0).
 constexpr std::array<double, 18> passing{0, 0, 0.5, 1, 0, 0, 1, 1, 0,  //
                                          2, 0, 0.5, 1, 0, 0, 1, 1, 0};
 

@@ -59,8 +59,8 @@ TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   }
 }
 
-// In a plane and on a line, every patch of the boundary is flat, and many patches touch the origin only between
-// t = 0 and t = 1.
+// If all vertices stay in a plane or on a line, every patch of the boundary is flat, and many patches touch
+// the origin only between t = 0 and t = 1.
 TEST(RootParity, IsThatOfTheRootsInSpaceInAPlaneAndOnALine) {
   for (const int largest : {1, 2, 3, 1000})
     for (std::size_t i = 0; i < 600 && !HasFatalFailure(); ++i) {

@@ -129,7 +129,8 @@ TEST(Root, ARationalRootIsFoundInAWideInterval) {
     }
 }
 
-// If the polynomial bends much, its chord is a bad guess of the root; then the interval is cut in the middle.
+// If the polynomial is far from linear, its chord guesses the root badly; then the interval is cut in the
+// middle.
 TEST(Root, RefiningAtLeastHalvesTheInterval) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     Random random(3, 0, i);
@@ -177,7 +178,7 @@ class Integers {
   explicit Integers(std::uint64_t index) : random_(1, 0, index) {}
 
   /// A product of factors with small coefficients, some of them repeated. One product in four is scaled, and
-  /// then changed slightly by adding 1.
+  /// then 1 is added, which is a slight change.
   Both polynomial(int degree) {
     Both p{Polynomial({Number(1)}), Reference(1)};
     while (p.here.degree() < degree) {
@@ -236,7 +237,7 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
         ASSERT_TRUE(roots[k - 1].is_below(roots[k]));
       }
     }
-    // The roots of another polynomial, to be ordered among the roots of the first.
+    // The roots of the second polynomial, to be ordered among the roots of the first.
     std::vector<AlgebraicKernel::Algebraic_real_1> others;
     kernel.solve_1_object()(both.there, false, std::back_inserter(others));
     std::erase_if(others, [](const auto& t) {

@@ -36,7 +36,7 @@ TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }
 
-// As above, but the error of F is small.
+// F is that of the test above, with a small error.
 TEST(ContactSearch, FindsAChangeOfSignWhereTheWeightsAgree) {
   Bernstein<double, 4> F = three_roots();
   F.error = 0x1p-30;

@@ -16,9 +16,9 @@
 
 namespace nearmiss::certified {
 
-/// A scalar that counts roundings. A number stands for a sum of products; `count` is the largest number of
-/// roundings in any product. A vertex difference is a sum of two doubles here; it counts as one rounding, as
-/// in double.
+/// A scalar that counts roundings. It stands for a sum of products; `count` is the largest number of
+/// roundings in any of these products. A vertex difference, here a sum of two doubles, counts as one
+/// rounding, as in double.
 struct RoundingCount {
   int count = 0;
 
@@ -236,7 +236,7 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
 /// Expects each error to be at least the number of roundings times an upper bound of the sum of the products'
 /// magnitudes.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
-  constexpr double second_orders = 1.02;  // also for the roundings of the error itself
+  constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_GE(product.errors[i], second_orders * product.coefficients[i] * sizes[i]) << i;
 }

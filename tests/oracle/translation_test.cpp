@@ -1,4 +1,4 @@
-// Compares the decisions for primitives at rest or in translation with exact arithmetic.
+// Compares the decisions for primitives at rest or in translation with those of exact arithmetic.
 #include "oracle/translation.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace {
 
 using testing::make_query;
 
-/// A query of small integers, so that primitives often touch, are degenerate, or lie in one plane. All
-/// vertices of a primitive have the same velocity.
+/// A query of small integers, whose primitives often touch, are degenerate, or lie in one plane. All vertices
+/// of a primitive have the same velocity.
 Query translating_query(Random& random, Kind kind, bool rest) {
   Query query{.kind = kind};
   std::array<Vector3<double>, 2> velocities;

@@ -1,5 +1,5 @@
-// The answers to queries of two vertices, and of a vertex and an edge, against formulas in rational numbers
-// and against certificates.
+// Compares the answers to queries of two vertices, and of a vertex and an edge, with formulas in rational
+// numbers and with certificates.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,8 +26,9 @@ using testing::make_query;
 
 constexpr std::array of_vertices_and_edges{Kind::vertex_vertex, Kind::vertex_edge};
 
-/// Vertices of different sizes: small integers, which often touch, doubles, or powers of two that are far
-/// apart, some of them subnormal.
+/// A query with small integers, with which primitives often touch (in half of these queries, one coordinate
+/// is moved by 2^-50); with doubles in [-1, 1]; or with doubles of very different sizes, some of them
+/// subnormal.
 Query random_query(Random& random, Kind kind) {
   const int sort = random.integer(0, 3);
   Query query{.kind = kind};
@@ -43,7 +44,8 @@ Query random_query(Random& random, Kind kind) {
   return query;
 }
 
-/// The query for h = 0, for a random separation, for the distance at t = 0 rounded, or for one beside it.
+/// The query for h = 0, for a random integer, for the rounded distance of x0 and x1 at t = 0, or for a random
+/// part of that distance.
 Query with_some_separation(Random& random, const Query& query) {
   const double apart = (query.start(0) - query.start(1)).norm();
   const double size = std::isfinite(apart) ? apart : 1;
@@ -59,8 +61,8 @@ Query with_some_separation(Random& random, const Query& query) {
   }
 }
 
-/// The smallest squared distance of two vertices over [0, 1]: that of the line through the origin that their
-/// difference moves along, at its nearest time.
+/// The smallest squared distance of two vertices over [0, 1]: that of their difference from the origin, at
+/// the time at which it is nearest.
 Rational least_squared_distance(const Query& vv) {
   std::array<Rational, 3> d, v;
   Rational dv, vv_squared;

@@ -137,7 +137,7 @@ Problem cubic(CubicPart part) {
 }
 
 /// Coefficients that are inputs, in units of B³. Their bounds also hold for computed coefficients: each bound
-/// exceeds that of the exact coefficient by a half, and the rounding error is far less.
+/// exceeds that of the exact coefficient by 1/2, and rounding errors are far smaller.
 Cubic<Traced> exact_coefficients(Problem& problem) {
   Cubic<Traced> F;
   for (const auto& [coefficient, name, most] :
@@ -217,7 +217,7 @@ Problem near_edge(Reach reach, bool F) {
   return problem;
 }
 
-/// The squared distance of two vertices. The time is an input of the problem, not the computed one.
+/// The squared distance of two vertices. The time is an input of the problem; it is not computed.
 Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
   Tolerances<Traced> any_distance{};
   any_distance.D2 = std::numeric_limits<double>::infinity();
@@ -309,7 +309,8 @@ Problem vertex_edge(Reach reach, EdgePart part) {
 Problem exact_vertices(Reach reach, VertexPart part) {
   Problem problem = begun();
   const auto ji = exact_vector(*problem.trace, 'x');
-  // These vectors stand for exact vectors within the bounds, and are longer by at most 5u <= 2^-8.
+  // These vectors are computed from exact vectors within the bounds, and are longer than those by at most 5u
+  // <= 2^-8.
   constexpr double longer = 1 + 0x1p-8;
   const double most = (reach == Reach::far ? 2 : 1) * longer;
   problem.motions = {{ji, most, most, longer}};

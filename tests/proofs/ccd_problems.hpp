@@ -6,9 +6,9 @@
 
 namespace nearmiss::proofs {
 
-/// Bounds of the vectors of a pair. For edges, p is within B only at t = 0, because the closest end points
-/// come first, and within 2B at all other times. The paper assumes that all vectors are within B at all
-/// times.
+/// Bounds of the vectors of a pair. For two edges, p joins the end points that are closest at t = 0. So p is
+/// within B at t = 0, but only within 2B at other times. The paper assumes that all vectors are within B at
+/// all times.
 enum class Reach : std::uint8_t {
   near,  ///< all vectors are within B
   far,   ///< p of two edges, x_0i in a VE test, and x_ji in a VV test are within 2B
@@ -19,12 +19,12 @@ enum class Reach : std::uint8_t {
 enum class ConfigurationPart : std::uint8_t { normal, height, weight, inside };
 Problem configuration(Kind kind, Reach reach, ConfigurationPart part);
 
-/// The cubic (cubic.hpp).
+/// A coefficient or the value of the cubic (cubic.hpp), from rounded vectors.
 enum class CubicPart : std::uint8_t { a, b, c, d, value };
 Problem cubic(Kind kind, CubicPart part);
-/// The cubic's coefficients computed from exact vectors.
+/// A coefficient of the cubic, from exact vectors.
 Problem exact_cubic(CubicPart part);
-/// Horner's rule with exact coefficients, and the bound from Bernstein coefficients.
+/// With exact coefficients of the cubic: its value by Horner's rule, and its clearance.
 Problem horner();
 Problem clearance_of_exact();
 
@@ -32,12 +32,12 @@ Problem clearance_of_exact();
 Problem bound(Kind kind);
 Problem extents(Kind kind);
 
-/// Culling of vertex-edge tests (ve_culling.hpp): how far a weight may move, and the comparison of a weight
-/// with N·N plus slack.
+/// Culling of vertex-edge tests (ve_culling.hpp): the bound of how far a weight moves, and the comparison of
+/// a weight with N·N plus slack.
 Problem spread(Kind kind);
 Problem culling(Kind kind);
 
-/// Vertex against edge (vertex_edge.hpp).
+/// The test of a vertex and an edge (vertex_edge.hpp).
 enum class EdgePart : std::uint8_t { length2, weight, inside, F, F_without_S, F_of_S };
 Problem vertex_edge(Reach reach, EdgePart part);
 

@@ -28,7 +28,7 @@ class Factors {
     return fmt::format("({})", text);
   }
 
-  /// The script with a goal.
+  /// The script with these factors and a goal.
   [[nodiscard]] std::string script(const std::string& goal) const {
     return fmt::format("{{ {}{}{} }}\n", ranges_, ranges_.empty() ? "" : " -> ", goal);
   }

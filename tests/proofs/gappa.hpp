@@ -24,20 +24,20 @@ struct Arithmetic {
   bool vectors_alone = false;
 };
 
-/// Upper bounds for B = 1.
+/// What Gappa has proven about a problem, for B = 1.
 struct ProvenBounds {
-  double error;           ///< of the problem's error
-  double largest_result;  ///< of the magnitudes of all intermediate results
+  double error;           ///< bound of the problem's error
+  double largest_result;  ///< bound of the magnitudes of all intermediate results
 };
 
 /// Runs Gappa, and keeps its answers, because problems share lemmas. Several threads may use a Prover at
 /// once.
 ///
 /// A problem is proven in steps. First Gappa proves lemmas, which bound the errors of frequent expressions: a
-/// velocity, a position at the time, or an expression of maxima, minima and magnitudes. The error of the last
-/// of these is at most the largest error of its operands, because none of these functions changes by more
-/// than its arguments do. Later scripts have a new variable for each such expression. The last script has all
-/// other operations.
+/// velocity, a position at the time, or an expression of maxima, minima and magnitudes. A maximum, minimum or
+/// magnitude changes by no more than its arguments do, so its error is at most the largest error of its
+/// operands. Later scripts have a new variable for each such expression. The last script has all other
+/// operations.
 class Prover {
  public:
   /// Throws std::runtime_error if Gappa proves no bounds, does not run, or does not understand the script.

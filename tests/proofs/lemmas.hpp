@@ -24,8 +24,8 @@ class Lemmas {
  public:
   Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);
 
-  /// The script with all operations that are not in a lemma. `goal` is a statement about the error, which has
-  /// the name d.
+  /// The script with all operations that are not in a lemma. `goal` is the interval in which the error d is
+  /// to be proven.
   std::string last_script(const std::string& goal) { return last().text({"d in " + goal}); }
   /// The script whose goals are the ranges of the error and of all results.
   std::string script_of_bounds();

@@ -1,4 +1,4 @@
-// The rounding constants of oracle/, with a row for each.
+// The table of the rounding constants of oracle/.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -98,7 +98,8 @@ double seen_word_sum(const Inputs& in) {
   const Rational computed = exact_word(word(in, "a") + word(in, "b"));
   return exact == 0 ? 0 : ratio(abs((computed - exact) / exact), Rational(0x1p-103));
 }
-/// The error beyond the relative error, in units of the smallest double.
+/// The part of the error of a product of double words that exceeds the relative error, in units of the
+/// smallest double.
 double seen_word_underflow(const Inputs& in) {
   const Rational exact = exact_word(word(in, "a")) * exact_word(word(in, "b"));
   const Rational computed = exact_word(word(in, "a") * word(in, "b"));

@@ -34,7 +34,7 @@ std::vector<Bounded> weight_results(Trace& trace, Leaves leaves) {
                     leaves);
 }
 
-/// F.
+/// The coplanarity cubic F.
 template <class Real>
 std::vector<Bounded> cubic_results(Trace& trace, Leaves leaves) {
   return results_of(

@@ -43,9 +43,9 @@ struct Needs {
 };
 Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 
-/// The scripts. Monomials with the same coefficients and roundings have the same script. It proves that the
-/// share of the bound that belongs to such a monomial is at least the share of the error. All scripts together
-/// prove |value - exact value| <= error for all leaves and times. A share of the error is
+/// The scripts that together prove |value - exact value| <= error for all leaves and times. Monomials with
+/// the same coefficients and roundings have the same script, which proves that such a monomial's share of the
+/// bound is at least its share of the error. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + leaves + underflow,
 /// with Π (1 + δ) over the roundings of a term, and Π (1 + λ) over its leaves if these are rounded once.
 std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);

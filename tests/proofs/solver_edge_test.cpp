@@ -102,8 +102,8 @@ double rise_to_candidate(Iterator from, Iterator end) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// For each checkpoint, takes the side on which F rises less to the nearest candidate. Returns the largest of
-/// these rises, divided by the bound. Coefficients below ρ are dropped.
+/// For each checkpoint, takes the side on which F rises less on the way to the nearest candidate. Returns the
+/// largest of these rises, divided by the bound. Coefficients below ρ are dropped.
 double rise_ratio(const EdgeProblem& p, int bits, double rho) {
   const auto checkpoints = checkpoints_of(p, rho);
   double rise = 0;
@@ -112,7 +112,7 @@ double rise_ratio(const EdgeProblem& p, int bits, double rho) {
         std::max(rise, std::min(rise_to_candidate(each, checkpoints.end()),
                                 rise_to_candidate(std::make_reverse_iterator(each + 1), checkpoints.rend())));
   const double u = roundoff(bits);
-  const auto bounds = edge_bounds(u, 2, 3, 2);  // of exact vectors
+  const auto bounds = edge_bounds(u, 2, 3, 2);  // for exact vectors
   return rise / (edge_difference(u, bounds) + edge_rise(u, bounds, p.S) + 12 * rho);
 }
 

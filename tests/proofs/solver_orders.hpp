@@ -37,8 +37,8 @@ Number cubic_evaluation(const Number& u) {
          growth(u, 9) * Number(6);
 }
 
-/// m in the proof, for coefficients of magnitudes at most a, b and c: twice ½ |F''| |t' - t|², plus the
-/// change of c.
+/// m in the proof of `solve_cubic`, for coefficients of magnitudes at most a, b and c: twice ½ |F''| |t' -
+/// t|², plus the change of c.
 template <class Number>
 Number cubic_nodes(const Number& u, const Number& a, const Number& b, const Number& c) {
   const QuadraticErrors<Number> errors(u, true);

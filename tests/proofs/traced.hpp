@@ -37,7 +37,7 @@ struct Node {
   Operation operation = Operation::constant;
   std::shared_ptr<const Node> left{}, right{};  ///< null without such an operand
   double value = 0;        ///< value of a constant; of any other node, its value at the sample of the inputs
-  std::string name{};      ///< of an input
+  std::string name{};      ///< the name of an input
   Trace* trace = nullptr;  ///< trace of the inputs; null without inputs
 };
 

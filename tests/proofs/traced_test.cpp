@@ -1,4 +1,4 @@
-// Tests the recorded operations of a template, and the bounds that Gappa proves of them.
+// Tests the recorded operations of a template, and the bounds that Gappa proves for them.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -121,7 +121,8 @@ Statement read_statement(const Json& object) {
   return is;
 }
 
-/// Rows of numbers, times one positive integer that makes all of them integers, and zeros up to one length.
+/// The rows, multiplied by one positive integer that makes all numbers integers, and padded with zeros to one
+/// length.
 std::vector<Integers> integers(const std::vector<Rationals>& rows) {
   mpz_class scale = 1;
   std::size_t size = 0;
@@ -276,8 +277,9 @@ std::vector<Integers> vertex_triangle(const std::vector<Vector>& x) {
   return {dot(N, x[0] - x[1]), weight(2, 3), weight(3, 1), weight(1, 2)};
 }
 
-/// Likewise, with e = x1 - x0 and f = x3 - x2, s e - u f = (N . N) r - F N at all times. Where F = 0 and all
-/// weights are positive, x0 + (s / N . N) e = x2 + (u / N . N) f, and the two factors are between 0 and 1.
+/// F and the weights for two edges. With e = x1 - x0 and f = x3 - x2, s e - u f = (N . N) r - F N at all
+/// times. Where F = 0 and all weights are positive, x0 + (s / N . N) e = x2 + (u / N . N) f, and the two
+/// factors are between 0 and 1.
 std::vector<Integers> edge_edge(const std::vector<Vector>& x) {
   const Vector e = x[1] - x[0], f = x[3] - x[2], r = x[2] - x[0], N = cross(e, f);
   const Integers NN = dot(N, N), s = dot(N, cross(r, f)), u = dot(N, cross(r, e));

@@ -34,8 +34,8 @@ struct Unreadable : Refused {  ///< the line is not even a JSON object, or too l
   using Refused::Refused;
 };
 
-/// Returns what the line proves, or throws Refused. The caller must compare the statement with what he asked,
-/// because a line may prove something true about another query or another interval.
+/// Returns what the line proves, or throws Refused. Compare the statement with your question: a line may
+/// prove something true about another query or another interval.
 Statement check(std::string_view line);
 
 }  // namespace certificates

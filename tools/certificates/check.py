@@ -53,7 +53,7 @@ def read(line):
 
 
 def numbers(value, *lengths):
-    """Return the number in a string or, with the lengths allowed, those in an array of arrays."""
+    """Return the number in a string or, given allowed lengths, those in an array of arrays."""
     if lengths:
         require(isinstance(value, list) and len(value) in lengths[0], 'an array has a bad length')
         return [numbers(item, *lengths[1:]) for item in value]

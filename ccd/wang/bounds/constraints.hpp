@@ -40,9 +40,9 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
           eps * 44, eps * 0,  eps * 0,  eps * 311, eps * 33492, e * e * 725};
 }
 
-/// The errors with everything that the paper omits, for rounding to nearest (u = ε/2): the rounding of the
-/// relative vectors themselves (§5), terms of second order in ε, and end points of edges that are within 2B
-/// but not within B. Gappa proves them for every ε <= 2^-10 (proven.hpp).
+/// The errors including everything that the paper omits, for rounding to nearest (u = ε/2): the rounding of
+/// the relative vectors themselves (§5), terms of second order in ε, and end points of edges that are within
+/// 2B but not within B. Gappa proves them for every ε <= 2^-10 (proven.hpp).
 ///
 /// The errors of the solvers are in solver_errors.hpp; that file, cubic.hpp and vertex_edge.hpp derive them.
 template <class Number>

@@ -10,8 +10,8 @@ namespace nearmiss::proven {
 // tests/proofs/ has a row for each bound: it records the formulas of ccd/, and Gappa proves the bound with
 // 11, 53 and 256 bits. The bounds hold for every ε <= 2^-10. Gappa adds and multiplies bounds,
 // so each bound that it proves is a polynomial in u without negative coefficients and without a constant term
-// (or the quotient of one by 1 minus such a polynomial). Divided by u, this grows with u and is largest for
-// 11 bits.
+// (or such a polynomial divided by 1 minus another). Divided by u, the bound grows with u, so it is largest
+// for 11 bits.
 //
 // "far" means vectors that are within 2B: the p of two edges except at t = 0, and the x_0i of edges always.
 // All other vectors are within B. The paper assumes that all vectors are within B.
@@ -34,7 +34,7 @@ inline constexpr double inside_ve = 32.09;  ///< a weight compared with ‖x_ji�
 inline constexpr double inside_ve_far = 45.12;
 inline constexpr double F_ve = 40.63;  ///< F_0ij for S <= B
 inline constexpr double F_ve_far = 72.72;
-inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S: this plus S/B times F_ve_of_S
+inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S is this + S/B · F_ve_of_S
 inline constexpr double F_ve_of_S = 3.005;
 
 // vertex_vertex.hpp
@@ -46,13 +46,13 @@ inline constexpr double dot = 4.02;    ///< x·v and v·v, for exact vectors
 inline constexpr double time = 11.87;  ///< -x·v / v·v for ‖v‖∞ = B, for exact vectors
 inline constexpr double time_far = 23.75;
 
-/// The most by which the computed squared distance exceeds the smallest exact one, with all errors together,
-/// and the most by which it is below the exact one at the computed time.
+/// A bound, with all errors together, for two differences: by how much the computed squared distance exceeds
+/// the smallest exact one, and by how much it falls below the exact one at the computed time.
 ///
 /// Let g be the squared distance of the computed vectors, t the time of its minimum, and d the error of the
-/// quotient. Then g(t̂) - g(t) <= ‖v‖² d²: g is a parabola, and if a quotient is clamped to [0, 1], its slope
-/// at t only helps. Scaling v does not change ‖v‖² d², so let ‖v‖∞ = B; then ‖v‖² <= 3B². So the error of the
-/// time contributes at most 3 (time ε)² B², and ε <= 2^-10.
+/// quotient. Then g(t̂) - g(t) <= ‖v‖² d²: g is a parabola, and if the quotient is clamped to [0, 1], the
+/// slope of g at t only helps. Scaling v does not change ‖v‖² d², so let ‖v‖∞ = B; then ‖v‖² <= 3B². So the
+/// error of the time contributes at most 3 (time ε)² B², and ε <= 2^-10.
 constexpr double delta_of(double evaluation, double vectors, double quotient) {
   return evaluation + vectors + 3 * quotient * quotient * 0x1p-10;
 }
@@ -60,7 +60,7 @@ inline constexpr double delta = delta_of(squared_distance, distance_of_vectors, 
 inline constexpr double delta_far = delta_of(squared_distance_far, distance_of_vectors_far, time_far);
 
 // cubic.hpp
-inline constexpr double coefficient_a = 43.15;  ///< a coefficient of F; for edges, since their p is far
+inline constexpr double coefficient_a = 43.15;  ///< a coefficient of F, for edges with p far
 inline constexpr double coefficient_b = 123.4;
 inline constexpr double coefficient_c = 102.3;
 inline constexpr double coefficient_d = 22.04;

@@ -70,8 +70,8 @@ struct EdgeTolerances {
 };
 
 // The smallest ψ and D² for a given S, for B = 1. As λ² grows, λ²/4 + (ψ/λ + S)² first falls and then rises,
-// since its slope grows. The other constraint on D² falls, so the larger of the two also falls and then
-// rises.
+// since its slope grows. The other lower bound of D² falls, so the larger of the two bounds also falls and
+// then rises.
 constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
   const double psi = errors.least_psi * margin;
   const auto D2 = [&](double lambda2) {
@@ -109,10 +109,10 @@ constexpr double least_size(const Allows& allows) {
 ///
 /// D² depends only on R, and grows with it, so R is minimised first. Let g² = R² - r². The constraint on the
 /// short edge allows E up to 2g. The one on the height allows η up to 2g/√3 - error/E, and η is at most B.
-/// The one on the quadrilateral's area allows τ up to 4g²/√3 - error (that on the triangle's area allows
-/// more). Larger values of E, η and τ make everything else smaller. The constraint on the weight requires
-/// g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then rises.
-/// S, ρ = ε and `edge_tolerances` follow.
+/// The one on the quadrilateral's area allows τ up to 4g²/√3 - error (the one on the triangle's area allows a
+/// larger τ). Larger values of E, η and τ make everything else smaller. The constraint on the weight requires
+/// g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then rises. S,
+/// ρ = ε and `edge_tolerances` follow.
 ///
 /// Computing a value takes a few roundings, with a relative error below 16 ε in total. R, ψ, D² and μ are
 /// increased by this relative error and by 2^-30.
@@ -190,8 +190,8 @@ Tolerances<T> tight_tolerances(const T& B) {
 }
 
 /// The tolerances for a vertex within R of an edge: S = √8 R, ρ = ε, the least ψ, and a λ² for which D is
-/// about smallest. λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ for S = 0, and at λ³ = 4Sψ for large S. All
-/// others are those of `tol`, the tolerances for B.
+/// about smallest. λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ for S = 0, and at λ³ = 4Sψ for large S. All other
+/// tolerances are those of `tol`, for B.
 template <class T>
 Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R) {
   using std::max;
@@ -220,7 +220,7 @@ Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R
   return tol;
 }
 
-/// The rule for tolerances that gives `tight_tolerances`, and those of the paper for two vertices.
+/// The rule for tolerances that gives `tight_tolerances`, and the paper's tolerances for two vertices.
 struct TightTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {

@@ -71,7 +71,7 @@ class Operations {
   Numbers numbers() {
     Numbers made;
     for (double& each : made)
-      each = (static_cast<int>(random_() % 9) - 4) / 3.0;  // so that some numbers are equal, and some are 0
+      each = (static_cast<int>(random_() % 9) - 4) / 3.0;  // some numbers are equal, and some are 0
     return made;
   }
   static void report(const char* what) {

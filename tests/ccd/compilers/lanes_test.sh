@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks that operations of Lanes equal those of double, with a compiler and each instruction set of this machine.
+# Checks that operations of Lanes give the results of double, with a given compiler and each instruction set
+# of this machine.
 # Usage: lanes_test.sh COMPILER
 set -euo pipefail
 source "$(dirname "$0")/../../../tools/options.sh"
