@@ -58,22 +58,22 @@ expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
 # --notify gets the verdict and the page. That it fails or hangs changes no exit code.
 notified() { expect "expected '$1', found '$(<"$folder/notified")'" grep -qE "$1" "$folder/notified"; }
-night 1 --subject wang,basic --notify 'printf "%s|%s\n" "$1" "$2" >"'"$folder"'/notified"; exit 7'
-notified "^nearmiss: alarm: basic missed .*\|$folder/the nights/2[^/]*Z/report/index.html$"
+night 1 --subject wang,basic --results "$folder/told" --notify 'printf "%s|%s\n" "$1" "$2" >"'"$folder"'/notified"; exit 7'
+notified "^nearmiss: alarm: basic missed .*\|$folder/told/2[^/]*Z/report/index.html$"
 expect_said 'failed with exit code 7'
 sed 's/ 60 bash/ 1 bash/' tools/nightly >tools/impatient && chmod +x tools/impatient
 sleep_until_next_second
-tools/impatient --results "$folder/the nights" --subject wang --notify 'trap "" TERM; sleep 100' &>"$folder/said" || fail "expected exit code 0"
+tools/impatient --results "$folder/told" --subject wang --notify 'trap "" TERM; sleep 100' &>"$folder/said" || fail "expected exit code 0"
 expect_said 'failed with exit code 137'
 rm tools/impatient
-night 0 --subject wang --notify 'kill -TERM $(ps -o ppid= -p $PPID); yes; rm -r "$(dirname "$2")"'
-expect "expected a limit for what --notify prints" test "$(stat -c %s "$folder/the nights/last/log")" -lt 200000
+night 0 --subject wang --results "$folder/told" --notify 'kill -TERM $(ps -o ppid= -p $PPID); yes; rm -r "$(dirname "$2")"'
+expect "expected a limit for what --notify prints" test "$(stat -c %s "$folder/told/last/log")" -lt 200000
 code=0
-tools/nightly --results "$folder/the nights" --subject ./none.so --notify 'printf "%s" "$1" >"'"$folder"'/notified"' &>"$folder/said" || code=$?
+tools/nightly --results "$folder/told" --subject ./none.so --notify 'printf "%s" "$1" >"'"$folder"'/notified"' &>"$folder/said" || code=$?
 expect "expected exit code 2" test $code = 2
 notified "^nearmiss: no report: found --subject './none.so'"
 # The history has all nights.
-expect "expected a row for each night" test "$(grep -oE '"page": ?"2[^"]*/report/index.html"' "$folder/the nights/index.html" | sort -u | wc -l)" = 5
+expect "expected a row for each night" test "$(grep -oE '"page": ?"2[^"]*/report/index.html"' "$folder/told/index.html" | sort -u | wc -l)" = 3
 # A night with lasting failures fails. The baseline has these failures, although the night before does not.
 night 0 --subject wang
 night 1 --subject=wang,basic
