@@ -10,6 +10,7 @@
 #include "oracle/distance.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/campaign/finding_case.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/counts_json.hpp"
@@ -66,6 +67,7 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
   if (finding.what == Finding::What::refuted_bound) json["bound"] = finding.bound;
   if (!finding.broken_since.empty()) json["broken_since"] = finding.broken_since;
   if (finding.what == Finding::What::late) json["late_by"] = finding.ratio;
+  if (!finding.errors.empty()) json["errors"] = error_lines(finding);
   if (has_time(finding.what)) json["toi"] = finding.time;
   if (has_step(finding.what)) json["step"] = numbers_json(finding.step);
   return json;

@@ -11,10 +11,12 @@
 #include <sstream>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/trial/so_far.hpp"
 #include "oracle/explanation.hpp"
+#include "reports/campaign/finding_case.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/sections.hpp"
@@ -50,6 +52,8 @@ void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
   std::istringstream lines(to_readable(finding.shrunk));
   for (std::string line; std::getline(lines, line);) fmt::print(text, "    {}\n", line);
   fmt::print(text, "    {}\n", to_text(explain(finding.shrunk)));
+  constexpr std::size_t most_lines = 4;
+  for (const std::string& line : stderr_lines(finding, most_lines)) fmt::print(text, "    {}\n", line);
 }
 
 /// Prints the first query that each version breaks.
@@ -95,6 +99,15 @@ void RecordOptions::add_to(CLI::App& command) {
   ci.add_to(command);
   command.add_flag("-q,--quiet", quiet, "Show no progress");
   add_verbose_option(command, verbose);
+}
+
+std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most) {
+  constexpr std::size_t most_bytes = 85;
+  std::vector<std::string> lines;
+  for (const std::string& line : error_lines(finding))
+    if (const std::size_t first = line.find_first_not_of(' '); first != line.npos && lines.size() < most)
+      lines.push_back("stderr: " + excerpt(std::string_view(line).substr(first), most_bytes));
+  return lines;
 }
 
 RunInfo environment() {

@@ -191,6 +191,10 @@ class Subject {
   /// could not be loaded; "" for any other verdict.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
+  /// Lines: the end of what the subject's process wrote to standard error when it last ended with such a fault,
+  /// and the stack of the crash if that is known. "" if nothing is known.
+  [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
+
   /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as
   /// lengths (D, ψ^½, S, μ^⅓), must be multiplied so that the subject just reports the query. It is at most 1
   /// if the subject reports the query, and larger otherwise. It guides directed search, is accurate to a few

@@ -48,6 +48,9 @@ class ForwardingSubject : public BatchSubject {
   [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
     return to_.fault_text(verdict);
   }
+  [[nodiscard]] std::string fault_errors(const Verdict& verdict) const override {
+    return to_.fault_errors(verdict);
+  }
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
     return to_.needed_tolerance(query);
   }

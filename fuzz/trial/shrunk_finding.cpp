@@ -181,6 +181,8 @@ class FindingShrinker::OfSubject {
     const bool is_simpler = complexity(finding.shrunk) < complexity(simplest);
     finding.simplest = is_simpler ? finding.shrunk : simplest;
     finding.simplest_class = is_simpler ? finding.query_class : classify(simplest);
+    if (finding.what == Finding::What::fault)
+      set(finding.errors, subject_.fault_errors(subject_.decide(finding.shrunk)));
     if (finding.shrunk == finding.query) return;
     if (has_time(finding.what)) set(finding.time, subject_.decide(finding.shrunk).time);
     if (has_step(finding.what))
@@ -226,9 +228,13 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces the subject's number for the original query by that for the shrunk one, if it gives one now.
+  /// Replaces what the subject gave for the original query by what it gives for the shrunk one, if that is
+  /// something.
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
+  }
+  static void set(std::string& text, std::string of_shrunk) {
+    if (!of_shrunk.empty()) text = std::move(of_shrunk);
   }
 
   const Subject& subject_;

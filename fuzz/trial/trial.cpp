@@ -247,7 +247,9 @@ class Judging {
     versions_.note(s, outcome, counts ? std::optional(result_.findings.size()) : std::nullopt);
     if (!failure) return;
     const bool is_of_step = has_step(failure->what);
+    const bool is_fault = failure->what == Finding::What::fault;
     keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);
+    if (is_fault) result_.findings.back().errors = subjects_[s]->fault_errors(outcome.verdict);
     if (is_of_step)
       result_.findings.back().step =
           committed_step(truth.query(), outcome.verdict.time, subjects_[s]->rounds()).value_or(Query());

@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <functional>
+#include <sstream>
 
 #include "reports/text/text.hpp"
 
@@ -48,6 +49,13 @@ std::string file_name(std::string text) {
   for (char& c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
   return text;
+}
+
+std::vector<std::string> error_lines(const Finding& finding) {
+  std::vector<std::string> lines;
+  std::istringstream text(finding.errors);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
 }
 
 }  // namespace nearmiss

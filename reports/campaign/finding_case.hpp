@@ -1,8 +1,9 @@
-// Converts findings to cases.
+// Converts findings to cases, and their texts to lines.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "corpus/case.hpp"
 #include "reports/statistics/statistics.hpp"
@@ -24,5 +25,8 @@ std::string case_file_name(const Finding& finding, std::string_view id);
 /// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A
 /// text of more than 60 bytes is cut, and a hash of it added.
 std::string file_name(std::string text);
+
+/// The lines of Finding::errors, without their ends.
+std::vector<std::string> error_lines(const Finding& finding);
 
 }  // namespace nearmiss

@@ -51,6 +51,9 @@ struct Finding {
   /// The proof of what the oracle says against the subject about the shrunk query, as a line of JSON
   /// (tools/certificates/README.md); "" if there is none.
   std::string certificate = {};
+  /// For a fault: the end of what the subject's process wrote to standard error before it ended, with the stack of a
+  /// crash, as lines of printable text; "" if there is nothing.
+  std::string errors = {};
 
   bool operator==(const Finding&) const = default;
 };

@@ -13,10 +13,12 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/campaign/campaign.hpp"
+#include "reports/campaign/finding_case.hpp"
 #include "reports/text/json.hpp"
 
 namespace nearmiss {
@@ -119,8 +121,21 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SimulatedStepKey, family, subject, step)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VersionKey, before, after, kind, family)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, what, subject, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shard, index, count, cases, complete, started, seconds, environment)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, what, subject, family, query, provenance, ratio, signature,
-                                   shrunk, place, time, is_shrunk, query_class, simplest, simplest_class,
-                                   broken_since, bound, step, certificate)
+
+/// The members that every finding has in a store.
+struct FindingWithoutErrors : Finding {};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FindingWithoutErrors, what, subject, family, query, provenance, ratio,
+                                   signature, shrunk, place, time, is_shrunk, query_class, simplest,
+                                   simplest_class, broken_since, bound, step, certificate)
+
+/// The lines of `errors` become texts of their own, because a store has no line ends.
+inline void to_json(nlohmann::json& json, const Finding& finding) {
+  json = FindingWithoutErrors{finding};
+  if (!finding.errors.empty()) json["errors"] = error_lines(finding);
+}
+inline void from_json(const nlohmann::json& json, Finding& finding) {
+  finding = json.get<FindingWithoutErrors>();
+  for (const auto& line : json.value("errors", std::vector<std::string>())) finding.errors += line + "\n";
+}
 
 }  // namespace nearmiss

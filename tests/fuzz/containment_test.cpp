@@ -202,6 +202,22 @@ TEST(Isolation, TimeInWhichEverythingIsSuspendedDoesNotCount) {
   for (const int end : ready) close(end);
 }
 
+TEST(Isolation, ACrashLeavesItsStackAndTheEndOfItsOutput) {
+  setenv("NEARMISS_ONE_IN", "1", 1);
+  const auto subject = make_isolated_plugin(plugin("crash"));
+  const Verdict crashed = subject->decide(queries().front());
+  unsetenv("NEARMISS_ONE_IN");
+  EXPECT_EQ(crashed.fault, Fault::crash);
+  EXPECT_EQ(crashed.fault_code, SIGSEGV);
+  const std::string errors = subject->fault_errors(crashed);
+  EXPECT_LE(errors.size(), 2048);
+  EXPECT_THAT(errors, ::testing::HasSubstr("\n?[31mlast words\n"));
+  EXPECT_THAT(errors, ::testing::ContainsRegex("/crash.so\\([^[]*\\)\n"));
+  for (const char* absent : {"first words", "nearmiss-worker"})
+    EXPECT_THAT(errors, ::testing::Not(::testing::HasSubstr(absent)));
+  EXPECT_EQ(subject->fault_errors({.fault = Fault::crash, .fault_code = SIGFPE}), "");
+}
+
 TEST(FaultTexts, AreAThousandWhoseNumbersStay) {
   FaultTexts texts;
   for (int i = 0; i < 3000; ++i) texts.number("text " + std::to_string(i));

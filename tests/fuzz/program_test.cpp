@@ -57,6 +57,9 @@ while header := sys.stdin.buffer.read(24):
       EXPECT_EQ(verdicts[2].fault_code, code) << then;
     }
     EXPECT_EQ(subject->fault_text(verdicts[2]), text) << then;
+    if (!text.empty()) {
+      EXPECT_THAT(subject->fault_errors(verdicts[2]), ::testing::EndsWith(text + "\n")) << then;
+    }
   }
 };
 

@@ -26,6 +26,7 @@ static int is_chosen(const double* x) {
 
 static int misbehave(void) {
 #if defined(CRASH)
+  fprintf(stderr, "first words%5000s\n\033[31mlast words\n", "");
   return raise(SIGSEGV);
 #elif defined(LEAVE)
   exit(3);

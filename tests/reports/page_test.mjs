@@ -2,7 +2,7 @@
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
 import { hasNoBarriers, staysQuickWithManyFindings } from "./page/access.mjs";
 import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSubjectsWithTheNamesOfMembers, showsASingleValueBesideASweep, showsSweepsOfWhatIsNeverWrong, showsValuesOfOptions, showsWhatDecides, showsWhereCollisionsAreMissed } from "./page/charts.mjs";
-import { showsFindings, showsVersions, showsVerticesAndEdges, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
+import { showsFindings, showsStandardError, showsVersions, showsVerticesAndEdges, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
 import { answersBeforeScrolling } from "./page/first_screen.mjs";
 import { showsTheNights } from "./page/history.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
@@ -22,6 +22,7 @@ try {
   await showsFindings(browser);
   await showsVerticesAndEdges(browser);
   await showsThatNothingWasFound(browser);
+  await showsStandardError(browser);
   await showsVersions(browser);
   await showsTheBaseline(browser);
   await showsWhatIsNewSinceTheBaseline(browser);

@@ -215,16 +215,19 @@ TEST_F(ReportTest, SaysOfAFindingWhetherItIsShrunk) {
   }
 }
 
-TEST_F(ReportTest, AFindingHasItsCertificateAndARefutedBound) {
+TEST_F(ReportTest, AFindingHasItsCertificateARefutedBoundAndStandardError) {
   Campaign campaign = some_campaign("wang");
   Finding& finding = campaign.runs.front().findings.front();
   EXPECT_TRUE(report_json(campaign)["findings"][0]["certificate"].is_null());
-  EXPECT_FALSE(report_json(campaign)["findings"][0].contains("bound"));
+  for (const char* absent : {"bound", "errors"})
+    EXPECT_FALSE(report_json(campaign)["findings"][0].contains(absent));
   finding.certificate = R"({"claim":"apart"})";
   finding.what = Finding::What::refuted_bound;
   finding.bound = 0.125;
   EXPECT_EQ(report_json(campaign)["findings"][0]["certificate"], finding.certificate);
   EXPECT_EQ(report_json(campaign)["findings"][0]["bound"], 0.125);
+  finding.errors = "no licence\n\nstack\n";
+  EXPECT_EQ(report_json(campaign)["findings"][0]["errors"], (std::vector{"no licence", "", "stack"}));
 }
 
 TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {

@@ -62,7 +62,8 @@ inline Finding some_finding(const std::string& provenance) {
           .place = 7,
           .time = 0.75,
           .bound = 0.125,
-          .certificate = R"({"claim":"meets"})"};
+          .certificate = R"({"claim":"meets"})",
+          .errors = "first line\n\nthird line\n"};
 }
 
 /// An open database.

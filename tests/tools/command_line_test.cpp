@@ -46,12 +46,15 @@ TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
     const json counts = json_of(code, "fuzz --family planted --cases 1000 --query-time 20ms --db " + way +
                                           ".db --subject " + plugin(way))["subjects"]["misbehaving"]["ee"];
     EXPECT_THAT(read("error.txt"), HasSubstr(way == "hang" ? "SLOW in " : "NO ANSWER ("));
+    EXPECT_EQ(read("error.txt").find("\n    stderr: ?[31mlast words\n") == std::string::npos, way == "hang");
     EXPECT_EQ(counts["queries"], 500);
     const int faults = counts["faults"][way == "hang" ? "time" : way];
     EXPECT_GT(faults, 0);
     EXPECT_EQ(counts["positives"].get<int>() + faults, 500);
     const json finding = report_of(way + ".db", code)["findings"][0];
     EXPECT_EQ(finding["what"], "fault");
+    const json lines = finding.value("errors", json::array());
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), "?[31mlast words"), way == "hang" ? 0 : 1);
     again = finding["again"];
   }
   // The command in the report, run in the report's folder, makes a stored query fail again.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -97,6 +98,12 @@ class IsolatedPlugin final : public DescribedSubject {
     return has_text(verdict.fault) ? texts_.text(verdict.fault_code) : "";
   }
 
+  [[nodiscard]] std::string fault_errors(const Verdict& verdict) const override {
+    const std::lock_guard lock(mutex_);
+    const auto found = errors_.find({verdict.fault, verdict.fault_code});
+    return found == errors_.end() ? "" : found->second;
+  }
+
   [[nodiscard]] PluginIdentity identity() const {
     return {code_->name(), info().version, code_->sha256(), code_->build_id()};
   }
@@ -132,8 +139,13 @@ class IsolatedPlugin final : public DescribedSubject {
                                            .fault_code = code_of(*done.failure)};
   }
 
+  /// The code of a failure in a verdict. Keeps what the process wrote.
   std::int32_t code_of(const WorkerFailure& failure) const {
-    return has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
+    const std::int32_t code = has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
+    if (failure.errors.empty()) return code;
+    const std::lock_guard lock(mutex_);
+    errors_[{failure.fault, code}] = failure.errors;
+    return code;
   }
 
   [[nodiscard]] bool can_decide(const Query& query) const {
@@ -313,7 +325,8 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable FaultTexts texts_;
   mutable std::atomic<int> failed_starts_ = 0;  // in a row
   mutable std::mutex mutex_;
-  mutable std::string why_not_loaded_;  // at the last failed start
+  mutable std::string why_not_loaded_;                                    // at the last failed start
+  mutable std::map<std::pair<Fault, std::int32_t>, std::string> errors_;  // of the last fault with this code
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };
 

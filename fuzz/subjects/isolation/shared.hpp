@@ -46,9 +46,11 @@ struct Call {
 /// and its credentials (unix(7)) name the process; the other one comes from the supervisor when the process
 /// has ended.
 struct Status {
-  std::int32_t code;             ///< si_code when it has ended, else 0
-  std::int32_t status;           ///< si_status
-  std::int32_t is_in_namespace;  ///< in the first message: 1 if the process is in a PID namespace of its own
+  std::int32_t code = 0;             ///< si_code when it has ended
+  std::int32_t status = 0;           ///< si_status
+  std::int32_t is_in_namespace = 0;  ///< in the first message: 1 if it is in a PID namespace of its own
+  /// In the other message: the end of what the process wrote to standard error, up to the first zero.
+  std::array<char, 2048> errors{};
 };
 
 /// Where the questions and answers of a batch of n queries lie in two blocks of shared memory: without gaps,

@@ -33,6 +33,20 @@ std::string text(const std::array<char, n>& written) {
   return printable(std::string_view(written.data(), strnlen(written.data(), n)));
 }
 
+/// Lines that were written to standard error. An address in memory at the end of a line, "[0x7f0012345678]",
+/// is removed, because it differs from process to process.
+std::string lines_of(const Status& ended) {
+  std::istringstream written(
+      std::string(ended.errors.data(), strnlen(ended.errors.data(), ended.errors.size())));
+  std::string lines;
+  for (std::string line; std::getline(written, line);) {
+    if (const std::size_t address = line.rfind("[0x"); address != line.npos && line.ends_with(']'))
+      line.resize(address);
+    lines += printable(line) + "\n";
+  }
+  return lines;
+}
+
 // The computing time that a timed call needs for itself: to receive it, to ask the empty subject twice, and
 // to reply, with empty caches on a busy machine. In 1,500 calls on two busy cores, the median was 20
 // microseconds and the longest 1,500.
@@ -284,11 +298,12 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::span<c
   for (std::uint32_t i = 0; i < query; ++i)
     if (!answers(i)) query = i;
   WorkerFailure found = failure(end, query);
+  if (end == End::dead) found.errors = lines_of(ended_);
   found.of_call |= info_.batch > 1 && n > 1;
   return found;
 }
 
-WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
+WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) const {
   if (answers_->memory_refused != 0 && end != End::broken) return {query, Fault::memory};
   switch (end) {
     case End::query_late:

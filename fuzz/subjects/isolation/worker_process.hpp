@@ -50,10 +50,11 @@ inline constexpr double call_limit = 10;
 struct WorkerFailure {
   std::uint32_t query;  ///< its index in the batch
   Fault fault;
-  std::int32_t code = 0;  ///< for a crash: the signal, or the negated exit code
-  std::string text = {};  ///< for an exception: what it says; for a failure to load: why
-  bool of_call = false;   ///< the call failed as a whole: which query is to blame is not known
-  bool goes_on = false;   ///< the worker can be used for other queries
+  std::int32_t code = 0;    ///< for a crash: the signal, or the negated exit code
+  std::string text = {};    ///< for an exception: what it says; for a failure to load: why
+  std::string errors = {};  ///< the end of what a process that ended wrote to standard error
+  bool of_call = false;     ///< the call failed as a whole: which query is to blame is not known
+  bool goes_on = false;     ///< the worker can be used for other queries
 };
 
 /// Checks a worker's description of its plug-in, which was given these options, and returns it with printable
@@ -149,7 +150,7 @@ class WorkerProcess {
   [[nodiscard]] std::uint64_t data() const;
   /// Whether the supervisor reports within this time that the process has ended.
   bool ends_within(std::chrono::milliseconds time);
-  [[nodiscard]] WorkerFailure failure(End end, std::uint32_t query);
+  [[nodiscard]] WorkerFailure failure(End end, std::uint32_t query) const;
   [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds, Duration least) const;
 
   PluginLimits limits_;

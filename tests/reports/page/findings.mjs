@@ -1,7 +1,7 @@
 // Tests findings, verdicts and counters, in a campaign with failures, in one without, and with a baseline.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { count, folder, idOf, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
@@ -281,6 +281,19 @@ export async function showsVerticesAndEdges(browser) {
   assert.deepEqual(await page.locator("#counts tbody td:nth-child(2)").allTextContents(), ["vv", "ve"]);
   const titles = await page.locator("#distances svg text").allTextContents();
   for (const title of ["vertex-vertex", "vertex-edge"]) assert.ok(titles.some((text) => text.startsWith(title)), title);
+  await page.close();
+}
+
+/** What a subject wrote before it failed. */
+export async function showsStandardError(browser) {
+  writeFileSync(join(folder, "exits.sh"), "printf 'nearmiss 3\\nname exits\\nkinds vt\\n\\n'; head -c 1 >/dev/null; printf 'the <b>reason</b>\\nno licence\\n' >&2; exit 3\n");
+  const page = await open(browser, makeReport("exits", ["--cases", "20", "--subject", "pipe:sh exits.sh"]));
+  const [finding] = jsonOf("exits").findings;
+  assert.equal(finding.signature, "vt exception no licence");
+  assert.deepEqual(finding.errors, ["the <b>reason</b>", "no licence"]);
+  const card = page.locator(`#${await idOf(page, 0)}`);
+  await card.getByText("its standard error, and the stack of a crash").click();
+  assert.equal(await card.locator("details[open] pre").textContent(), finding.errors.join("\n"));
   await page.close();
 }
 

@@ -1,7 +1,9 @@
 #include "fuzz/subjects/isolation/worker/answering.hpp"
 
+#include <execinfo.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,6 +28,10 @@
 #include "fuzz/subjects/isolation/shared.hpp"
 #include "fuzz/subjects/isolation/worker/memory.hpp"
 #include "fuzz/subjects/isolation/worker/program.hpp"
+
+// The start and the end of this program's code, as the linker sets them.
+extern "C" const char __executable_start;  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char etext;
 
 namespace {
 
@@ -59,10 +65,48 @@ void note_exception() {
   std::abort();
 }
 
+/// The signal of the crash that is being handled; 0 if there is none.
+volatile std::sig_atomic_t crash = 0;
+
+void handle(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags =
+      SA_ONSTACK | SA_NODEFER;  // the stack may have overflowed; a second crash must end this process
+  sigaction(signal, &action, nullptr);
+}
+
+/// Writes the functions that led to a crash to standard error, the innermost first, without those of this
+/// program. Ends the process by the signal of the crash, also if the stack cannot be read, or not in time.
+extern "C" void write_stack_and_end(int signal) {
+  constexpr itimerval patience{{}, {0, 20'000}};
+  constexpr int of_handler = 2;  // functions
+  static std::array<void*, 48> functions;
+  if (crash == 0) {
+    crash = signal;
+    handle(SIGALRM, write_stack_and_end);
+    setitimer(ITIMER_REAL, &patience, nullptr);
+    const int count = backtrace(functions.data(), static_cast<int>(functions.size()));
+    const auto is_own = [](const void* each) { return each >= &__executable_start && each < &etext; };
+    int last = std::min(of_handler, count);
+    while (last < count && !is_own(functions[static_cast<std::size_t>(last)])) ++last;
+    backtrace_symbols_fd(functions.data() + of_handler, std::max(last - of_handler, 0), STDERR_FILENO);
+  }
+  std::signal(crash, SIG_DFL);
+  raise(crash);
+}
+
 /// Sets how this process ends, before the plug-in is loaded.
-void prepare_for_faults() {
+void prepare_for_faults(bool writes_stack) {
+  constexpr std::size_t bytes = 1 << 16;
+  static std::array<char, bytes> stack;
+  const stack_t other{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
+  sigaltstack(&other, nullptr);
+  std::array<void*, 1> any{};
+  backtrace(any.data(), 1);  // the first call allocates memory
   // A crash must look like a crash, even if a sanitizer would turn it into an exit.
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    handle(signal, writes_stack ? write_stack_and_end : SIG_DFL);
   std::set_terminate(note_exception_and_end);
 }
 
@@ -332,7 +376,7 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE, sizeof(SharedAnswers));
   if (answers == nullptr) return 1;
   note_refusals_in(answers->memory_refused);
-  prepare_for_faults();
+  prepare_for_faults(!is_program(plugin));  // a program has a stack of its own
   Call call{};
   if (!receive(call, 0)) return 0;
   limit_memory_of_loading(bytes);

@@ -264,6 +264,7 @@ void Program::end_like_it() {
     if (poll(&now, 1, 0) <= 0) break;
     read_errors();
   }
+  static_cast<void>(!write(STDERR_FILENO, last_errors_.data(), last_errors_.size()));
   if (WIFSIGNALED(status)) {
     std::signal(WTERMSIG(status), SIG_DFL);
     raise(WTERMSIG(status));

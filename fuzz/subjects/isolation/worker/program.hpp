@@ -16,7 +16,7 @@ namespace nearmiss::isolation {
 struct UnaskedBytes {};
 
 /// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this
-/// process. If it ends, so does this process, in the same way.
+/// process. If it ends, so does this process, in the same way, and writes what the program wrote to standard error.
 class Program {
  public:
   /// Starts the command, and reads its description. Throws Error.

@@ -1,11 +1,13 @@
 // nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
 // never runs the plug-in's code. CODE is a digest of the code that the worker shares with nearmiss; a worker
-// with another digest refuses to work. The supervisor tells nearmiss how the process ended. When the
-// plug-in's process or nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
+// with another digest refuses to work. The supervisor reads the standard error of the plug-in's process, and
+// tells nearmiss how the process ended, and what it wrote last. When the plug-in's process or nearmiss ends,
+// the supervisor ends all that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
 // other process can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also
 // waits for the end of nearmiss, and kills the supervisor. The system then ends everything in the namespace.
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
@@ -13,12 +15,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <string>
 
 #include "fuzz/subjects/isolation/shared.hpp"
 #include "fuzz/subjects/isolation/worker/answering.hpp"
@@ -83,29 +88,70 @@ void end_descendants() {
   }
 }
 
-/// Waits until a child has ended or nearmiss has closed the status socket. Returns how the child ended, if it
-/// did.
-std::optional<siginfo_t> watch(pid_t child) {
+/// The end of what is written to a pipe.
+class LastOutput {
+ public:
+  /// Takes on the end of the pipe that is read; -1 if there is none.
+  explicit LastOutput(int pipe) : pipe_(pipe) {
+    if (pipe_ >= 0) fcntl(pipe_, F_SETFL, O_NONBLOCK);
+  }
+
+  /// What poll(2) waits for; nothing once the pipe has no writer.
+  [[nodiscard]] pollfd event() const { return {pipe_, POLLIN, 0}; }
+
+  /// Reads what is in the pipe. A writer that never stops cannot make this take long.
+  void read_some() {
+    std::array<char, 4096> block{};
+    ssize_t size = 1;
+    for (int i = 0; i < 32 && pipe_ >= 0 && size > 0; ++i) {
+      size = read(pipe_, block.data(), block.size());
+      std::replace(block.begin(), block.end(), '\0', '?');  // a zero would end the text
+      if (size > 0) text_.append(block.data(), static_cast<std::size_t>(size));
+      if (text_.size() > most) text_.erase(0, text_.size() - most);
+    }
+    if (size != 0) return;
+    close(pipe_);
+    pipe_ = -1;
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  static constexpr std::size_t most = sizeof(Status::errors);
+
+  int pipe_;
+  std::string text_;
+};
+
+/// Waits until a child has ended or nearmiss has closed the status socket, and meanwhile reads what the child
+/// writes to `errors`. Returns how the child ended, if it did.
+std::optional<siginfo_t> watch(pid_t child, LastOutput& errors) {
   const sigset_t wanted = end_of_child();
   const int signals = signalfd(-1, &wanted, SFD_CLOEXEC);
   while (signals >= 0) {
-    pollfd events[2]{{status_socket, 0, 0}, {signals, POLLIN, 0}};
-    if (poll(events, 2, -1) < 0 && errno != EINTR) break;
+    pollfd events[3]{{status_socket, 0, 0}, {signals, POLLIN, 0}, errors.event()};
+    if (poll(events, 3, -1) < 0 && errno != EINTR) break;
     if ((events[0].revents & (POLLHUP | POLLERR)) != 0) break;
+    if (events[2].revents != 0) errors.read_some();
     if ((events[1].revents & POLLIN) == 0) continue;
     signalfd_siginfo signal{};
     static_cast<void>(!read(signals, &signal, sizeof signal));
-    if (const auto end = end_of(child)) return end;
+    if (const auto end = end_of(child)) {
+      errors.read_some();
+      return end;
+    }
   }
   return std::nullopt;
 }
 
-/// The plug-in's process.
-int run_plugin(const Assignment& work) {
+/// The plug-in's process, which writes its errors to this descriptor.
+int run_plugin(const Assignment& work, int errors) {
+  dup2(errors, STDERR_FILENO);
+  close(errors);
   setsid();  // so that a signal to its group reaches no process of nearmiss
   const sigset_t blocked = end_of_child();
   sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
-  tell({.code = 0, .status = 0, .is_in_namespace = work.own_namespace ? 1 : 0});
+  tell({.is_in_namespace = work.own_namespace ? 1 : 0});
   close(status_socket);
   drop_privileges();
   keep_out_of_other_processes();
@@ -120,16 +166,25 @@ int supervise(const Assignment& work) {
   // Only a process with more privileges may trace the supervisor, or take its descriptors.
   prctl(PR_SET_DUMPABLE, 0);
   const pid_t supervisor = getpid();
+  std::array<int, 2> errors{};
+  if (pipe2(errors.data(), O_CLOEXEC) != 0) _exit(1);
   const pid_t process = fork();
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != supervisor) _exit(1);  // the supervisor ended before that call
-    return run_plugin(work);
+    close(errors[0]);
+    return run_plugin(work, errors[1]);
   }
   close_channel();
+  close(errors[1]);
   if (process < 0) _exit(1);
-  const auto end = watch(process);
-  if (end) tell({.code = end->si_code, .status = end->si_status, .is_in_namespace = 0});
+  LastOutput last(errors[0]);
+  const auto end = watch(process, last);
+  if (end) {
+    Status ended{.code = end->si_code, .status = end->si_status};
+    last.text().copy(ended.errors.data(), ended.errors.size());
+    tell(ended);
+  }
   if (!work.own_namespace) {
     if (!end && kill(-process, SIGKILL) != 0) kill(process, SIGKILL);  // it has no group of its own yet
     end_descendants();
@@ -148,7 +203,8 @@ int guard(const Assignment& work) {
   }
   close_channel();
   if (supervisor < 0) _exit(1);
-  if (!watch(supervisor)) {
+  LastOutput none(-1);
+  if (!watch(supervisor, none)) {
     kill(supervisor, SIGKILL);
     waitpid(supervisor, nullptr, 0);  // returns when the namespace is empty
   }
