@@ -81,7 +81,7 @@ const findingCard = (finding, attributes = { id: idOf(finding), tabindex: -1 }) 
   made("div", finding.explanation),
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
   ...(finding.errors ? [made("details", [made("summary", "its standard error, and the stack of a crash"), made("pre", finding.errors.join("\n"))])] : []),
-  command(finding.again),
+  command(replayCommand(finding)),
   ...(finding.is_shrunk ? [fold("the shrunk query", finding.shrunk, finding.file, finding.certificate)] : []),
   fold("the original query", finding.original, finding.original_file, finding.is_shrunk ? null : finding.certificate),
   ...(String(finding.simplest) === String(finding.shrunk) ? [] : [fold(`the simplest query of any class (${finding.simplest_class})`, finding.simplest)]),

@@ -6,6 +6,13 @@ const withInfinity = (value) => (Array.isArray(value) ? value.map(withInfinity) 
 const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
 
+/** The folder of this page, if it is a file. The report may have been copied since it was written, together with its cases. */
+const ownFolder = location.protocol === "file:" ? decodeURIComponent(location.pathname.replace(/[^/]*$/, "")) : "";
+/** A text as a word of a shell. */
+const shellQuoted = (text) => (/^[\w./@%+=:,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+/** The command that replays a finding: in any folder, if the page is a file. */
+const replayCommand = ({ again }) => again.replace(/(?<= )cases\/\S+/, (file) => shellQuoted(ownFolder + file));
+
 /** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
 function countRows(byFamily) {
   const rows = [];

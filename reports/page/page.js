@@ -305,6 +305,10 @@ for (const id of ["by-class", "by-family"]) element(id).addEventListener("change
 element("by-step").addEventListener("change", drawScenes);
 element("times-by-family").addEventListener("change", drawTimes);
 element("oracle-by-family").addEventListener("change", drawOracle);
+if (ownFolder !== "")
+  for (const each of document.querySelectorAll(".commands-note"))
+    each.textContent = `The commands work in any folder, on a machine that has this report in ${ownFolder}`;
+
 // A picture of error against run time says nothing about one or two subjects that their tables do not say.
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 2],

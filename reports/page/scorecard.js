@@ -96,7 +96,7 @@ const changeCell = ({ since, clean }) => {
 
 const againCell = ({ finding, clean }) => {
   if (finding === null) return [clean ? "" : "none kept"];
-  const { again } = report.findings[finding];
+  const again = replayCommand(report.findings[finding]);
   const button = copyButton(again, "copy");
   button.title = again;
   return [button, " ", findingLink("show", finding)];
@@ -192,6 +192,6 @@ function drawVersions() {
       element("broken").append(made("li", `${after} against ${before}: ${kind} is not compared, because one of them was not asked about it`));
     const index = report.findings.findIndex((each) => each.subject === after && each.broken_since === before);
     if (index < 0) continue;
-    element("broken").append(made("li", [`${after} against ${before}: the `, findingLink("simplest query that it breaks", index), command(report.findings[index].again)]));
+    element("broken").append(made("li", [`${after} against ${before}: the `, findingLink("simplest query that it breaks", index), command(replayCommand(report.findings[index]))]));
   }
 }

@@ -1,9 +1,9 @@
 // Tests findings, verdicts and counters, in a campaign with failures, in one without, and with a baseline.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, renameSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { count, folder, idOf, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
+import { count, folder, idOf, inAnyFolder, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
 async function checkVerdicts(page, report) {
   const verdicts = await page.locator(".verdict").allTextContents();
@@ -17,7 +17,7 @@ async function checkVerdicts(page, report) {
   const [basic] = report.verdicts;
   const exoticness = ({ class: of }) => ["ordinary", "degenerate", "extreme"].indexOf(of);
   assert.equal(exoticness(report.findings[basic.finding]), Math.min(...report.findings.map(exoticness)));
-  assert.equal(await page.getAttribute(".verdict.bad button.copy", "title"), report.findings[basic.finding].again);
+  assert.equal(await page.getAttribute(".verdict.bad button.copy", "title"), inAnyFolder(report.findings[basic.finding], "found"));
 
   assert.match(await page.textContent("#headline"), /^basic failed: it missed \d+ of \d+ degenerate vt and \d+ of \d+ degenerate ee collisions; wang did not fail, in 2,200 queries\.$/);
   assert.equal(await count(page, "#headline.bad"), 1);
@@ -168,15 +168,20 @@ async function checkThatAFindingOpensLarge(page) {
 async function checkOrderAndAddresses(browser, page, report) {
   const titles = await page.locator("nav a").allTextContents();
   assert.deepEqual(titles.slice(0, 3), ["The simplest failure", `Findings (${report.findings.length})`, "The slowest queries"]);
-  assert.ok((await page.textContent("#example .card.open")).includes(report.findings[report.verdicts[0].finding].again));
+  assert.ok((await page.textContent("#example .card.open")).includes(inAnyFolder(report.findings[report.verdicts[0].finding], "found")));
   run("report", "found.db", "-o", "again");
+  renameSync(join(folder, "again"), join(folder, "moved to 'here'"));
   const id = await idOf(page, report.findings.length - 1);
-  const again = await open(browser, `${pageOf("again")}#${id}`);
-  assert.ok((await again.textContent(`#${id}.open`)).includes(report.findings.at(-1).again));
+  const again = await open(browser, `${pageOf("moved to 'here'")}#${id}`);
+  const moved = join(folder, "moved to 'here'");
+  assert.equal(await again.textContent("#findings-part .commands-note"), `The commands work in any folder, on a machine that has this report in ${moved}/`);
+  const command = await again.textContent(`#${id}.open code`);
+  assert.equal(command, report.findings.at(-1).again.replace(/cases\S+/, (file) => `'${`${moved}/${file}`.replaceAll("'", "'\\''")}'`));
+  assert.throws(() => execFileSync("sh", ["-c", command.replace(/^nearmiss/, nearmiss)], { cwd: "/", stdio: "pipe" }), { status: 1 });
   assert.ok(await again.locator(`#${id}`).evaluate((card) => Math.abs(card.getBoundingClientRect().top) < innerHeight / 2));
   await again.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await again.locator(`#${id} .link`).click();
-  assert.equal(await again.evaluate(() => navigator.clipboard.readText()), `${pageOf("again")}#${id}`);
+  assert.equal(await again.evaluate(() => navigator.clipboard.readText()), again.url());
   await again.evaluate(() => { location.hash = "#finding-gone"; });
   await again.getByText("does not have the finding").waitFor();
   await again.close();
@@ -221,7 +226,7 @@ export async function showsVersions(browser) {
   const { versions, findings } = jsonOf("versions");
   const rows = await page.locator("#versions tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   assert.deepEqual(rows, versions.map((each) => ["after", "before", "class", "kind", "fixed", "broken", "both", "neither", "queries"].map((key) => String(each[key]))));
-  const { again } = findings.find((each) => each.broken_since === "old");
+  const again = inAnyFolder(findings.find((each) => each.broken_since === "old"), "versions");
   assert.match(again, /--subject old=\S+v1\.so,new=\S+v2\.so /);
   const lines = await page.locator("#broken > li").allTextContents();
   assert.equal(lines.filter((line) => line.startsWith("new against old: ") && line.includes(again)).length, 1);
@@ -244,8 +249,8 @@ export async function showsFindings(browser) {
   await checkCopies(page, report, command);
   await checkOtherSections(page);
 
-  const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
-  assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
+  const [, file] = command.match(/^nearmiss replay (\/\S+) --subject basic$/);
+  assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: "/" }),
     { status: 1 }); // the copied command fails again
   await page.close();
 }

@@ -22,6 +22,9 @@ export function run(...args) {
 export const pageOf = (name) => pathToFileURL(join(folder, name, "index.html")).href;
 export const jsonOf = (name) => JSON.parse(readFileSync(join(folder, name, "report.json")));
 
+/** The command that replays a finding of a report, as its page shows it. */
+export const inAnyFolder = ({ again }, name) => again.replace(" cases/", ` ${join(folder, name)}/cases/`);
+
 /** Runs a campaign and writes its report. Returns the address of its page. */
 export function makeReport(name, fuzz, report = []) {
   run("fuzz", ...fuzz, "--db", `${name}.db`);
