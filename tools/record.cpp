@@ -260,14 +260,18 @@ void Record::print_results(std::FILE* text, const Campaign& campaign, bool inter
                  : fmt::format("nearmiss report {} -o report; ", shell_quoted(options_.db.string())));
 }
 
-int Record::finish(bool interrupted, bool complete) {
+int Record::finish(bool interrupted, bool complete,
+                   const std::function<std::string(const Campaign&)>& describe) {
   shard_.complete = complete;
   save_now();
   store_.reset();
   end_on_signals();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
-  print_results(text, campaign, interrupted);
+  if (describe && !options_.verbose)
+    fmt::print(text, "{}", describe(campaign));
+  else
+    print_results(text, campaign, interrupted);
   std::fflush(text);  // so that the text is shown even if the file cannot be written
   options_.json.write(summary_json(campaign));
   options_.ci.write(campaign, options_.fail_on.failures(), text);

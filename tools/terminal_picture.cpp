@@ -1,5 +1,7 @@
 #include "tools/terminal_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,6 +107,24 @@ std::string terminal_picture(const Query& query, double time) {
   constexpr std::string_view numbers = "0123";
   for (std::size_t i = 4; i-- > 0;) sheet.draw(at(i, time), numbers[i]);
   return sheet.text();
+}
+
+std::string vertex_lines(const Query& query, std::size_t widest) {
+  std::string lines;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(vertices(query.kind)); ++i) {
+    const auto line = [&](const char* prefix, const char* number) {
+      const auto point = [&](std::size_t time) {
+        const double* const x = &query.x[12 * time + 3 * i];
+        const auto text = [&](double c) { return fmt::format(fmt::runtime(number), c + 0.0); };  // no -0
+        return fmt::format("({}, {}, {})", text(x[0]), text(x[1]), text(x[2]));
+      };
+      const bool moves = !std::equal(&query.x[3 * i], &query.x[3 * i] + 3, &query.x[12 + 3 * i]);
+      return fmt::format("  x{} {}{}{}\n", i, prefix, point(0), moves ? " -> " + point(1) : "");
+    };
+    const std::string exact = line("", "{}");
+    lines += exact.size() - 1 <= widest ? exact : line("~", "{:.6g}");
+  }
+  return lines;
 }
 
 }  // namespace nearmiss::tools

@@ -64,19 +64,6 @@ struct PlainMiss {
   }
 };
 
-/// The coordinates, a line for each vertex.
-std::string vertex_lines(const Query& query) {
-  std::string lines;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto point = [&](std::size_t time) {
-      const double* const x = &query.x[12 * time + 3 * i];
-      return fmt::format("({}, {}, {})", x[0], x[1], x[2]);
-    };
-    lines += fmt::format("  x{} {}{}\n", i, point(0), point(0) == point(1) ? "" : " -> " + point(1));
-  }
-  return lines;
-}
-
 void run(const Options& options) {
   if (options.out.extension() != ".case")
     throw Error(

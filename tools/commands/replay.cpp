@@ -17,6 +17,7 @@
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/one_case.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
@@ -100,13 +101,16 @@ Pass pass_of_cases(const Options& options, std::set<Kind>& seen, const Stop& sto
   return pass;
 }
 
-/// The number of cases with a separation, by their kind.
-using WithSeparation = std::map<Kind, std::uint64_t>;
+/// The cases that were replayed.
+struct Replayed {
+  std::uint64_t cases = 0;
+  Query last = {};
+  std::map<Kind, std::uint64_t> with_separation = {};  ///< number of cases with a separation, by their kind
+};
 
 /// Lets the subjects of a pass decide its cases. Results go to the record.
 void hold(const Options& options, const Pass& pass, const Stop& stop, Record& record, Progress& progress,
-          WithSeparation& with_separation) {
-  std::uint64_t count = 0;
+          Replayed& replayed) {
   const bool shrinks = !options.trial.no_shrink && !options.as_answered;
   Trials trials(pass.subjects, options.trial.comparison, options.trial.jobs, stop, shrinks,
                 [&](TrialResult&& result) { record.add(std::move(result)); });
@@ -117,10 +121,11 @@ void hold(const Options& options, const Pass& pass, const Stop& stop, Record& re
     const Query query = options.separation.apply(each.query);
     stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
                [name = each.name] { return printable(name); });
-    ++count;
-    with_separation[query.kind] += query.separation > 0 ? 1 : 0;
+    ++replayed.cases;
+    replayed.last = query;
+    replayed.with_separation[query.kind] += query.separation > 0 ? 1 : 0;
     if (progress.due())
-      progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
+      progress.show(fmt::format("{} cases, {} false negatives", with_separators(replayed.cases),
                                 with_separators(record.statistics().false_negatives())));
   };
   try {
@@ -134,15 +139,26 @@ void hold(const Options& options, const Pass& pass, const Stop& stop, Record& re
 }
 
 /// Says which subjects were not asked about cases, because they answer for contact only.
-void print_unasked(const Subjects& subjects, const WithSeparation& with_separation, std::FILE* out) {
+void print_unasked(const Subjects& subjects, const Replayed& replayed, std::FILE* out) {
   for (const auto& subject : subjects) {
     std::uint64_t not_asked = 0;
-    for (const auto& [kind, cases] : with_separation)
+    for (const auto& [kind, cases] : replayed.with_separation)
       if (subject->decides(kind) && !subject->takes_separation(kind)) not_asked += cases;
     if (not_asked > 0)
       fmt::print(out, "{}: not asked about {}, because it answers for contact only\n", subject->name(),
                  counted(not_asked, "case with a separation", "cases with a separation"));
   }
+}
+
+/// The only case that was replayed.
+OneCase one_case(const Options& options, const Query& query) {
+  OneCase one{query, {}, {}};
+  if (options.paths.size() == 1 && fs::is_regular_file(options.paths.front()))
+    one.file = options.paths.front().string();
+  if (options.separation.is_given()) one.options += " --separation " + shell_quoted(options.separation.text);
+  if (options.trial.limits.time != PluginLimitOptions().time)
+    one.options += " --query-time " + options.trial.limits.time;
+  return one;
 }
 
 /// Everything that the results depend on.
@@ -172,14 +188,20 @@ int run(const Options& options) {
   if (options.separation.apply({}).separation > 0)
     expect_separations(subjects, std::vector(seen.begin(), seen.end()));
   Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
-  WithSeparation with_separation;
+  Replayed replayed;
   {
     Progress progress(options.record.quiet);
-    for (const Pass& pass : passes) hold(options, pass, stop, record, progress, with_separation);
+    for (const Pass& pass : passes) hold(options, pass, stop, record, progress, replayed);
   }
-  print_unasked(subjects, with_separation, options.record.json.text());
+  print_unasked(subjects, replayed, options.record.json.text());
   if (!stop.is_requested()) record.add_unasked(subjects);
-  return record.finish(stop.is_requested(), !stop.is_requested());
+  std::function<std::string(const Campaign&)> describe_one;
+  if (replayed.cases == 1 && !options.as_answered && !stop.is_requested())
+    describe_one = [&](const Campaign& campaign) {
+      return describe(one_case(options, replayed.last), campaign, subjects,
+                      options.record.fail_on.failures());
+    };
+  return record.finish(stop.is_requested(), !stop.is_requested(), describe_one);
 }
 
 }  // namespace

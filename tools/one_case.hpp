@@ -1,0 +1,26 @@
+// What a replay of a single case shows.
+#pragma once
+
+#include <string>
+
+#include "ccd/query/query.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "reports/campaign/campaign.hpp"
+#include "reports/statistics/failure.hpp"
+
+namespace nearmiss::tools {
+
+/// A case that was replayed, alone.
+struct OneCase {
+  Query query;
+  std::string file;     ///< as the command line names it; "" if the file may have more than this case
+  std::string options;  ///< options that `nearmiss shrink` needs besides --subject, each after a blank
+};
+
+/// Lines, twelve at most, none of more than 100 columns unless a name is long: how each subject answers (those
+/// that fail first), the exact answer, the query, what the first subject that fails wrote to standard error, and
+/// the commands that simplify the query and make a test of it.
+std::string describe(const OneCase& one, const Campaign& campaign, const Subjects& subjects,
+                     const Failures& failing);
+
+}  // namespace nearmiss::tools
