@@ -28,16 +28,20 @@ class DemoTest : public testing::CommandLine {
 TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
   const Output output = expect_code(0, "demo -o 'a miss.case'");
   EXPECT_THAT(output.out,
-              AllOf(ContainsRegex("basic has missed [0-9]+ collision"),
+              AllOf(ContainsRegex("of ordinary families, it has missed [0-9]+ collision"),
+                    ContainsRegex("of degenerate\nand extreme families, basic has missed [0-9]+ collision"),
                     HasSubstr("wang, the failure-proof CCD, reports it."), ContainsRegex("\n  +[ .o#]*[0-3]"),
-                    HasSubstr("nearmiss replay 'a miss.case' --subject basic,wang\n")));
-  const Output replayed = expect_code(1, "replay 'a miss.case' --subject basic,wang");
-  EXPECT_THAT(replayed.out, AllOf(HasSubstr("FAIL basic: MISSED "), HasSubstr("ok  wang: no miss in 1")));
+                    HasSubstr("nearmiss replay 'a miss.case' --subject bridson:thickness=0,wang\n")));
+  const Output replayed = expect_code(1, "replay 'a miss.case' --subject bridson:thickness=0,wang,basic");
+  EXPECT_THAT(replayed.out,
+              AllOf(ContainsRegex("^FAIL bridson:thickness=0: MISSED the collision\n ok  basic: reports the "
+                                  "collision.*\n ok  wang: reports the collision\n"),
+                    HasSubstr("; ordinary "), HasSubstr(" --subject bridson:thickness=0 --as c++\n")));
 }
 
 TEST_F(DemoTest, SaysThatItCannotWrite) {
   expect_refused("demo -o no/folder.case", {"no/folder.case"});
-  EXPECT_THAT(run("demo -o no/folder.case").out, ::testing::Not(HasSubstr("basic has missed")));
+  EXPECT_THAT(run("demo -o no/folder.case").out, ::testing::Not(HasSubstr("missed")));
   expect_refused("demo -o miss.txt", {"found 'miss.txt', expected a name that ends in .case"});
 }
 

@@ -11,6 +11,7 @@
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
@@ -19,6 +20,7 @@
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/campaign/finding_case.hpp"
+#include "reports/statistics/family.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
@@ -38,15 +40,19 @@ bool is_plain(const Query& query) {
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
 }
 
-/// Asks a subject random queries until it misses a collision that shrinks to a query that is easy to draw.
+/// Asks a subject random queries of ordinary or of other families until it misses a collision that shrinks to a query
+/// of the same class that is easy to draw. In ordinary families, that query is ordinary, too.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query
 
-  explicit PlainMiss(const Subject& subject) {
+  PlainMiss(const Subject& subject, bool in_ordinary_families) {
+    const Subject* const asked = &subject;
+    const FindingShrinker shrinker({&asked, 1}, Stop::never(), {});
     const Judge judge(subject);
     for (std::uint64_t index = 0;; ++index)
       for (const Family& family : mesh_families()) {
+        if ((class_of(family.name) == QueryClass::ordinary) != in_ordinary_families) continue;
         ++queries;
         const Query query = make_query(family, 1, index);
         const auto failure = judge.failure(query);
@@ -57,45 +63,69 @@ struct PlainMiss {
                    .family = std::string(family.name),
                    .query = query,
                    .provenance = fmt::format("{}:1:{}", family.name, index),
-                   .signature = failure->signature};
-        finding.shrunk = shrunk_query(finding, &subject);
+                   .signature = failure->signature,
+                   .query_class = classify(query)};
+        if (in_ordinary_families && finding.query_class != QueryClass::ordinary) continue;
+        shrinker.shrink(finding);
         if (is_plain(finding.shrunk)) return;
       }
   }
 };
 
-void run(const Options& options) {
-  if (options.out.extension() != ".case")
-    throw Error(
-        fmt::format("--output: found '{}', expected a name that ends in .case", options.out.string()));
-  const auto basic = make_subject("basic");
+/// What a CCD misses in ordinary families: its simplest miss, and the picture.
+void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
   fmt::print(
-      "basic is a textbook CCD: it solves a cubic for the times at which the four vertices are coplanar, in "
-      "double\n"
-      "arithmetic, and tests whether the primitives meet there. An exact oracle decides the same random "
-      "queries.\n\n");
-  const PlainMiss miss(*basic);
-  const Finding& finding = miss.finding;
-  replace_file(options.out, to_text(to_case(of_shrunk(finding))));
-  fmt::print("After {}, basic has missed {}. The last of these is from the family {}:\n{}\n",
-             counted(miss.queries, "query", "queries"), counted(miss.misses, "collision", "collisions"),
-             finding.family, vertex_lines(finding.query));
+      "{} is a textbook CCD: it solves a cubic for the times at which the four vertices are coplanar, in "
+      "double\narithmetic, and tests whether the primitives meet there, without a tolerance. An exact oracle "
+      "decides "
+      "the same\nrandom queries.\n\n"
+      "After {} of ordinary families, it has missed {}. The last of these is from the family {}:\n{}\n",
+      finding.subject, counted(miss.queries, "query", "queries"),
+      counted(miss.misses, "collision", "collisions"), finding.family, vertex_lines(finding.query));
   const double time = earliest_time(finding.shrunk)->enclosure().lo;
   fmt::print(
-      "The simplest query that basic misses in the same way ({}):\n{}\n{}\nAt t = {:.4g}, {} meet. In the "
+      "The simplest ordinary query that it misses in the same way ({}):\n{}\n{}\nAt t = {:.4g}, {} meet. In "
+      "the "
       "picture, the first "
       "primitive is drawn with o, the second with #,\nvertices with their numbers, and their paths with "
       "dots.\n\n",
       to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk), terminal_picture(finding.shrunk, time),
       time, has_triangle(finding.shrunk.kind) ? "the vertex and the triangle" : "the edges");
-  const bool wang_hits = make_subject("wang")->decide(finding.shrunk).hit;
-  fmt::print("wang, the failure-proof CCD, {} it.\n\n", wang_hits ? "reports" : "misses");
+}
+
+/// What other CCDs answer to an ordinary query, and the simplest miss of one of them, which is not ordinary.
+void show_exotic_miss(const Query& ordinary) {
+  const auto answer = [&](const Subject& subject) {
+    return subject.decide(ordinary).hit ? "reports" : "misses";
+  };
+  const auto basic = make_subject("basic");
+  const PlainMiss miss(*basic, false);
+  const Finding& finding = miss.finding;
   fmt::print(
-      "Replay it:              nearmiss replay {0} --subject basic,wang\n"
-      "Make a test from it:    nearmiss shrink {0} --subject basic --as c++\n"
+      "wang, the failure-proof CCD, {} it. basic, a more careful textbook CCD, {} it, too. After {} of "
+      "degenerate\n"
+      "and extreme families, basic has missed {}. The last of these, simplified, is {} ({}):\n{}\n",
+      answer(*make_subject("wang")), answer(*basic), counted(miss.queries, "query", "queries"),
+      counted(miss.misses, "collision", "collisions"), name(finding.query_class),
+      to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk));
+}
+
+void run(const Options& options) {
+  if (options.out.extension() != ".case")
+    throw Error(
+        fmt::format("--output: found '{}', expected a name that ends in .case", options.out.string()));
+  const auto careless = make_subject("bridson:thickness=0");
+  const PlainMiss miss(*careless, true);
+  const Finding& finding = miss.finding;
+  replace_file(options.out, to_text(to_case(of_shrunk(finding))));
+  show_ordinary_miss(finding, miss);
+  show_exotic_miss(finding.shrunk);
+  fmt::print(
+      "Replay the first:       nearmiss replay {0} --subject {1},wang\n"
+      "Make a test from it:    nearmiss shrink {0} --subject {1} --as c++\n"
       "Try your own CCD:       nearmiss fuzz --subject ./yours.so --cases 100000   (README.md, \"Your own "
       "CCD\")\n",
-      shell_quoted(options.out.string()));
+      shell_quoted(options.out.string()), careless->name());
 }
 
 }  // namespace
