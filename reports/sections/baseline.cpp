@@ -147,7 +147,28 @@ std::vector<std::string> lines_for_the_worse(const Changes& changes, const Failu
   return lines;
 }
 
-std::string describe(const Changes& changes) {
+namespace {
+
+/// "lasting: 3 ways to fail of mine, the oldest first seen 2026-01-02T22:00:00Z (version 1)": a line for each subject.
+std::string lasting_by_subject(const Changes& changes) {
+  std::map<std::string, std::vector<Sightings>> of_subject;
+  for (const Signature& each : changes.lasting_signatures)
+    of_subject[each.subject].push_back(changes.sightings.at(each));
+  std::string text;
+  for (const auto& [subject, seen] : of_subject) {
+    const Sightings& oldest = *std::ranges::min_element(seen, {}, &Sightings::first);
+    text += fmt::format("lasting: {} of {}{}\n", counted(seen.size(), "way to fail", "ways to fail"),
+                        subject.empty() ? "the oracle" : subject,
+                        oldest.first.empty() ? ""
+                                             : fmt::format(", the oldest first seen {}",
+                                                           sighting_text(oldest.first, oldest.first_code)));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe(const Changes& changes, bool verbose) {
   std::string text;
   const auto list = [&](std::string_view title, const std::vector<Signature>& signatures) {
     for (const Signature& each : signatures) {
@@ -158,7 +179,10 @@ std::string describe(const Changes& changes) {
     }
   };
   list("new", changes.new_signatures);
-  list("lasting", changes.lasting_signatures);
+  if (verbose)
+    list("lasting", changes.lasting_signatures);
+  else
+    text += lasting_by_subject(changes);
   list("gone", changes.gone_signatures);
   for (const std::string& each : changes.absent_subjects)
     text += fmt::format("not in the baseline: {}\n", each);

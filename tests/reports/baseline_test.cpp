@@ -161,13 +161,22 @@ TEST(Baseline, KnowsWhenEachSignatureWasSeen) {
   EXPECT_THAT(found.new_signatures, IsEmpty());
   EXPECT_THAT(found.lasting_signatures, ElementsAre(inside));
   EXPECT_THAT(found.unrepeated_signatures, ElementsAre(on_edge));
-  EXPECT_EQ(describe(found),
+  EXPECT_EQ(describe(found, true),
             "lasting: false-negative of wang, ee inside, first seen 2026-01-01, last seen 2026-01-03\n");
   const auto json = changes_json(found);
   EXPECT_EQ(json["lasting_signatures"][0]["first_seen"], "2026-01-01");
   EXPECT_EQ(json["lasting_signatures"][0]["last_seen"], "2026-01-03");
   EXPECT_EQ(json["lasting_signatures"][0]["campaigns"], 2);
   EXPECT_EQ(json["unrepeated_signatures"][0]["first_seen"], "2026-01-03");
+}
+
+TEST(Baseline, SaysHowOftenEachSubjectFailsAsBefore) {
+  const Signature of_oracle{Finding::What::oracle_disagreement, "", "vt x"};
+  const std::vector<Campaign> nights{night("2026-01-02", {{on_edge, 9}, {of_oracle, 1}}),
+                                     night("2026-01-03", {{inside, 9}})};
+  EXPECT_EQ(describe(changes(night("2026-01-04", {{inside, 9}, {on_edge, 9}, {of_oracle, 1}}), nights)),
+            "lasting: 1 way to fail of the oracle, the oldest first seen 2026-01-02\n"
+            "lasting: 2 ways to fail of wang, the oldest first seen 2026-01-02\n");
 }
 
 // A failure is new in one night only. In later nights, it is lasting.

@@ -41,7 +41,7 @@ TEST(Gone, IsWhatChanceWouldHardlyHide) {
   const Changes found = changes(night("2", {{on_edge, 20}}), night("1", {{inside, 40}, {on_edge, 20}}));
   EXPECT_THAT(found.gone_signatures, ElementsAre(inside));
   EXPECT_EQ(describe(found),
-            "lasting: false-negative of mine, ee on-edge, first seen 1 (version 1), last seen 1 (version 1)\n"
+            "lasting: 1 way to fail of mine, the oldest first seen 1 (version 1)\n"
             "gone: false-negative of mine, ee inside, first seen 1 (version 1), last seen 1 (version 1)\n");
   EXPECT_THAT(headline({}, found).text, HasSubstr("1 way to fail is gone"));
   const Changes chance = changes(night("2", {{on_edge, 20}}), night("1", {{inside, 4}, {on_edge, 20}}));

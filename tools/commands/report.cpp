@@ -129,7 +129,7 @@ int run(const Options& options) {
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", (options.verbose ? summary_table : summary_lines)(campaign.statistics, context.failing));
-  if (context.since) fmt::print("{}", describe(*context.since));
+  if (context.since) fmt::print("{}", describe(*context.since, options.verbose));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
   options.ci.write(campaign, context.failing);
