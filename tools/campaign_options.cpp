@@ -60,7 +60,7 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
     line += fmt::format(", {} without answer", with_separators(faults));
   std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
   if (time) left = now.of != 0 ? std::min(left, *time - now.elapsed) : *time - now.elapsed;
-  return line + ", " + show_duration(std::max(left, {})) + " left";
+  return show_duration(std::max(left, {})) + " left, " + line;
 }
 
 /// The kinds chosen with --kind, or else those that a subject decides.

@@ -125,9 +125,9 @@ class SceneProgress {
     if (!progress_.due()) return;
     const double done = (static_cast<double>(step) + part) / static_cast<double>(steps_);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    progress_.show(fmt::format("{} step {} of {}, {} false negatives, {} left", what, step + 1, steps_,
-                               with_separators(record_.statistics().false_negatives()),
-                               show_duration(elapsed * ((1 - done) / done))),
+    progress_.show(fmt::format("{} left, {} step {} of {}, {} false negatives",
+                               show_duration(elapsed * ((1 - done) / done)), what, step + 1, steps_,
+                               with_separators(record_.statistics().false_negatives())),
                    done);
   }
 
