@@ -32,32 +32,57 @@ std::map<std::string, OfSubject> by_subject(const Statistics& statistics) {
   return subjects;
 }
 
-/// "ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way,
-/// class by class, and in the first class kind by kind. Leaves out classes and kinds in which nothing could
-/// fail, and the name of the class if all queries are unclassified.
+std::string of(std::uint64_t count, std::uint64_t total) {
+  return fmt::format("{} of {}", with_separators(count), with_separators(total));
+}
+
+/// How often a subject failed in this way in families of a class, and how often it could have.
+std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Counts>& by_kind,
+                                                        const FailureInfo& failure) {
+  std::uint64_t count = 0;
+  std::uint64_t total = 0;
+  for (const auto& [kind, counts] : by_kind) {
+    count += failure.count(counts);
+    total += failure.total(counts);
+  }
+  return {count, total};
+}
+
+/// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way, class by
+/// class, and in the first class kind by kind. Leaves out classes and kinds in which it did not fail, and the name of
+/// the class if all queries are unclassified. If it failed in no ordinary family, "; no ordinary one of 504" follows.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
-  const auto of = [](std::uint64_t count, std::uint64_t total) {
-    return fmt::format("{} of {}", with_separators(count), with_separators(total));
-  };
   std::vector<std::string> classes;
+  std::string no_ordinary_one;
   for (const auto& [in, by_kind] : parts) {
-    std::vector<std::string> by_kind_text;
-    std::uint64_t count = 0;
-    std::uint64_t total = 0;
-    for (const auto& [kind, counts] : by_kind) {
-      if (failure.total(counts) == 0) continue;
-      by_kind_text.push_back(
-          fmt::format("{} {}", short_name(kind), of(failure.count(counts), failure.total(counts))));
-      count += failure.count(counts);
-      total += failure.total(counts);
+    const auto [count, total] = count_and_total(by_kind, failure);
+    if (count == 0) {
+      if (in == QueryClass::ordinary && total > 0)
+        no_ordinary_one = "; no ordinary one of " + with_separators(total);
+      continue;
     }
-    if (total == 0) continue;
     const bool is_first = classes.empty();
-    const std::string text = is_first ? fmt::format("{}", fmt::join(by_kind_text, ", ")) : of(count, total);
+    std::vector<std::string> of_kinds;
+    for (const auto& [kind, counts] : by_kind)
+      if (failure.count(counts) > 0)
+        of_kinds.push_back(
+            fmt::format("{} {}", short_name(kind), of(failure.count(counts), failure.total(counts))));
+    const std::string text = is_first ? fmt::format("{}", fmt::join(of_kinds, ", ")) : of(count, total);
     const bool is_nameless = is_first && in == QueryClass::unclassified;
     classes.push_back(is_nameless ? text : fmt::format("{} {}", name(in), text));
   }
-  return fmt::format("{}", fmt::join(classes, "; "));
+  return fmt::format("{}{}", fmt::join(classes, "; "), no_ordinary_one);
+}
+
+/// "2 of 504 in ordinary families, 40 of 5,000 in extreme families": how often a subject failed in this way, class by
+/// class of the families.
+std::string by_families(const Parts& parts, const FailureInfo& failure) {
+  std::vector<std::string> classes;
+  for (const auto& [in, by_kind] : parts)
+    if (const auto [count, total] = count_and_total(by_kind, failure); count > 0)
+      classes.push_back(of(count, total) +
+                        (in == QueryClass::unclassified ? "" : fmt::format(" in {} families", name(in))));
+  return fmt::format("{}", fmt::join(classes, ", "));
 }
 
 /// The least exotic class of families in which a subject failed in this way.
@@ -203,38 +228,32 @@ std::string unjudged_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
-/// "3 of the missed queries are ordinary", or "all missed queries are extreme", if the least exotic class of
-/// the queries on which a subject failed differs from that of their families; "" otherwise.
-std::string other_class(const OfSubject& subject, const FailureInfo& failure, std::string_view participle) {
-  const auto of = class_of_queries(subject, failure);
-  const QueryClass in = least_exotic_part(subject.parts, failure)->first;
-  if (!of || *of == in) return "";
-  if (*of > in)
-    return fmt::format("all {} queries are {}", participle,
-                       *of == QueryClass::degenerate ? "degenerate or extreme" : name(*of));
-  const auto count = count_of(subject.all, failure, *of);
-  return fmt::format("{} of the {} queries {} {}", with_separators(count), participle,
-                     count == 1 ? "is" : "are", name(*of));
+/// How often a subject failed in this way: class by class of the families; or, if the least exotic class of the
+/// queries is another one, first in queries of this class, such as "3 ordinary vt collisions in extreme families; in
+/// all 40 of 5,000 in extreme families".
+std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
+  const auto in_queries = class_of_queries(subject, failure);
+  if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)
+    return class_by_class(subject.parts, failure);
+  return fmt::format("{}; in all {}", said_of_queries(subject.parts, failure, *in_queries, {}),
+                     by_families(subject.parts, failure));
 }
 
 /// The parts of a verdict, the gravest failure first.
 std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject& subject) {
   const Counts& counts = subject.all;
   std::vector<std::string> parts;
-  const auto add_by_class = [&](FailureKind kind, std::string_view words, std::string_view participle) {
-    if (!failures.contains(kind)) return;
-    const FailureInfo& failure = failure_info(kind);
-    parts.push_back(fmt::format("{} {}", words, class_by_class(subject.parts, failure)));
-    if (std::string other = other_class(subject, failure, participle); !other.empty())
-      parts.push_back(std::move(other));
+  const auto add_by_class = [&](FailureKind kind, std::string_view words) {
+    if (failures.contains(kind))
+      parts.push_back(fmt::format("{} {}", words, failed_text(subject, failure_info(kind))));
   };
   if (!failures.contains(FailureKind::miss))
     parts.push_back(fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions")));
-  add_by_class(FailureKind::miss, "MISSED", "missed");
-  add_by_class(FailureKind::late, "LATE", "late");
-  add_by_class(FailureKind::unsafe_step, "UNSAFE STEPS", "unsafe");
-  add_by_class(FailureKind::beyond_bound, "BEYOND ITS BOUND", "refuting");
-  add_by_class(FailureKind::fault, no_answer(counts), "unanswered");
+  add_by_class(FailureKind::miss, "MISSED");
+  add_by_class(FailureKind::late, "LATE");
+  add_by_class(FailureKind::unsafe_step, "UNSAFE STEPS");
+  add_by_class(FailureKind::beyond_bound, "BEYOND ITS BOUND");
+  add_by_class(FailureKind::fault, no_answer(counts));
   if (failures.contains(FailureKind::committed))
     parts.push_back(fmt::format("{} of {} sound times lead to a step that touches, once rounded",
                                 with_separators(counts.committed),

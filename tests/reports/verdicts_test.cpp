@@ -38,8 +38,19 @@ TEST(Verdicts, TellOrdinaryMissesFirstAndByKind) {
   add(Kind::edge_edge, "scale", counts(40000, 25000, 5678, 0));
   add(Kind::edge_edge, "cases/", counts(4, 0, 0, 0));
   EXPECT_EQ(verdict_lines(statistics, usual_failures()),
-            "FAIL mine: MISSED ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001; extreme 5,678 "
-            "of 25,000; no false positive\n");
+            "FAIL mine: MISSED ordinary vt 53 of 504; degenerate 1,204 of 5,001; extreme 5,678 of 25,000; no "
+            "false positive\n");
+}
+
+TEST(Verdicts, EndWithTheOrdinaryQueriesIfNoneOfThemFailed) {
+  Statistics statistics;
+  for (const Kind kind : kinds_of_meshes) {
+    statistics.counts[{"mine", kind, "uniform"}] = counts(2000, 504, 0, 0);
+    statistics.counts[{"mine", kind, "scale"}] = counts(2000, 30, 0, 0);
+  }
+  statistics.counts[{"mine", Kind::edge_edge, "planar"}] = counts(9000, 5000, 1204, 0);
+  EXPECT_EQ(verdict_lines(statistics, usual_failures()),
+            "FAIL mine: MISSED degenerate ee 1,204 of 5,000; no ordinary one of 1,008; no false positive\n");
 }
 
 Counts missing(Counts counts, QueryClass of, std::uint64_t number) {
@@ -55,8 +66,8 @@ TEST(Verdicts, TellMissedQueriesThatAreLessExoticThanTheirFamilies) {
   statistics.counts[{"mine", Kind::edge_edge, "planar"}] =
       missing(counts(9000, 5000, 2, 0), QueryClass::degenerate, 2);
   EXPECT_EQ(verdict_lines(statistics, usual_failures()),
-            "FAIL mine: MISSED ordinary vt 0 of 504; degenerate 2 of 5,000; extreme 40 of 5,000; 3 of the "
-            "missed queries are ordinary; no false positive\n");
+            "FAIL mine: MISSED 3 ordinary vt collisions in extreme families; in all 2 of 5,000 in degenerate "
+            "families, 40 of 5,000 in extreme families; no false positive\n");
   EXPECT_EQ(subject_verdicts(statistics).front().first,
             "missed 3 ordinary vt collisions in extreme families");
   EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::ordinary);
@@ -67,8 +78,8 @@ TEST(Verdicts, NameNoClassWithoutFailingQueries) {
   statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}] =
       missing(counts(2000, 504, 2, 0), QueryClass::degenerate, 2);
   EXPECT_EQ(verdict_lines(statistics, usual_failures()),
-            "FAIL mine: MISSED ordinary vt 2 of 504; all missed queries are degenerate or extreme; no false "
-            "positive\n");
+            "FAIL mine: MISSED 2 degenerate vt collisions in ordinary families; in all 2 of 504 in ordinary "
+            "families; no false positive\n");
   EXPECT_EQ(subject_verdicts(statistics).front().first,
             "missed 2 degenerate vt collisions in ordinary families");
   EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::degenerate);
@@ -82,8 +93,8 @@ TEST(Verdicts, TellTheClassOfUnansweredAndLateQueriesToo) {
   planar.faults_by_class = {7, 13};
   EXPECT_EQ(
       verdict_lines(statistics, usual_failures()),
-      "FAIL mine: no miss in 1,004 collisions; NO ANSWER (20 invalid) ordinary vt 0 of 2,000; degenerate "
-      "20 of 1,377; 7 of the unanswered queries are ordinary; no false positive\n");
+      "FAIL mine: no miss in 1,004 collisions; NO ANSWER (20 invalid) 7 ordinary vt queries in degenerate "
+      "families; in all 20 of 1,377 in degenerate families; no false positive\n");
   EXPECT_EQ(subject_verdicts(statistics).front().first,
             "failed to answer 7 ordinary vt queries in degenerate families");
   EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::ordinary);
