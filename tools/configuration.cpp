@@ -45,10 +45,13 @@ std::string without_underscores(std::string_view word) {
   return number;
 }
 
-/// Makes the text that simple_toml returns, line by line.
+/// Makes, line by line, a text in the part of TOML that CLI11 reads correctly: each list is on one line, without blanks
+/// around its commas and brackets, and without a comma at its end; there are no comments, no underscores in numbers,
+/// and no byte order mark.
 class SimpleToml {
  public:
   void add(std::string_view line, long number) {
+    if (open_.empty()) note_option(line, number);
     while (!line.empty() && line.front() != '#') {
       const std::size_t length = piece_length(line);
       add_piece(line.substr(0, length), number);
@@ -60,13 +63,26 @@ class SimpleToml {
       add_piece(" ", number);
   }
 
-  /// Throws Error.
+  /// Throws Error, with the line, if a bracket is never closed.
   [[nodiscard]] std::string finish() && {
-    if (!open_.empty()) throw Error(fmt::format("--config:{}: found '[' without ']'", open_.back()));
+    if (!open_.empty())
+      throw Error(fmt::format("--config:{}: found '[' without ']', expected both", open_.back()));
     return std::move(text_);
   }
 
+  /// The line of each option, or of what stands in its place.
+  [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
+
  private:
+  void note_option(std::string_view line, long number) {
+    const std::string_view before = line.substr(0, line.find_first_of("=#"));
+    const std::size_t first = before.find_first_not_of(blanks);
+    if (first == before.npos || before[first] == '[') return;
+    std::string name(before.substr(first, before.find_last_not_of(blanks) + 1 - first));
+    std::erase_if(name, [](char c) { return c == '"' || c == '\''; });
+    lines_.emplace(name.substr(name.rfind('.') + 1), number);
+  }
+
   void add_piece(std::string_view piece, long line) {
     const char first = piece.front();
     const bool is_quoted = first == '"' || first == '\'';
@@ -86,23 +102,21 @@ class SimpleToml {
 
   std::string text_;
   std::vector<long> open_;  // the lines of the brackets that are not closed yet
+  std::map<std::string, long> lines_;
 };
 
 }  // namespace
 
-std::string simple_toml(std::istream& input) {
-  SimpleToml text;
-  LineReader lines(input, "--config");
-  while (lines.next()) text.add(lines.text(), lines.number());
-  return std::move(text).finish();
-}
-
 ConfigurationFile::ConfigurationFile(std::string command) : command_(std::move(command)) {
-  comment('\0');  // simple_toml has removed the comments; a '#' that is left belongs to a string
+  comment('\0');  // SimpleToml has removed the comments; a '#' that is left belongs to a string
 }
 
 std::vector<CLI::ConfigItem> ConfigurationFile::from_config(std::istream& input) const {
-  std::istringstream simple(simple_toml(input));
+  SimpleToml text;
+  LineReader lines(input, "--config");
+  while (lines.next()) text.add(lines.text(), lines.number());
+  lines_ = text.lines();
+  std::istringstream simple(std::move(text).finish());
   std::vector<CLI::ConfigItem> read = CLI::ConfigTOML::from_config(simple);
   for (CLI::ConfigItem& item : read)
     if (item.parents.empty()) item.parents = {command_};

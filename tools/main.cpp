@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -172,11 +174,51 @@ void print_continuation(const CLI::App& command, int argc, char** argv) {
 }
 
 /// Lets `nearmiss fuzz --config FILE` read its options from a file.
-void add_configuration(CLI::App& app) {
+std::shared_ptr<const nearmiss::tools::ConfigurationFile> add_configuration(CLI::App& app) {
+  const auto file = std::make_shared<nearmiss::tools::ConfigurationFile>("fuzz");
   app.set_config("--config", "", "Read options of fuzz from a TOML file")->group("");
   app.allow_config_extras(CLI::config_extras_mode::error);
-  app.config_formatter(std::make_shared<nearmiss::tools::ConfigurationFile>("fuzz"));
+  app.config_formatter(file);
   app.get_subcommand("fuzz")->fallthrough();
+  return file;
+}
+
+/// Whether a message is about this option.
+bool is_about(std::string_view message, const std::string& option) {
+  const std::size_t at = message.find("--" + option);
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-'; };
+  const std::size_t end = at + option.size() + 2;
+  return at != message.npos && (end == message.size() || !is_of_name(message[end]));
+}
+
+/// Throws Error with the message, behind the file and the line of the option that it is about, if that option was read
+/// from the configuration file and is not an argument. Returns otherwise.
+void refuse_configuration(const CLI::App& app, const nearmiss::tools::ConfigurationFile& configuration,
+                          const std::string& message, int argc, char** argv) {
+  if (app.get_config_ptr()->count() == 0) return;
+  const auto file = app.get_config_ptr()->as<std::string>();
+  constexpr std::string_view of_reader = "--config:";
+  if (message.starts_with(of_reader))
+    throw nearmiss::Error(fmt::format("{}:{}", file, message.substr(of_reader.size())));
+  std::vector<std::string> names;
+  add_options(*app.get_subcommand("fuzz"), names);
+  for (const CLI::App* group : app.get_subcommand("fuzz")->get_subcommands({})) add_options(*group, names);
+  for (const auto& [option, line] : configuration.lines()) {
+    const auto is_argument = [&](const char* each) {
+      return std::string_view(each) == "--" + option ||
+             std::string_view(each).starts_with("--" + option + "=");
+    };
+    if (std::any_of(argv, argv + argc, is_argument)) continue;
+    const std::string place = fmt::format("{}:{}: ", file, line);
+    try {
+      expect_known("option", "--" + option, names, "nearmiss fuzz --help");
+    } catch (const nearmiss::Error& error) {
+      throw nearmiss::Error(place + error.what());
+    }
+    static const std::regex choice(R"(: (.*) not in \{(.*)\}$)");  // in the words of CLI11
+    if (is_about(message, option))
+      throw nearmiss::Error(place + std::regex_replace(message, choice, ": found '$1', expected one of $2"));
+  }
 }
 
 int run(int argc, char** argv) {
@@ -193,7 +235,7 @@ int run(int argc, char** argv) {
                          add_paper,  add_audit,   add_power,    add_tightness, add_bench,   add_family,
                          add_oracle, add_certify, add_verdict,  add_subjects,  add_convert, add_completion})
     add(app, exit_code);
-  add_configuration(app);
+  const auto configuration = add_configuration(app);
 
   expect_values(argc, argv);
   choose_lanes(std::getenv("NEARMISS_LANES"));
@@ -208,7 +250,12 @@ int run(int argc, char** argv) {
       return exit_code;
     }
     expect_options(app, argc, argv);
-    throw nearmiss::Error(fmt::format("{} (see {})", with_short_words(error.what()), help_for(argc, argv)));
+    const std::string message = with_short_words(error.what());
+    refuse_configuration(app, *configuration, message, argc, argv);
+    throw nearmiss::Error(fmt::format("{} (see {})", message, help_for(argc, argv)));
+  } catch (const nearmiss::Error& error) {
+    refuse_configuration(app, *configuration, error.what(), argc, argv);
+    throw;
   }
   expect_output();
   if (exit_code == exit_interrupted) print_continuation(*app.get_subcommands().front(), argc, argv);

@@ -118,13 +118,16 @@ Family mesh_family(const Scene& scene, const Stop& stop, std::size_t most) {
   });
   stop.check();
   QueriesByKind pairs = std::move(sample).pairs();
-  for (const Kind kind : kinds_of_meshes)
-    if (!pairs.contains(kind))
-      throw Error(fmt::format("found no {} pair in the mesh whose swept boxes meet, expected some",
-                              short_name(kind)));
-  return family_near("mesh",
-                     "pairs of a moving mesh (--mesh), as they are, perturbed, and moved into contact",
-                     "pair", std::move(pairs));
+  if (pairs.empty()) throw Error("found no pair in the mesh whose swept boxes meet, expected some");
+  const Kind one = pairs.begin()->first;
+  const bool has_one_kind = pairs.size() == 1;
+  Family family =
+      family_near("mesh", "pairs of a moving mesh (--mesh), as they are, perturbed, and moved into contact",
+                  "pair", std::move(pairs));
+  if (!has_one_kind) return family;
+  family.kinds = {one, one};
+  family.only = one;
+  return family;
 }
 
 }  // namespace nearmiss

@@ -51,8 +51,8 @@ class PairSample {
 std::vector<Family> near_families(std::span<const Query> queries);
 
 /// The family `mesh`, made in the same ways from the pairs of all steps whose swept boxes meet. At most
-/// `most` pairs of each kind are kept; the choice only depends on the scene. Throws Error if there is no pair
-/// of a kind, and Stopped if the stop is due before all pairs are known.
+/// `most` pairs of each kind are kept; the choice only depends on the scene. If all are of one kind, only that kind is
+/// asked. Throws Error if there is no pair, and Stopped if the stop is due before all pairs are known.
 Family mesh_family(const Scene& scene, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
 
 }  // namespace nearmiss

@@ -78,7 +78,17 @@ TEST(MeshFamily, StaysFiniteWhereThePerturbationWouldNot) {
 TEST(MeshFamily, AMeshWithoutPairsIsRefused) {
   const MovingMesh one = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}},
                                           {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  EXPECT_REFUSED(mesh_family(scene_of(one)), "found no vt pair in the mesh");
+  EXPECT_REFUSED(mesh_family(scene_of(one)), "found no pair in the mesh");
+}
+
+// A vertex without a triangle falls through a triangle, whose edges it does not meet.
+TEST(MeshFamily, AMeshWithPairsOfOneKindIsAskedThese) {
+  const MovingMesh falling =
+      make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{0, 1, 2}}, {}},
+                       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, -1}});
+  const Family family = mesh_family(scene_of(falling));
+  EXPECT_EQ(family.only, Kind::vertex_triangle);
+  for (std::uint64_t i = 0; i < 4; ++i) EXPECT_EQ(make_query(family, 1, i).kind, Kind::vertex_triangle) << i;
 }
 
 }  // namespace

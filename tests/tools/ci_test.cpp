@@ -90,7 +90,18 @@ TEST_F(Ci, AFileDescribesACampaign) {
   EXPECT_EQ(json_of(0, "fuzz --config trial.toml --subject wang")["subjects"].size(), 1);
   expect_refused("fuzz --config nowhere.toml", {"nowhere.toml"});
   write("bad.toml", "subjects = \"wang\"\ncases = 10\n");
-  expect_refused("fuzz --config bad.toml", {"subjects"});
+  expect_refused("fuzz --config bad.toml",
+                 {"bad.toml:1: found the option '--subjects', expected one such as '--subject'"});
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
+           {"# a comment\n\nseed = 1\ncases = 1e",
+            "wrong.toml:4: --cases: found '1e', expected a whole number"},
+           {"subject = [\n  'wang',\n]\nkind = \"vx\"\ncases = 9\n",
+            "wrong.toml:4: --kind: found 'vx', expected one of vt,ee,vv,ve"},
+           {"cases = 9\nfuzz.time = \"soon\"\n", "wrong.toml:2: --time: found 'soon', expected"},
+           {"cases = 9\nquickly\n", "wrong.toml:2: found the option '--quickly', expected one such as"}}) {
+    write("wrong.toml", text);
+    expect_refused("fuzz --config wrong.toml", {words});
+  }
   // Everything that a list and a number may have in TOML.
   write("odd.toml",
         "\xEF\xBB\xBFsubject = [  # \"never\", [\n  \"basic\" ,\n\n  'wang',  # ]\n]  # two\r\n"
@@ -102,7 +113,7 @@ TEST_F(Ci, AFileDescribesACampaign) {
   const auto near = json_of(0, "fuzz --config near.toml")["subjects"]["wang"]["vt"]["families"]["near"];
   EXPECT_EQ(near["queries"], 10);
   write("open.toml", "cases = 10\nsubject = [\n  \"wang\",\n");
-  expect_refused("fuzz --config open.toml", {"--config:2: found '[' without ']'"});
+  expect_refused("fuzz --config open.toml", {"nearmiss: open.toml:2: found '[' without ']', expected both"});
 }
 
 class JsonToStdout : public CommandLine {};

@@ -105,6 +105,28 @@ TEST_F(CommandLine, FuzzSweepsAllFamiliesOfTheKindsThatASubjectDecides) {
   EXPECT_THAT(swept("--sweep all --subject exact"), Not(Contains(StartsWith("v-"))));
 }
 
+TEST_F(CommandLine, ASceneWithoutUndecidedPairsSaysThatNothingWasAsked) {
+  write("flat.obj", two_triangles("1"));
+  EXPECT_THAT(
+      expect_code(0, "scene flat.obj flat.obj").out,
+      HasSubstr("no subject was asked, neither about the pairs, which the plan decides (--leave-out boxes "
+                "asks about them), nor around them\n"));
+}
+
+// The mesh has no pair of edges that could meet.
+TEST_F(CommandLine, FuzzTakesAMeshWithPairsOfOneKind) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 ";
+  write("above.obj", triangle + "1\nf 1 2 3\n");
+  write("below.obj", triangle + "-1\nf 1 2 3\n");
+  for (const std::string kind : {"", " --kind vt"}) {
+    const json of =
+        json_of(0, "fuzz --mesh above.obj below.obj --family mesh --cases 40" + kind)["subjects"]["wang"];
+    EXPECT_EQ(of["vt"]["queries"], 40) << kind;
+  }
+  expect_refused("fuzz --mesh above.obj below.obj --family mesh --cases 40 --kind ee",
+                 {"--kind: found ee, expected vt"});
+}
+
 TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
   write_falling_triangle();
   const std::string mesh = "fuzz --mesh start.obj end.obj ";

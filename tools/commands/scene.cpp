@@ -283,8 +283,10 @@ int run(Options options) {
   const Held held = hold_trials(options, scene, all.subjects, record, stop);
   fmt::print(text, "{}", held.scene);
   if (record.statistics().counts.empty())
-    fmt::print(text,
-               "no subject was asked: the plan decides all pairs (--leave-out boxes asks about them)\n");
+    fmt::print(
+        text,
+        "no subject was asked, neither about the pairs, which the plan decides (--leave-out boxes asks about "
+        "them), nor around them\n");
   if (!stop.is_requested()) record.add_unasked(all.subjects);
   std::string few = options.plan_only ? "" : what_few_collisions_show(record.statistics());
   std::string longer;
