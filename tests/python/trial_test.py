@@ -419,11 +419,14 @@ class Record(unittest.TestCase):
                 hits, toi = nearmiss.time_of_impact(kind, x, separation)
                 misses += int(hits.any())
                 hits[hits.argmax()] = False
-                nearmiss.record(kind, x, hits, toi, separation, keep=kind == 'vv')
-            try:
-                nearmiss.record('vt', x[0], True)
-            except ValueError as error:
-                print(error)
+                nearmiss.record(kind, x[1:], hits[1:], toi[1:], separation[1:], keep=kind == 'vv')
+                nearmiss.record(kind, x[0].reshape(2 * v, 3), hits[0], toi[0], separation[0])
+            # All have the size of some queries of two vertices.
+            for shape in ((4, 2, 3), (2, 3, 4, 1), (1, 4, 2, 3), (4, 6), (24,), (2, 1, 2, 2, 3)):
+                try:
+                    nearmiss.record('vv', x.flat[:24].reshape(shape), True)
+                except ValueError as error:
+                    print(error)
             print(misses)
             """
         with tempfile.TemporaryDirectory() as folder:
@@ -435,7 +438,12 @@ class Record(unittest.TestCase):
                 text=True,
                 check=True,
             )
-            self.assertIn('expected (n, 2, 4, 3)', run.stdout)
+            refusals = run.stdout.splitlines()[:-1]
+            self.assertEqual(len(refusals), 6, run.stdout)
+            for line in refusals:
+                self.assertIn(
+                    'expected (n, 2, 2, 3) or (n, 4, 3), or (2, 2, 3) or (4, 3) for one', line
+                )
             command = [NEARMISS, 'replay', file, '--as-answered', '--json', '-']
             judged = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual(judged.returncode, 1, judged.stderr)

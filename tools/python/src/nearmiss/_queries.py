@@ -63,6 +63,18 @@ def kind_of(kind: KindLike) -> Kind:
         raise ValueError(f"kind is {kind!r}, expected 'vt', 'ee', 'vv' or 've'") from None
 
 
+def is_by_time(shape: tuple[int, ...], v: int) -> bool:
+    """Whether an array of queries of v vertices has an axis for the two times. Raises a ValueError for other arrays."""
+    by_time = shape[-3:] == (2, v, 3)
+    is_known = by_time or shape[-2:] == (2 * v, 3)
+    if not is_known or len(shape) not in (2 + by_time, 3 + by_time):
+        raise ValueError(
+            f'x has shape {shape}, expected (n, 2, {v}, 3) or (n, {2 * v}, 3), or (2, {v}, 3) or ({2 * v}, 3) '
+            'for one query'
+        )
+    return by_time
+
+
 class Asked:
     """Queries in the layout of the C interface, and the shape of their answers."""
 
@@ -95,13 +107,7 @@ class Asked:
 
     def _halves(self, x: Coordinates, v: int) -> tuple[Coordinates, Coordinates]:
         """The vertices at t = 0 and t = 1, both (n, v, 3)."""
-        by_time = x.shape[-3:] == (2, v, 3)
-        is_known = by_time or x.shape[-2:] == (2 * v, 3)
-        if not is_known or x.ndim not in (2 + by_time, 3 + by_time):
-            raise ValueError(
-                f'x has shape {x.shape}, expected (n, 2, {v}, 3) or (n, {2 * v}, 3), or (2, {v}, 3) or ({2 * v}, 3) '
-                'for one query'
-            )
+        by_time = is_by_time(x.shape, v)
         self.is_single = x.ndim == 2 + by_time
         each: Any = x[np.newaxis] if self.is_single else x
         return (each[:, 0], each[:, 1]) if by_time else (each[:, :v], each[:, v:])

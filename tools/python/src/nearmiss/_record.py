@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing import Any
 
 from nearmiss import _interface
-from nearmiss._queries import _LAYOUTS, KindLike, kind_of
+from nearmiss._queries import _LAYOUTS, KindLike, is_by_time, kind_of
 
 
 def record(
@@ -22,19 +22,16 @@ def record(
     nearmiss_record.h does in C; without the variable, does nothing. `nearmiss replay FILE --as-answered` judges
     them.
 
-    x:       the queries, (n, 2, v, 3) or (n, 2 v, 3), with v = 4, or 2 for 'vv' and 3 for 've'
+    x:       the queries, (n, 2, v, 3) or (n, 2 v, 3), with v = 4, or 2 for 'vv' and 3 for 've'; without n for one query
     answers: what the CCD answered: bools, or 0, 1 and 2 for "cannot tell"
     times:   the times that it gave, NaN where it gave none
     tmax:    the CCD was asked about t in [0, tmax]
     keep:    whether to keep these records longer, as for slow queries
-    All but x are a number for all queries, or (n,).
+    All but x are a number for all queries, or (n,). Other shapes raise a ValueError.
     """
     number, vertices = _LAYOUTS[kind_of(kind)]
     rows = np.ascontiguousarray(x, np.float64)
-    if rows.size % (6 * vertices) != 0 or rows.shape[-1:] != (3,):
-        raise ValueError(
-            f'x has shape {rows.shape}, expected (n, 2, {vertices}, 3) or (n, {2 * vertices}, 3)'
-        )
+    is_by_time(rows.shape, vertices)
     rows = rows.reshape(-1, 6 * vertices)
 
     def each(values: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
