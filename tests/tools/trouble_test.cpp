@@ -23,17 +23,39 @@ using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
+/// A terminal, both of whose ends are open.
+struct Terminal {
+  int ours = posix_openpt(O_RDWR | O_NOCTTY), side = -1;
+  std::string path;
+
+  Terminal() {
+    EXPECT_TRUE(ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0);
+    path = ptsname(ours);
+    side = open(path.c_str(), O_RDWR | O_NOCTTY);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  ~Terminal() {
+    close(side);
+    close(ours);
+  }
+};
+
 // ^S stops the output of a terminal. The campaign shows progress there, and ends all the same.
 TEST_F(CommandLine, AStoppedTerminalStopsNothing) {
-  const int ours = posix_openpt(O_RDWR | O_NOCTTY);
-  ASSERT_TRUE(ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0);
-  const std::string terminal = ptsname(ours);
-  const int side = open(terminal.c_str(), O_RDWR | O_NOCTTY);
-  ASSERT_EQ(tcflow(side, TCOOFF), 0);
-  expect_code(0, "fuzz --subject wang --time 1s --db a.db", "timeout -s KILL 60", "2>" + terminal);
+  const Terminal terminal;
+  ASSERT_EQ(tcflow(terminal.side, TCOOFF), 0);
+  expect_code(0, "fuzz --subject wang --time 1s --db a.db", "timeout -s KILL 60", "2>" + terminal.path);
   EXPECT_GT(report_of("a.db")["runs"][0]["cases_done"], 0);
-  close(side);
-  close(ours);
+}
+
+TEST_F(CommandLine, ProgressBeginsWithTheTimeThatIsLeft) {
+  const Terminal terminal;
+  expect_code(0, "fuzz --subject wang --time 2s", "timeout -s KILL 60", "2>" + terminal.path);
+  std::string shown(4096, '\0');
+  const ssize_t size = ::read(terminal.ours, shown.data(), shown.size());
+  shown.resize(static_cast<std::size_t>(std::max(size, ssize_t{0})));
+  EXPECT_THAT(shown, ::testing::ContainsRegex("\\] +[0-9]+ % [01] s left, [0-9,]+ cases, "));
 }
 
 TEST_F(CommandLine, APluginThatLoadsLongerThanTheCampaignMayTakeIsNoInterrupt) {
