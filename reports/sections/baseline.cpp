@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
@@ -77,10 +78,10 @@ std::string text_of(const Signature& signature) {
                      signature.subject.empty() ? "the oracle" : signature.subject, signature.text);
 }
 
-/// "worse: false negatives of mine vt in uniform, 1 of 20 before, 9 of 20 now"
+/// "false negatives of mine vt in uniform, 1 of 20 before, 9 of 20 now"
 std::string text_of(const ChangedRate& rate) {
-  return fmt::format("{}: {} of {} {} in {}, {} before, {} now", rate.worse() ? "worse" : "better", rate.what,
-                     rate.subject, rate.kind, rate.family, text_of(rate.before), text_of(rate.now));
+  return fmt::format("{} of {} {} in {}, {} before, {} now", rate.what, rate.subject, rate.kind, rate.family,
+                     text_of(rate.before), text_of(rate.now));
 }
 
 /// "2026-01-02T22:00:00Z (version 1)"
@@ -98,11 +99,10 @@ std::string sightings_text(const Changes& changes, const Signature& signature) {
                      sighting_text(seen.last, seen.last_code));
 }
 
-/// "slower: mine vt in uniform, 1.52 times: 472 ns a query, 310 expected"
+/// "mine vt in uniform, 1.52 times: 472 ns a query, 310 expected"
 std::string text_of(const ChangedTime& time) {
-  return fmt::format("{}: {} {} in {}, {:.2f} times: {:.3g} ns a query, {:.3g} expected\n",
-                     time.slower() ? "slower" : "faster", time.subject, time.kind, time.family, time.ratio(),
-                     time.now, time.expected);
+  return fmt::format("{} {} in {}, {:.2f} times: {:.3g} ns a query, {:.3g} expected", time.subject, time.kind,
+                     time.family, time.ratio(), time.now, time.expected);
 }
 
 }  // namespace
@@ -143,51 +143,77 @@ std::vector<std::string> lines_for_the_worse(const Changes& changes, const Failu
     if (failing.contains(failure_of(each)))
       lines.push_back(fmt::format("new: {}{}", text_of(each), sightings_text(changes, each)));
   for (const ChangedRate& each : changes.rates)
-    if (each.worse()) lines.push_back(text_of(each));
+    if (each.worse()) lines.push_back("worse: " + text_of(each));
   return lines;
 }
 
 namespace {
 
-/// "lasting: 3 ways to fail of mine, the oldest first seen 2026-01-02T22:00:00Z (version 1)": a line for each subject.
-std::string lasting_by_subject(const Changes& changes) {
+/// What a line says after its title, such as "worse".
+struct Line {
+  std::string title, subject;
+  const char* many;  ///< what several lines of a subject are about
+  std::string text;
+};
+
+/// "3 ways to fail of mine, the oldest first seen 2026-01-02T22:00:00Z (version 1)": a line for each subject.
+std::vector<Line> lasting_by_subject(const Changes& changes) {
   std::map<std::string, std::vector<Sightings>> of_subject;
   for (const Signature& each : changes.lasting_signatures)
     of_subject[each.subject].push_back(changes.sightings.at(each));
-  std::string text;
+  std::vector<Line> lines;
   for (const auto& [subject, seen] : of_subject) {
     const Sightings& oldest = *std::ranges::min_element(seen, {}, &Sightings::first);
-    text += fmt::format("lasting: {} of {}{}\n", counted(seen.size(), "way to fail", "ways to fail"),
-                        subject.empty() ? "the oracle" : subject,
-                        oldest.first.empty() ? ""
-                                             : fmt::format(", the oldest first seen {}",
-                                                           sighting_text(oldest.first, oldest.first_code)));
+    const std::string since =
+        oldest.first.empty() ? ""
+                             : ", the oldest first seen " + sighting_text(oldest.first, oldest.first_code);
+    lines.push_back({"lasting", subject, "",
+                     fmt::format("{} of {}{}", counted(seen.size(), "way to fail", "ways to fail"),
+                                 subject.empty() ? "the oracle" : subject, since)});
   }
-  return text;
+  return lines;
 }
 
-}  // namespace
-
-std::string describe(const Changes& changes, bool verbose) {
-  std::string text;
-  const auto list = [&](std::string_view title, const std::vector<Signature>& signatures) {
+std::vector<Line> lines_of(const Changes& changes, bool verbose) {
+  std::vector<Line> lines;
+  const auto list = [&](const char* title, const std::vector<Signature>& signatures) {
     for (const Signature& each : signatures) {
       const auto fixed = changes.fixed.find(each);
-      text += fmt::format("{}: {}{}\n",
-                          fixed == changes.fixed.end() ? std::string(title) : "fixed " + fixed->second,
-                          text_of(each), sightings_text(changes, each));
+      lines.push_back({fixed == changes.fixed.end() ? title : "fixed " + fixed->second, each.subject,
+                       "ways to fail", text_of(each) + sightings_text(changes, each)});
     }
   };
   list("new", changes.new_signatures);
   if (verbose)
     list("lasting", changes.lasting_signatures);
   else
-    text += lasting_by_subject(changes);
+    std::ranges::move(lasting_by_subject(changes), std::back_inserter(lines));
   list("gone", changes.gone_signatures);
   for (const std::string& each : changes.absent_subjects)
-    text += fmt::format("not in the baseline: {}\n", each);
-  for (const ChangedRate& each : changes.rates) text += text_of(each) + "\n";
-  for (const ChangedTime& each : changes.times.changed) text += text_of(each);
+    lines.push_back({"not in the baseline", each, "", each});
+  for (const ChangedRate& each : changes.rates)
+    lines.push_back({each.worse() ? "worse" : "better", each.subject, "rates", text_of(each)});
+  for (const ChangedTime& each : changes.times.changed)
+    lines.push_back({each.slower() ? "slower" : "faster", each.subject, "run times", text_of(each)});
+  return lines;
+}
+
+}  // namespace
+
+std::string describe(const Changes& changes, bool verbose) {
+  const std::vector<Line> lines = lines_of(changes, verbose);
+  std::map<std::pair<std::string, std::string>, std::size_t> counts;
+  for (const Line& each : lines) ++counts[{each.title, each.subject}];
+  std::string text;
+  for (const Line& each : lines) {
+    std::size_t& count = counts.at({each.title, each.subject});
+    if (verbose || count == 1)
+      text += fmt::format("{}: {}\n", each.title, each.text);
+    else if (count > 1)  // of the first line
+      text += fmt::format("{}: {} {} of {}, such as {}\n", each.title, with_separators(count), each.many,
+                          each.subject.empty() ? "the oracle" : each.subject, each.text);
+    if (!verbose) count = 0;
+  }
   return text;
 }
 

@@ -199,8 +199,7 @@ Changes changes(const Campaign& now, const Campaign& baseline);
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 
-/// A line for each change, and one for each subject with lasting signatures, or if `verbose` one for each of these
-/// signatures; "" without changes.
+/// A line for each subject and sort of change, or if `verbose` one for each change; "" without changes.
 std::string describe(const Changes& changes, bool verbose = false);
 
 nlohmann::ordered_json changes_json(const Changes& changes);

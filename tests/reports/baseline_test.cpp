@@ -179,6 +179,13 @@ TEST(Baseline, SaysHowOftenEachSubjectFailsAsBefore) {
             "lasting: 2 ways to fail of wang, the oldest first seen 2026-01-02\n");
 }
 
+TEST(Baseline, SaysManyChangesOfASubjectInOneLine) {
+  const Changes found = changes(night("2026-01-02", {{inside, 9}, {on_edge, 9}}), night("2026-01-01", {}));
+  EXPECT_EQ(describe(found), "new: 2 ways to fail of wang, such as false-negative of wang, ee inside\n");
+  EXPECT_EQ(describe(found, true),
+            "new: false-negative of wang, ee inside\nnew: false-negative of wang, ee on-edge\n");
+}
+
 // A failure is new in one night only. In later nights, it is lasting.
 TEST(Baseline, AFailureIsNewOnceAndThenLasts) {
   std::vector<Campaign> nights{night("1", {})};
