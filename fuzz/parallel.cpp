@@ -19,8 +19,9 @@ namespace nearmiss {
 namespace {
 
 /// Starts threads until there are `jobs`, including the calling one, or until the system has no thread left.
-/// Ends them, and returns their number, or half of it if the system had no thread left: other processes may
-/// start some in the meantime, and the system counts a thread for a while after its end.
+/// Ends these threads and returns their number. If the system had no thread left, returns half their number,
+/// because other processes may start threads before these threads are needed, and the system counts a thread
+/// for a while after its end.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;
@@ -37,8 +38,8 @@ int try_threads(int jobs) {
   return are_left ? started : (started + 1) / 2;
 }
 
-/// The number of threads, at most `jobs`, that the library can use. If the library cannot start a thread, it
-/// ends the program. Therefore a number that is larger than any before is tried first. The library keeps the
+/// The number of threads, at most `jobs`, that TBB can use. TBB ends the program if it cannot start a thread.
+/// Therefore try_threads() first tries every number that is larger than all earlier ones. TBB keeps the
 /// threads that it has started, so smaller numbers need no trial.
 int usable_threads(int jobs) {
   static std::atomic<int> most = 1;
@@ -46,8 +47,8 @@ int usable_threads(int jobs) {
   return std::min(jobs, most.load());
 }
 
-/// Throws std::bad_alloc unless some memory is left before TBB starts. If TBB finds none then, it does not
-/// throw, but waits forever for a lock that it holds itself (2022.1).
+/// Throws std::bad_alloc unless some memory is left before TBB starts. If TBB (2022.1) finds no memory when
+/// it starts, it does not throw, but waits forever for a lock that it holds itself.
 void expect_memory_to_start() {
   static std::atomic<bool> has_started = false;
   if (has_started.exchange(true)) return;
@@ -57,8 +58,7 @@ void expect_memory_to_start() {
   munmap(some, enough);
 }
 
-/// Runs a parallel algorithm on at most `jobs` threads. By default, the library starts at most one thread per
-/// core.
+/// Runs a parallel algorithm on at most `jobs` threads. Without this, TBB starts at most one thread per core.
 void on_threads(int jobs, const std::function<void()>& algorithm) {
   expect_memory_to_start();
   jobs = usable_threads(jobs);
@@ -67,8 +67,8 @@ void on_threads(int jobs, const std::function<void()>& algorithm) {
   tbb::task_arena(jobs).execute(algorithm);
 }
 
-/// Performs actions on several threads until one throws an exception, which is kept. If the exception left a
-/// pipeline of TBB instead, items inside the pipeline would not be freed.
+/// Performs actions on several threads until one throws an exception, which is kept. An exception that left a
+/// pipeline of TBB would leak the items inside the pipeline.
 class FirstFailure {
  public:
   template <class Action>

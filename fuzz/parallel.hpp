@@ -1,4 +1,4 @@
-// Parallel loops. Only shrinking (trial/shrinking.hpp), which runs beside them, has threads of its own.
+// Parallel loops. Shrinking (trial/shrinking.hpp) runs beside these loops, on threads of its own.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ std::thread start_thread(std::function<void()> work);
 /// passed on to the caller.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// Calls work(first, last) for the parts [first, last) of [0, count): on all processors if there are many
-/// items, and once for all of them if there are few. An exception is passed on to the caller.
+/// Calls work(first, last) for consecutive parts [first, last) of [0, count), on all processors. If there are
+/// few items, calls work(0, count) once, on this thread. An exception is passed on to the caller.
 template <class PartWork>
 void in_parts(std::size_t count, const PartWork& work) {
   constexpr std::size_t part = 16384;
@@ -37,10 +37,10 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
               const std::function<void(void*)>& take);
 }  // namespace detail
 
-/// Passes items through work(item) on `jobs` threads, or on as many as the system can start. next() makes the
-/// items until it returns nothing, and take(item) receives them after the work; both are called in the order
-/// of the items, by one thread at a time. Only a few items for each thread exist at a time. An exception is
-/// passed on to the caller.
+/// A pipeline: next() makes items until it returns nothing, work(item) runs on `jobs` threads, or on as many
+/// as the system can start, and take(item) receives each item after its work. Calls of next() and take()
+/// follow the order of the items, one at a time. At most a few items per thread exist at a time. An exception
+/// is passed on to the caller.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

@@ -1,7 +1,8 @@
-// The only source of random numbers. It needs a counter and a key, and no state that outlives a query.
+// The only source of random numbers. Each number is a function of a key and a counter; no state outlives a
+// query.
 #pragma once
 
-#define R123_USE_SSE 0  // Philox needs no vectors, and their header takes more than a second to compile
+#define R123_USE_SSE 0  // Philox needs no vectors, whose header takes more than a second to compile
 #include <Random123/philox.h>
 
 #include <array>
@@ -13,9 +14,9 @@
 
 namespace nearmiss {
 
-/// A sequence of random numbers that depends only on (seed, stream, index): Philox4x64-10 with the key
-/// (seed, stream) and the counter (index, number of the draw / 4). Vector instructions do not make it faster,
-/// since they lack its multiplication of 64-bit integers: eight streams side by side took 1.6 times as long.
+/// A sequence of random numbers that depends only on (seed, stream, index): Philox4x64-10 with the key (seed,
+/// stream) and the counter (index, number of the draw / 4). Vector instructions do not make Philox faster,
+/// since they cannot multiply 64-bit integers: eight streams side by side took 1.6 times as long.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)
@@ -31,7 +32,7 @@ class Random {
 
   /// A uniform multiple of 2^-53 in [0, 1).
   double uniform() { return fraction(bits()); }
-  /// n of these numbers, in less time than it takes to draw one after the other.
+  /// The next n results of uniform(), in less time than n calls take.
   template <std::size_t n>
   std::array<double, n> uniforms() {
     std::array<double, n> all;

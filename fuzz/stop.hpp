@@ -1,4 +1,4 @@
-// Ends long work, at a request or a time limit.
+// Ends long work at a request or a time limit.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@ namespace nearmiss {
 /// Thrown by work that ends before it is done, because its `Stop` is due.
 struct Stopped {};
 
-/// Says when work ends: at a request, or when its time is over. Many threads ask it at once.
+/// Says when work must end: at a request, or when its time is over. Many threads may ask at once.
 class Stop {
  public:
   using Clock = std::chrono::steady_clock;
@@ -17,7 +17,7 @@ class Stop {
   /// `requested` must outlive the Stop.
   explicit Stop(const std::atomic<bool>& requested) : requested_(requested) {}
 
-  /// Time that is granted after the end, to shrink the last findings.
+  /// Time granted beyond the limit, to shrink the last findings.
   static constexpr std::chrono::milliseconds grace{1000};
 
   /// A Stop that is never due.
@@ -27,7 +27,7 @@ class Stop {
     return never;
   }
 
-  /// From now on, the work has this much time. Must be called before threads ask.
+  /// Gives the work this much time from now on. Must be called before other threads ask.
   void limit(std::chrono::duration<double> time) {
     // A time that is longer than the clock can represent is no limit.
     constexpr std::chrono::hours longest{24 * 365 * 10};

@@ -1,5 +1,5 @@
-// Queries with a separation h > 0 that the primitives hardly reach, or reach at a time that is hard to find.
-// Numbers have few bits, so that distances and times are exactly those that a family names.
+// Queries in which the primitives just reach the separation h > 0, or reach it at a time that is hard to
+// find. Numbers have few bits, so that distances and times are exactly those that a family promises.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -20,12 +20,13 @@ double short_separation(Random& random) {
   return std::ldexp(odd_or_even, -random.integer(0, 4));
 }
 
-/// The last step of families whose numbers have few bits: sets a separation, turns, scales.
+/// The last step of families whose numbers have few bits: sets the separation, then turns and scales the
+/// query.
 Query placed_apart(Random& random, const Query& query, double separation) {
   return rescaled(random, turned(random, with_separation(query, separation)));
 }
 
-/// A velocity towards the other primitive; in two of three cases, it also has a part that is sideways.
+/// A velocity towards the other primitive; in two of three cases with a sideways component.
 Vector approaching(Random& random) {
   const Vector sideways = random.one_in(3) ? Vector(Vector::Zero()) : vector_in_plane(random);
   return sideways - random.integer(1, 4) * Vector::UnitZ();
@@ -33,8 +34,8 @@ Vector approaching(Random& random) {
 
 // --- at the smallest distance ---------------------------------------------------------------------------
 
-/// A pair of another family whose primitives stay apart. Let d be their smallest distance, rounded up to a
-/// double. Then h is (1 + 2^x) d, or (1 - 2^x) times the double below d. If x is -54, h is d or the double
+/// A query of another family whose primitives stay apart. Let d be the smallest distance, rounded up to a
+/// double. Then h is (1 + 2^x) d, or (1 - 2^x) times the double below d. For x = -54, h is d or the double
 /// below d.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
@@ -54,8 +55,8 @@ Query near_separation(Random& random, Kind kind, double x) {
   }
 }
 
-/// The smallest distance is exactly h. The closest features rest or move sideways; or the distance is h at t
-/// = 0 and then grows; or it decreases to h at t = 1. In half of the queries, h is then moved by x ulps.
+/// The smallest distance is exactly h. The closest features rest or move sideways, or the distance grows from
+/// h at t = 0, or falls to h at t = 1. Half of the queries then move h by x ulps.
 Query tied_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const bool is_at_end = random.one_in(3);
@@ -71,7 +72,7 @@ Query tied_separation(Random& random, Kind kind, double x) {
 
 // --- falling below h at a known time --------------------------------------------------------------------
 
-/// The distance falls below h at a time inside the step that has x binary places.
+/// The distance falls below h at a time inside the step; this time has x binary places.
 Query reached_separation(Random& random, Kind kind, double x) {
   const double time = (std::floor(random.uniform() * power_of_two(x - 1)) + 0.5) / power_of_two(x - 1);
   const double h = short_separation(random);
@@ -87,14 +88,14 @@ Query slow_approach(Random& random, Kind kind, double x) {
   return placed_apart(random, facing(kind, contact, power_of_two(x) * approaching(random), h), h);
 }
 
-/// Which sides begin or cease to be part of the closest features.
+/// Whether side q, and side r, begins or ceases to be part of the closest features.
 struct Sides {
   bool q, r;
 };
 
 /// The distance falls below h at a time inside the step. At a time about 2^x earlier, a closest point moves
-/// from an end of a side into its interior, or from the interior to an end. In the first case, the point's
-/// weight is 2^x when the distance is h. In the second case, the slope of the side is about 2^x.
+/// from an end of a side into its interior, or from the interior to an end. In the first case, the closest
+/// point has weight 2^x when the distance is h. In the second case, the slope of the side is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);
@@ -134,8 +135,8 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 
 // --- other sizes of h -----------------------------------------------------------------------------------
 
-/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of them come within h. The others pass each other at
-/// a distance of h, h + 1/8 or h - 1/8, or, if h is less than 1/8, of h, 2 h or 0.
+/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of the pairs come within h. The others pass each
+/// other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at h, 2 h or 0.
 Query sized_separation(Random& random, Kind kind, double x) {
   constexpr double least_that_turns = 0x1p-42;  // so that 53 bits are enough
   const double h = 4 * power_of_ten(x);

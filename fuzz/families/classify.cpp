@@ -32,10 +32,11 @@ using exact::Number;
 using exact::Polynomial;
 using exact::Root;
 
-/// Intervals. They need the rounding mode `upward`. Converting an undecided comparison to bool throws.
+/// Intervals, for code that runs in the rounding mode `upward`. Converting an undecided comparison to bool
+/// throws.
 using Interval = CGAL::Interval_nt<false>;
 
-/// The answer of interval arithmetic, or that of exact arithmetic if intervals do not decide.
+/// The answer of interval arithmetic; if intervals do not decide, that of exact arithmetic.
 template <class InIntervals, class Exactly>
 bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
   try {
@@ -69,8 +70,8 @@ Real largest_component(const Vec<Real>& v) {
   return largest;
 }
 
-/// Lengths of the edges, at t = 0 and t = 1, and of the vertices' motion. A length is the largest component. Two
-/// vertices have no edges; there, the gap between them counts as one.
+/// Lengths of the edges, at t = 0 and t = 1, and of the vertices' motion. The length of a vector is the
+/// largest magnitude of its components. Two vertices have no edges; the gap between them counts as an edge.
 template <class Real>
 struct Lengths {
   Real longest = 0;
@@ -97,7 +98,7 @@ Lengths<Real> lengths(const Query& query) {
   return found;
 }
 
-/// Whether the longest edge is more than `factor` times as long as the shortest one that is not zero.
+/// Whether the longest edge is more than `factor` times as long as the shortest nonzero edge.
 template <class Real>
 bool edges_differ(double factor, const Lengths<Real>& sizes) {
   return Real(0) < sizes.longest && sizes.longest > Real(factor) * sizes.shortest;
@@ -132,7 +133,7 @@ struct Moment {
   Real squared_length;
 };
 
-/// The moment, computed from the nearer end of the step, so that it is exact at t = 0 and at t = 1.
+/// The moment at a time, computed from the nearer end of the step, so that it is exact at t = 0 and t = 1.
 Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, double length) {
   const Points<Interval> start = points<Interval>(query, 0);
   const Points<Interval> end = points<Interval>(query, 1);
@@ -184,9 +185,9 @@ Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   return sum;
 }
 
-/// Squares of the lengths with which F is compared: of the two edges, or of the triangle's sides twice, and
-/// of the gap between the primitives. They are sums instead of means, so their product is too large by the
-/// factor `excess`.
+/// Squares of the three lengths with which F is compared: for two edges, the length of each; for a triangle,
+/// twice the length of its sides; then the gap between the primitives. The squares are sums instead of means,
+/// so their product is too large by the factor `excess`.
 template <class Real>
 struct Squares {
   Real first, second, gap;
@@ -203,7 +204,7 @@ Squares<Real> squares(Kind kind, const Points<Real>& x) {
 
 constexpr double excess(Kind kind) { return has_triangle(kind) ? 27 : 4; }
 
-/// Vectors whose determinant is F, or their velocities.
+/// The three vectors whose determinant is F; if x has velocities, the rates of these vectors.
 template <class Real>
 std::array<Vec<Real>, 3> spans(Kind kind, const Points<Real>& x) {
   const auto difference = [&](VertexPair pair) { return x[pair.to] - x[pair.from]; };
@@ -230,7 +231,7 @@ bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
   return at_most(multiple_of_square(squared_inverse * excess(moment.kind), F), first * second * gap);
 }
 
-/// Whether F' almost vanishes; asked at a root of F.
+/// Whether F' almost vanishes at this moment, when F has a root.
 template <class Real, class AtMost>
 bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
   const auto [p, q, r] = spans(moment.kind, moment.x);
@@ -258,7 +259,7 @@ bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost
          !at_most(squared, dot(from_b, ba));
 }
 
-/// Whether primitives that touch do so near an edge of the triangle, or near an end of an edge.
+/// Whether the primitives, which touch, do so near an edge of the triangle, or near an end of an edge.
 template <class Real, class AtMost>
 bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
   const auto& pairs = topology(moment.kind).vertices_and_edges;
@@ -266,7 +267,7 @@ bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
                      [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
 }
 
-/// Whether t* <= time. This differs from is_before only if t* is exactly this double.
+/// Whether t* <= time. This differs from EarliestTime::is_before only if t* is exactly this double.
 bool is_at_most(EarliestTime& first, double time) {
   if (first.is_before(time)) return true;
   return first.is_before(std::nextafter(time, 2.0)) && first.enclosure() == Enclosure{time, time};
@@ -288,7 +289,7 @@ bool is_coplanar_at_an_end(const Query& query, double length) {
   return false;
 }
 
-/// The first rule by which a query is degenerate; "" if there is none. The query must not be extreme.
+/// The first rule that makes a query degenerate; "" if no rule does. The query must not be extreme.
 std::string_view degeneracy(const Query& query) {
   const double longest = lengths<double>(query).longest;
   if (longest == 0) return "no size";
@@ -305,8 +306,8 @@ std::string_view degeneracy(const Query& query) {
 
   EarliestTime first(query, h == 0 ? nearer.known : KnownTimes{});
   if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return "contact at an end";
-  if (h > 0) return "";  // vertices and edges may be the closest features in general position, too
-  if (!is_of_meshes(query.kind)) return "contact of vertices";  // a coincidence
+  if (h > 0) return "";  // vertices and edges may be the closest features even in general position
+  if (!is_of_meshes(query.kind)) return "contact of vertices";  // contact happens only by coincidence
   const auto root = [&] {
     if (nearer.known.exactly) return nearer.known.exactly->time;
     exact::Predicates predicates(query);

@@ -87,7 +87,7 @@ Aim ContactSampler::aim(Kind kind) {
   aim.alpha = weight();
   aim.beta = weight();
   aim.time = weight();
-  if (has_triangle(kind) && aim.alpha + aim.beta > 1) {  // in the other half of the parallelogram
+  if (has_triangle(kind) && aim.alpha + aim.beta > 1) {  // in the parallelogram's other half
     aim.alpha = 1 - aim.alpha;
     aim.beta = 1 - aim.beta;
   }
@@ -166,7 +166,7 @@ Query rescaled(Random& random, Query query) {
 }
 
 Query turned(Random& random, Query query) {
-  // The rows are orthogonal, and all of the same length.
+  // In each pair, the rows of the matrix are orthogonal, and the number is their length.
   static const std::array<std::pair<Eigen::Matrix3d, double>, 5> rotations{
       {{Eigen::Matrix3d{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1},
        {Eigen::Matrix3d{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}, 3},

@@ -16,7 +16,7 @@ struct Path {
   [[nodiscard]] Vector3<double> velocity() const { return end - start; }
 };
 
-/// The path that passes `place` at `time`.
+/// The path that passes `place` at `time` with this velocity.
 Path passing(const Vector3<double>& place, const Vector3<double>& velocity, double time);
 Path scaled(const Path& path, double factor);
 /// The path of a point at rest.
@@ -42,9 +42,9 @@ struct Contact {
   [[nodiscard]] Vector3<double> velocity(Kind kind) const;
 };
 
-/// The query in which the first primitive moves through the contact c with velocity w: the vertex, or the
-/// point at weight α of the first edge, is at c + (t - time) w. If all parts are multiples of a power of two
-/// with few bits, every operation here is exact in double, and the query touches exactly at `time`.
+/// The query in which the first primitive passes the place c of contact with velocity w: the vertex, or the
+/// point at weight α of the first edge, is at c + (t - time) w. If all numbers are multiples of a power of
+/// two with few bits, every operation is exact in double, and the primitives touch exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
 /// Draws the parts of contacts of size 1. Half of the samplers draw multiples of 1/16, so that short sums and
@@ -55,7 +55,7 @@ class ContactSampler {
 
   /// A vector with components in [-1, 1].
   Vector3<double> vector();
-  /// A vector of length about 1; half of them are along an axis.
+  /// A vector of length about 1; in half of the calls, along an axis.
   Vector3<double> direction();
   /// A power of two from 2^-bits to 1.
   double fraction(int bits) { return std::ldexp(1.0, -random_.integer(0, bits)); }
@@ -63,13 +63,12 @@ class ContactSampler {
   double speed() { return random_.one_in(3) ? 0 : fraction(12); }
   /// A velocity whose size is drawn by `fraction`.
   Vector3<double> velocity();
-  /// A weight or time in [0, 1], often 0 or 1. One in eight is outside this interval by a power of two, down
-  /// to ε.
+  /// A weight or time in [0, 1], often 0 or 1. One in eight is outside this interval, by a power of two that
+  /// may be as small as ε.
   double weight();
-  /// A place inside, on an edge, at a vertex or slightly outside; the time is drawn in the same way.
+  /// A place inside, on an edge, at a vertex or slightly outside, and a time drawn by weight().
   Aim aim(Kind kind);
-  /// Primitives of size 1 whose contact is drawn by aim(). Their sides change at the given speed, and base
-  /// stays at 0.
+  /// Primitives of size 1; aim() draws the contact. The sides change at the given speed, and base stays at 0.
   Contact contact(Kind kind, double speed);
 
  private:
@@ -77,33 +76,33 @@ class ContactSampler {
   bool exact_;
 };
 
-/// Gives base the velocity, and moves it so that the point of contact is the origin, where doubles are
-/// densest.
+/// Gives base the velocity, and moves the contact to the origin, where doubles are densest.
 void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity);
 
 /// Primitives of any size on an integer grid, with multiples of 1/16 as weights and time. With an integer
-/// velocity below 2^17, meet() makes a query of them that touches exactly.
+/// velocity below 2^17, meet() turns the result into a query with exact contact.
 Contact integer_contact(Random& random, Kind kind);
 
-/// The sign with which x0 - base = β r + sign α q at a contact.
+/// The sign of α q in x0 - base = β r + sign α q, which holds at a contact.
 constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 
-/// All vertices, or those of the first primitive, moved by the same vector at both times, as nearly as double
-/// allows.
+/// The query with all vertices, or those of the first primitive, moved by one vector at both times, as nearly
+/// as double allows.
 Query moved(Query query, const Vector3<double>& by);
 Query with_first_moved(Query query, const Vector3<double>& by);
 
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);
 
-/// Moves one query in four by an integer vector, which is exact for integers, then calls `rescaled`.
+/// Moves one query in four by an integer vector, which is exact if coordinates are integers, then calls
+/// `rescaled`.
 Query placed(Random& random, Query query);
 
-/// Turns or mirrors a query, and multiplies all lengths and the separation by 1, 3, 5, 7 or 9, so that the
-/// matrix of the rotation has integer entries. This is exact if four bits of every coordinate are free.
+/// Turns or mirrors a query with an integer matrix, which multiplies all lengths by 1, 3, 5, 7 or 9, and
+/// multiplies the separation by the same number. This is exact if four bits of every coordinate are free.
 Query turned(Random& random, Query query);
 
-/// The same query with the vertices of each primitive in a random order.
+/// The query with the vertices of each primitive in a random order.
 Query shuffled(Random& random, const Query& query);
 
 /// The double that is `ulps` doubles above c, or below it if `ulps` is negative, but never beyond the last

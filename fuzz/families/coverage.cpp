@@ -24,7 +24,8 @@ struct Numbering {
   }
 };
 
-/// A flag for each pair and triple of values that occur together, at a place made of the values' numbers.
+/// A flag for each pair and each triple of values: whether its values occur together. The numbers of the
+/// values give the place of the flag.
 struct Occurrences {
   std::size_t size;  ///< number of values
   std::vector<bool> pairs, triples;
@@ -44,14 +45,14 @@ struct Occurrences {
   }
 };
 
-/// The text of a place among the combinations of two or three values.
+/// The text of the combination of two or three values whose flag is at a place.
 std::string text_of(const Numbering& numbering, std::size_t place, int values) {
   const std::size_t size = numbering.name.size();
   const std::string& last = numbering.name[place % size];
   return values == 1 ? last : fmt::format("{} {}", text_of(numbering, place / size, values - 1), last);
 }
 
-/// Says which of the combinations in `made`, those that the family makes, also occur in `seen`.
+/// Compares the combinations that occur (`seen`) with those that the family makes (`made`).
 Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
                       const std::vector<bool>& made, int values) {
   Combinations result;
@@ -66,7 +67,7 @@ Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
   return result;
 }
 
-/// All levels that the family makes.
+/// The pairs and triples of values in all levels that the family makes.
 Occurrences occurrences_made(const Numbering& numbering) {
   Occurrences made(numbering);
   std::size_t all = 1;

@@ -38,7 +38,8 @@ bool is_free(Motion motion) {
   return motion == Motion::deforming || motion == Motion::fast || motion == Motion::slow;
 }
 
-/// Whether the family makes these roots of F. With p = α q + β r + τ w for τ = t - time, F is τ det(w, q, r).
+/// Whether the family makes queries of this shape and motion with these roots of F. With p = α q + β r + τ w
+/// for τ = t - time, F is τ det(w, q, r).
 bool has_roots(Shape shape, Motion motion, Roots roots) {
   if (roots == Roots::all) return true;
   if (motion == Motion::rest) return false;  // F is constant
@@ -58,7 +59,7 @@ std::span<const Factor> factors() { return all_factors; }
 bool is_made(const Levels& levels) {
   const Shape shape = levels.shape();
   if (shape == Shape::point && (levels.where() != Where::vertex || levels.motion() == Motion::along))
-    return false;  // a point has neither an inside nor a direction
+    return false;  // a point has neither an inside nor a surface
   if (shape == Shape::zero_edge && levels.where() == Where::inside) return false;
   if (levels.motion() == Motion::rest && levels.when() != When::at_0) return false;  // always in contact
   return has_roots(shape, levels.motion(), levels.roots());

@@ -1,4 +1,4 @@
-// The factors of the family `crossed`, each of which a query draws independently of the others.
+// The factors of the family `crossed`. A query draws the value of each factor independently of the others.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Factor {
   std::span<const std::string_view> values;
 };
 
-// The values of each factor, in the order of their names. README.md says what they mean.
+// The values of each factor, in the order of Factor::values. README.md says what the values mean.
 enum class Shape : std::uint8_t { ordinary, sliver, needle, tiny, parallel, zero_edge, point };
 enum class Motion : std::uint8_t { translation, rotation, collapse, deforming, fast, slow, along, rest };
 enum class When : std::uint8_t { at_0, after_0, inside, before_1, at_1, outside };
@@ -27,7 +27,7 @@ enum class Roots : std::uint8_t { one, two, three, double_root, triple, all };
 
 inline constexpr std::size_t factor_count = 7;
 
-/// The number of the value of each factor: shape, motion, when, where, roots, scale, offset.
+/// For each factor, the number of its value: shape, motion, when, where, roots, scale, offset.
 struct Levels : std::array<std::uint8_t, factor_count> {
   [[nodiscard]] Shape shape() const { return static_cast<Shape>((*this)[0]); }
   [[nodiscard]] Motion motion() const { return static_cast<Motion>((*this)[1]); }
@@ -44,10 +44,10 @@ std::span<const Factor> factors();
 /// Whether the family makes queries with these levels.
 bool is_made(const Levels& levels);
 
-/// Draws every level independently; draws again if the family makes no query with them.
+/// Draws every level independently; draws all again if the family makes no query with these levels.
 Levels draw_levels(Random& random);
 
-/// The levels of query `index` of the family; the query itself is not made.
+/// The levels of query `index` of the family, without making the query.
 Levels levels_of(std::uint64_t seed, std::uint64_t index);
 
 /// "shape=sliver", "motion=rest" and so on, in the order of the factors.
@@ -60,7 +60,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels);
 struct Combinations {
   std::uint64_t made = 0;  ///< number of those that the family makes
   std::uint64_t seen = 0;
-  std::vector<std::string> missing;  ///< those that it makes but that were not seen: "shape=sliver when=at-1"
+  std::vector<std::string> missing;  ///< made but not seen, as "shape=sliver when=at-1"
 };
 
 /// The combinations in queries first .. first + count - 1 of the family.

@@ -35,7 +35,7 @@ Vector multiple(Random& random, const Vector& v) {
   return std::ldexp(sign, random.integer(-1, 1)) * v;
 }
 
-/// A sum of small multiples of two vectors.
+/// A vector in the plane of two vectors: a sum of small multiples of both.
 Vector in_plane(Random& random, const Vector& a, const Vector& b) {
   const Vector along_a = multiple(random, a);
   return along_a + multiple(random, b);
@@ -82,7 +82,7 @@ std::pair<Vector, Vector> sides(Random& random, Kind kind, Shape shape) {
 
 // --- motion and roots -------------------------------------------------------------------------------
 
-/// Two vectors whose plane contains both sides, even if these are zero or parallel.
+/// Two vectors that span a plane with both sides in it, even if the sides are zero or parallel.
 std::pair<Vector, Vector> plane(Random& random, const Draft& draft) {
   if (!draft.q.cross(draft.r).isZero()) return {draft.q, draft.r};
   const Vector side = draft.q.isZero() ? draft.r : draft.q;
@@ -96,7 +96,7 @@ double shrinking(double time) {
   return left < 1.0 / 16 ? 16 : (std::ceil(16 / left) - 1) / 16;
 }
 
-/// Sides turn around an axis, or shrink; F has one root, or a double root at the contact, or is zero.
+/// Sides turn around an axis, or shrink. F has one root, has a double root at the contact, or is zero.
 void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double time) {
   const bool in_the_plane = levels.roots() != Roots::one;
   const auto [a, b] = plane(random, draft);
@@ -116,10 +116,10 @@ void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double t
   }
 }
 
-/// A time relative to the contact, `distance` away from it, towards the end of the step that is farther away.
+/// The time of another root, relative to the contact: `distance` towards the farther end of the step.
 double other_time(double time, double distance) { return time < 0.5 ? distance : -distance; }
 
-/// Sides change in any way; `speed` is that of the points of contact.
+/// Sides change in any way. The points of contact pass each other with `speed` times the usual speed.
 void deform(Random& random, Draft& draft, Roots roots, double time, double speed) {
   const auto [a, b] = plane(random, draft);
   draft.w = speed * small(random);
@@ -131,7 +131,7 @@ void deform(Random& random, Draft& draft, Roots roots, double time, double speed
       draft.r_velocity = in_plane(random, a, b) / 16;
       break;
     case Roots::two:
-    case Roots::three: {  // q is parallel to w at one time, r at another one
+    case Roots::three: {  // q becomes parallel to w at one time, and r at another time
       const double first = other_time(time, random.one_in(2) ? 0.5 : 0.25);
       const double second = other_time(time, 0.125);
       const Vector along = draft.w / speed;
@@ -226,7 +226,7 @@ std::pair<double, double> weights(Random& random, Kind kind, Where where) {
   return {alpha, beta};
 }
 
-/// The time of contact; `bits` is the largest number of its binary places that keeps the contact exact.
+/// The time of contact. The contact stays exact if the time has at most `bits` binary places.
 double time_of(Random& random, When when, int bits) {
   switch (when) {
     case When::at_0:
@@ -271,7 +271,7 @@ Frame frame_of(Random& random, std::size_t offset) {
 }
 
 /// The number of binary places that the time may have if coordinates are to be exact. Every coordinate is a
-/// sum of products of a vector with a time and with a weight, which has four binary places.
+/// sum of products of a vector's component, a time and a weight; a weight has four binary places.
 int bits_for_time(const Draft& draft, const Frame& frame) {
   int lowest = 0;
   double sum = 0;
@@ -313,7 +313,8 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
   constexpr int fewest_bits = 5;
   for (;;) {
     const Frame frame = frame_of(random, levels.offset());
-    // The draft needs the time, and the time the draft's bits, so the draft is made for a time nearby.
+    // The draft depends on the time, and the bits of the time on the draft. So the draft is made for a nearby
+    // time with few bits.
     const double near = time_of(random, levels.when(), fewest_bits);
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());

@@ -29,22 +29,22 @@ Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path
   return query;
 }
 
-/// The query with a separation beside its smallest distance d: a multiple from 1 - 2^x to 1 + 2^x of it.
-/// Queries that meet get the separation 2^x.
+/// The query with a separation from (1 - 2^x) d to (1 + 2^x) d, where d is its smallest distance; the
+/// separation is 2^x if d is 0.
 Query with_separation_beside(Random& random, const Query& query, double x) {
   const double off = random.uniform(-1, 1) * exp2_of(x);
   const double d = minimum_distance(query, 0).hi;
   return with_separation(query, d > 0 ? d + off * d : exp2_of(x));
 }
 
-/// x0 - x1 and x2 - x1 at t = 0, and how they change.
+/// x0 - x1 and x2 - x1: each at t = 0, and its change during the step.
 struct Motion {
   Vector to_vertex, vertex_moves, edge, edge_moves;
 };
 
 constexpr double rounded_to = 1e-6;
-/// Found by random search. Only the minimum of a piece is near as long as h is at most 1.09 times the
-/// smallest distance; for the first four motions, 1.22 times.
+/// Motions found by random search. Only the minimum of a piece is within h of the edge, if h is at most 1.09
+/// times the smallest distance (1.22 times for the first four motions).
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -68,9 +68,9 @@ const std::array<Motion, 5> at_minima{{
      {2.345900, 1.582981, 0.115942}},
 }};
 
-/// A vertex is within h of an edge only near the minimum of a piece of G (vertex_edge.hpp): no other
-/// candidate of Algorithm 2 finds it. Axes change places and directions, and time may run backwards. h is up
-/// to 2^x larger or smaller than the smallest distance.
+/// A vertex comes within h of an edge only near the minimum of a piece of G (vertex_edge.hpp); no other
+/// candidate time of Algorithm 2 detects this. Axes change places and directions, and time may run backwards.
+/// h differs from the smallest distance by up to 2^x of it.
 Query at_minimum(Random& random, Kind kind, double x) {
   const auto number = static_cast<std::size_t>(random.integer(0, static_cast<int>(at_minima.size()) - 1));
   const Motion& motion = at_minima[number];
@@ -96,11 +96,12 @@ Query at_minimum(Random& random, Kind kind, double x) {
   return rescaled(random, with_separation_beside(random, placed_beside(random, kind, to_vertex, edge), x));
 }
 
-/// A vertex drifts slowly through an edge that grows, or past it in one of four queries; in another one, it
-/// meets the edge's end x1. The components of the cross product are equal, and small at all times; h is far
-/// smaller.
+/// A vertex drifts slowly through an edge that grows; in one of four queries, it passes beside the edge, and
+/// in one of four, it meets the edge's end x1. The components of the cross product of x0 - x1 and x2 - x1
+/// have equal magnitudes, and are small at all times; h is far smaller.
 Query drifting(Random& random, Kind kind, double x) {
-  // The order of evaluating arguments is up to the compiler, so each is drawn in its own statement.
+  // Each number is drawn in its own statement, since the compiler chooses the order in which it evaluates
+  // arguments.
   const double x_of_normal = random.one_in(2) ? 1 : -1;
   const double y_of_normal = random.one_in(2) ? 1 : -1;
   const Vector normal(x_of_normal, y_of_normal, 1);
@@ -132,8 +133,8 @@ Query along_the_line(Random& random, Kind kind, double x) {
   return rescaled(random, with_separation_beside(random, query, x));
 }
 
-/// The edge is a point at some time, when the vertex is nearest to it. The vertex moves at right angles to the edge and
-/// to the shortest way to it.
+/// At some time, the edge shrinks to a point, and the vertex is nearest to it. The vertex moves at right
+/// angles to the edge and to the shortest line from the vertex to the edge.
 Query shrinking(Random& random, Kind kind, double x) {
   const double t = random.integer(1, 15) / 16.0;
   const Vector direction = random.vector(8);

@@ -16,8 +16,8 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// The first primitive has the speed 10^x. In some queries the second primitive or the change of the shapes
-/// has this speed too.
+/// The first primitive has the speed 10^x. In some queries, the second primitive also moves with this speed,
+/// or the shapes change with it.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   ContactSampler sampler(random);
@@ -28,9 +28,8 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter. In half of the queries, the contact is near the corner x1 of the
-/// triangle, or near an end of the long edge: its distance from there is about the length of the short side,
-/// or less.
+/// One of the sides q and r is shorter than the other. In half of the queries, the contact is at most about
+/// the length of the short side away from the corner x1 of the triangle, or from an end of the long edge.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -65,13 +64,13 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, multiplied by 2^1022 along one or more axes, so that about half of the differences of
-/// coordinates overflow there. Most primitives start in a plane normal to such an axis, and half of the
-/// coordinates are at rest.
+/// Small integers, multiplied by 2^1022 along one or more axes; along these, about half of the differences of
+/// coordinates overflow. Most primitives start in a plane normal to such an axis, and half of the coordinates
+/// are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
-  const int only = random.integer(0, 5);  // the only huge axis; if 3 or more, each axis is huge at random
+  const int only = random.integer(0, 5);  // the only huge axis; if 3 or more, each is huge at random
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;
@@ -149,8 +148,8 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// The primitives are long along one axis, and thin along the others. In half of the queries, so is their
-/// relative motion. One query in three is rotated.
+/// The primitives are long along one axis, and thin along the others; in half of the queries, their relative
+/// motion is also long along this axis only. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   ContactSampler sampler(random);
@@ -172,8 +171,9 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Linear interpolation between two placements of a rigid body is affine. So primitives that touch in one
-/// placement stay in contact, and only their relative motion separates them.
+/// Each vertex moves linearly between its places in two placements of a rigid body, so the body is mapped
+/// affinely at every time. Points that coincide stay together, and only the relative motion of the primitives
+/// separates them.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };

@@ -10,7 +10,7 @@ using Vector = Vector3<double>;
 
 constexpr int largest = 4;
 
-/// A vector that points away from the plane z = 0, to the side that the sign of `level` gives.
+/// A vector that points away from the plane z = 0, upward if `level` is positive, otherwise downward.
 Vector vector_away(Random& random, double level) {
   const Vector in_plane = vector_in_plane(random);
   return in_plane + level * random.integer(1, largest) * Vector::UnitZ();

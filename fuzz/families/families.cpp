@@ -77,7 +77,7 @@ Family at_value(const Family& family, double value) {
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
   const auto make = [parameter, value](Random& random, Kind kind) {
-    draw(random, parameter);  // so that later draws are the same as without a fixed value
+    draw(random, parameter);  // so that later draws are those of the family without a fixed value
     return parameter.make(random, kind, value);
   };
   Family fixed = family;
@@ -173,7 +173,7 @@ Family without_other_vertices(Family family) {
   return with_last_step(std::move(family), [](Random& /*random*/, Query& query) { repeat_vertices(query); });
 }
 
-/// The family whose queries are two vertices, or a vertex and an edge.
+/// The family v-NAME for the family NAME: its queries are vv or ve.
 Family of_vertices(Family family) {
   family.name = std::string(vertices_prefix) + family.name;
   family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);

@@ -16,7 +16,7 @@ namespace {
 using Vector = Vector3<double>;
 
 /// Primitives of a size and speed, in general position around the origin. They are aimed at each other, but
-/// the contact of their planes or lines may be outside of the primitives or of the step.
+/// the place where their planes or lines meet may be outside the primitives, and the time outside the step.
 Query everyday(Random& random, Kind kind, double size, double speed) {
   const auto path = [&](double length) {
     const Vector start = random.vector(length);
@@ -41,8 +41,8 @@ Query floats(Random& random, Kind kind) {
   return query;
 }
 
-/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries the
-/// decimals touch exactly; the rounded numbers touch or are a few ulps apart.
+/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries,
+/// primitives with the decimal coordinates touch exactly; after rounding, they touch or are a few ulps apart.
 Query decimals(Random& random, Kind kind, double x) {
   const int unit = static_cast<int>(std::lround(std::pow(10.0, x)));
   Query query{.kind = kind};
@@ -88,13 +88,13 @@ constexpr std::array edges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array steps{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array scenes{1.0, 10.0, 100.0};
 
-/// Draws one of these values.
+/// One of the values, drawn at random.
 template <std::size_t size>
 double one_of(Random& random, const std::array<double, size>& values) {
   return values[static_cast<std::size_t>(random.integer(0, static_cast<int>(size) - 1))];
 }
 
-/// The size of a scene, of the primitives in it, and of their motion in a step; the unit is a metre.
+/// The size of a scene, of the primitives in it, and of their motion in a step, in metres.
 struct Metres {
   double edge, step, scene;
 
@@ -114,20 +114,21 @@ std::vector<std::string> factors_of_metres(Random& random) {
           fmt::format("scene={}", of.scene)};
 }
 
-/// Primitives of size 1, which move by 1e-4 to 1.
+/// everyday() primitives of size 1 and speed 1e-4 to 1.
 Query everyday_of_size_1(Random& random, Kind kind) {
   const double speed = power_of_ten(random.uniform(-4, 0));
   return everyday(random, kind, 1, speed);
 }
 
-/// The unit is multiplied by a power of two, which changes nothing else.
+/// A query of size 1, multiplied by 2^x.
 Query units(Random& random, Kind kind, double x) {
   Query query = everyday_of_size_1(random, kind);
   for (double& c : query.x) c = std::ldexp(c, static_cast<int>(x));
   return query;
 }
 
-/// Moved away from the origin, exactly: all numbers are multiples of 2^-22 below 2^28.
+/// A query of size 1, moved away from the origin. The motion is exact: all numbers are multiples of 2^-22
+/// below 2^28.
 Query distant(Random& random, Kind kind, double x) {
   constexpr double grid = 0x1p-22;
   const auto on_grid = [](double c) { return grid * std::round(c / grid); };

@@ -1,4 +1,4 @@
-// Exact contact: at the ends of the step, hardly after its beginning, without any motion, and twice.
+// Exact contact: at an end of the step, just after its start, without any motion, and at two times.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,9 +20,10 @@ Vector wide_vector(Random& random, int bits) {
   return v.array().floor();
 }
 
-/// Primitives at rest that touch exactly, half of them at a vertex. Rounding errors count most there: both
-/// weights are at the ends of their ranges, so no neighbouring point of the primitives makes up for an error.
-/// Coordinates are multiples of 1/16 below 2^48, so they have nearly all bits of a double.
+/// Primitives at rest that touch exactly; half of the queries touch at a vertex. There, rounding errors
+/// matter most: both weights are at the ends of their ranges, so no neighbouring point of the primitives
+/// makes up for an error. Coordinates are multiples of 1/16 below 2^48, so they use nearly all bits of a
+/// double.
 Query touching_at_rest(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   contact.base = still(wide_vector(random, 46));
@@ -36,10 +37,10 @@ Query touching_at_rest(Random& random, Kind kind) {
 }
 
 /// Primitives of size 10^x that touch exactly at t = 1. They come from up to 1,024 times their size away, and
-/// change their shape on the way. The difference of start and end has more bits than a double: a CCD that
-/// computes the place at t = 1 from it misses the contact unless it allows for rounding errors. In three
-/// queries of four, both primitives are flat along an axis at all times, like a garment that falls onto a
-/// floor.
+/// change their shape on the way. The difference of start and end has more bits than a double. A CCD that
+/// computes positions at t = 1 from this difference misses the contact unless it allows for rounding errors.
+/// In three queries of four, both primitives are flat along an axis at all times, like a garment that falls
+/// onto a floor.
 Query far_end(Random& random, Kind kind, double x) {
   const double size = power_of_ten(x);
   Query query = touching_at_rest(random, kind);
@@ -60,7 +61,7 @@ Query far_end(Random& random, Kind kind, double x) {
   return shuffled(random, query);
 }
 
-/// The motion of far_end, backwards.
+/// A query of far_end, with start and end exchanged.
 Query far_start(Random& random, Kind kind, double x) {
   Query query = far_end(random, kind, x);
   std::rotate(query.x.begin(), query.x.begin() + 12, query.x.end());
@@ -69,9 +70,9 @@ Query far_start(Random& random, Kind kind, double x) {
 
 // --- contact hardly after t = 0 -------------------------------------------------------------------------
 
-/// The second primitive always contains the origin. The first one moves from -2^x w to w, and meets it at
-/// t = 2^x / (1 + 2^x). If w is in the plane of the primitives, they may touch before. Edges move along an
-/// axis, so that adding a tiny number to their coordinates is exact.
+/// The second primitive always contains the origin. The first one moves from -2^x w to w, and meets it at t =
+/// 2^x / (1 + 2^x). If w is in the plane of the primitives, they may touch earlier. Edges move along an axis,
+/// so that adding a tiny number to their coordinates is exact.
 Query first_moment(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   const Vector axis = Vector::Unit(random.integer(0, 2));
@@ -87,7 +88,7 @@ Query first_moment(Random& random, Kind kind, double x) {
   Vector w = random.integer_vector(speed);
   if (along_axis || w.isZero()) w = (random.one_in(2) ? speed : -speed) * axis;
 
-  contact.time = 0;  // without the motion that follows, the touching points stay at the origin
+  contact.time = 0;  // before the motion below is added, the points of contact stay at the origin
   Query query = meet(kind, contact, Vector::Zero());
   for (int i = 0; i < split(kind); ++i) {
     query.set_start(i, query.start(i) - power_of_two(x) * w);
@@ -100,8 +101,8 @@ Query first_moment(Random& random, Kind kind, double x) {
 
 // --- no motion and no size ------------------------------------------------------------------------------
 
-/// Each primitive is one point at rest. Both are the same point, or one coordinate of the second differs by
-/// up to four ulps. All bounds that grow with sizes or motions are 0.
+/// All vertices of a primitive are one point at rest. Both primitives are the same point, or one coordinate
+/// of the second differs by up to four ulps. All bounds that grow with sizes or motions are 0.
 Query one_point(Random& random, Kind kind) {
   const double size = power_of_ten(random.uniform(-3, 3));
   const Vector point = random.vector(size);
@@ -121,9 +122,10 @@ Query one_point(Random& random, Kind kind) {
 
 // --- contact twice --------------------------------------------------------------------------------------
 
-/// Two corners of one primitive pass the same vertex of the other one, at two times: (t - i / 16) a and (t -
-/// j / 16) b, relative to the vertex. F is (t - i / 16) (t - j / 16) det(a, b, c(t)), where c is the third
-/// vertex. In one query of four, all vertices are in one plane, and F is zero.
+/// Two vertices of one primitive pass the same vertex of the other primitive at two times: relative to that
+/// vertex, they are at (t - i / 16) a and (t - j / 16) b. F is (t - i / 16) (t - j / 16) det(a, b, c(t)),
+/// where c(t) is the fourth vertex relative to that vertex. In one query of four, all vertices are in one
+/// plane, and F is zero.
 Query touch_twice(Random& random, Kind kind) {
   const int size = 1 << random.integer(1, 16);
   const bool flat = random.one_in(4);

@@ -51,7 +51,7 @@ void set_position(Query& query, int point, const Vector& x) {
     query.set_end(point - 4, x);
 }
 
-/// Whether the position at t = 0, that at t = 1, or both are changed.
+/// Which positions of a vertex are changed: at t = 0, at t = 1, or both.
 struct Moments {
   bool start, end;
 };
@@ -69,7 +69,7 @@ Query by_ulps(Random& random, const Query& query) {
   return nudged(random, query, random.integer(1, 4), ulps);
 }
 
-/// Moves a position, or all coordinates slightly, by a fraction of the distance between two positions.
+/// Moves one position by a fraction of the distance between two positions, or moves all coordinates slightly.
 Query by_a_fraction(Random& random, const Query& query) {
   const Vector from = position(query, random.integer(0, 7));
   const Vector to = position(query, random.integer(0, 7));
@@ -101,7 +101,7 @@ Query exponents(Random& random, const Query& query) {
   return result;
 }
 
-/// Some coordinates become others, or their negation.
+/// Replaces some coordinates by other coordinates, or by their negation.
 Query coordinate_copied(Random& random, const Query& query) {
   Query result = query;
   for (int count = random.integer(1, 3); count > 0; --count) {
@@ -113,8 +113,7 @@ Query coordinate_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Rounds to multiples of a power of two near the largest coordinate, that is, to small integers in that
-/// unit.
+/// Rounds all coordinates to small multiples of a power of two that is near the largest coordinate.
 Query rounded(Random& random, const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -158,8 +157,8 @@ Query coplanar_once(Random& random, const Query& query) {
   return joined_somehow(random, query, place);
 }
 
-/// Keeps a vertex at one place of the plane or line of the others, or keeps all vertices in a plane normal to
-/// an axis.
+/// Keeps a vertex at one place of the plane or line of the other vertices, or keeps all vertices in a plane
+/// normal to an axis.
 Query coplanar_always(Random& random, const Query& query) {
   if (random.one_in(2)) {
     Query result = query;
@@ -191,7 +190,7 @@ Query edge_shrunk(Random& random, const Query& query) {
   return result;
 }
 
-/// A velocity that is zero, that of a vertex, or a sum of multiples of the edges from a vertex.
+/// A velocity that is zero, the velocity of a vertex, or a sum of multiples of the edges from a vertex.
 Vector aligned_velocity(Random& random, const Query& query) {
   const int base = random.integer(0, 3);
   switch (random.integer(0, 3)) {
@@ -225,7 +224,7 @@ Query velocity_aligned(Random& random, const Query& query) {
   return result;
 }
 
-/// A vertex becomes another one, at the start, at the end or at both.
+/// Moves a vertex onto another vertex at the start, at the end, or at both.
 Query vertex_copied(Random& random, const Query& query) {
   const int from = random.integer(0, 3);
   const int to = (from + random.integer(1, 3)) % 4;
@@ -236,7 +235,7 @@ Query vertex_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Exchanges start and end of all vertices, of a primitive, or of one vertex.
+/// Exchanges the start and the end of all vertices, of the vertices of a primitive, or of one vertex.
 Query reversed(Random& random, const Query& query) {
   const VertexRange vertices = random.one_in(2) ? VertexRange{0, 3} : some_vertices(random, query.kind);
   Query result = query;

@@ -6,10 +6,11 @@
 
 namespace nearmiss {
 
-/// Applies one to three mutations of the list in mutation.cpp. Half of them move something by a fraction, to
-/// improve a query step by step; the others are of random kinds, to explore. In half of the cases contact is
-/// then restored where the primitives nearly touch, so that chains of mutations stay near collisions. One
-/// case in four also changes a separation h > 0; h = 0 never changes. The result is finite if `query` is.
+/// Applies one to three mutations of the list in mutation.cpp. Half of these mutations move something by a
+/// fraction, to improve a query step by step; the others are drawn from the whole list, to explore. Half of
+/// the calls then restore contact where the primitives nearly touch, so that chains of mutations stay near
+/// collisions. One call in four also changes a separation h > 0; h = 0 never changes. The result is finite if
+/// `query` is.
 Query mutated(Random& random, const Query& query);
 
 /// Takes some vertices, axes, times or single coordinates from one query, and the rest from the other. The

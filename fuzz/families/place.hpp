@@ -15,21 +15,23 @@ struct Place {
   double alpha, beta, time;
 };
 
-/// The query with the position `point` (0 .. 3 are the vertices at t = 0, 4 .. 7 at t = 1) moved so that the
-/// two points of the place coincide at its time. Coordinates are rounded to the nearest double or, in rare
-/// cases, to its neighbour. An overflow results in coordinates that are not finite.
+/// The query after one position, `point`, is moved so that the two points of the place coincide at its time.
+/// Positions 0 .. 3 are the vertices at t = 0, and 4 .. 7 the vertices at t = 1. Coordinates are rounded to
+/// the nearest double or, in rare cases, to its neighbour. An overflow results in coordinates that are not
+/// finite.
 Query joined(const Query& query, const Place& place, int point);
 
-/// The positions that joined() moves by at most 64 times the distance of the two points. There is always at
-/// least one.
+/// The positions that joined() moves by at most 64 times the distance of the place's two points; at least
+/// one.
 std::vector<int> movable_points(Kind kind, const Place& place);
 
 /// A random place: inside both primitives, at vertices, on edges, at t = 0 or t = 1, or next to these.
 Place random_place(Random& random, Kind kind);
 
 /// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F, or
-/// random if F has no root; the weights are those at that time. Weights outside [0, 1] are moved to the
-/// border, or slightly inside. If the primitives have no area or are too far apart, the place is random.
+/// random if F has no root; the weights are those of the nearest points at that time. Weights outside [0, 1]
+/// are moved to the border, or slightly inside. If the primitives have no area or are too far apart, the
+/// place is random.
 Place own_place(Random& random, const Query& query);
 
 }  // namespace nearmiss

@@ -46,7 +46,7 @@ Query planted_ulp(Random& random, Kind kind) {
   return nudged(random, query, random.integer(1, 4), most);
 }
 
-/// A contact at which F' vanishes too, because the relative velocity of the touching points lies in the
+/// A contact at which F and F' vanish, because the relative velocity of the touching points lies in the
 /// common plane.
 Query grazing(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
@@ -111,7 +111,7 @@ Query sliver(Random& random, Kind kind) {
 
 // --- F is zero identically --------------------------------------------------------------------------
 
-/// All points stay exactly in one plane: they are a P + b Q + O with integers below 2^31.
+/// All points stay exactly in one plane: they are a P + b Q + O, and all numbers are integers below 2^31.
 Query planar(Random& random, Kind kind) {
   const Vector P = random.integer_vector(8);
   const Vector Q = random.integer_vector(8);
@@ -161,7 +161,7 @@ Query degenerate(Random& random, Kind kind) {
   return query;
 }
 
-/// Every coordinate is an integer in -most .. most, which gives coincidences of all sorts.
+/// Every coordinate is an integer in -most .. most, so coincidences of all sorts occur.
 template <int most>
 Query small_integer(Random& random, Kind kind) {
   Query query{.kind = kind};

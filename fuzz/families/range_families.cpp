@@ -1,8 +1,9 @@
 // Products of coordinates at the ends of the range of double. No coordinate overflows or underflows, but
 // products of two, three, four or six differences of coordinates do, or sums of such products. The weights
 // come from a vector W whose components are sums of products of two differences. F is a sum of products of
-// three differences. The squares of W and of F have products of four and of six. A query first consists of
-// small numbers; then its vertices and axes are scaled by powers of two, which is exact.
+// three differences. The square of W is a sum of products of four differences, and the square of F of six. A
+// query is first made of small numbers; then its vertices and axes are scaled by powers of two, which is
+// exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,7 @@ using Vector = Vector3<double>;
 /// A query before it is scaled.
 struct Draft {
   Query query;
-  bool scales_vertices = false;  ///< whether contact is at the origin, so that scaling a vertex keeps it
+  bool scales_vertices = false;  ///< whether scaled_to() may scale single vertices
 };
 
 /// Exact contact inside the triangle, on an edge or at a vertex, at any time of the step including its ends.
@@ -40,8 +41,8 @@ Draft touching(Random& random, Kind kind) {
   return {meet(kind, contact, w), at_origin};
 }
 
-/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as sizes, so a
-/// wrong root of F is a time without contact.
+/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as sizes, so at
+/// the other roots of F, the primitives are apart.
 Draft small_touching(Random& random, Kind kind) {
   const auto path = [&] {
     const Vector start = random.integer_vector(2);
@@ -59,7 +60,7 @@ Draft small_touching(Random& random, Kind kind) {
   return {meet(kind, contact, random.integer_vector(random.integer(1, 4))), true};
 }
 
-/// Small integers; in one of four queries, one primitive is at rest.
+/// A query of small integers; in one of four queries, one primitive is at rest.
 Query lattice(Random& random, Kind kind) {
   const int size = random.integer(1, 4);
   Query query{.kind = kind};
@@ -96,7 +97,8 @@ Query cube(Random& random, Kind kind) {
   return query;
 }
 
-/// Contact at the origin, or nearly so: a weight or the time is outside [0, 1] by a power of two, down to ε.
+/// Contact at the origin. A weight or the time may be outside [0, 1], by a power of two that may be as small
+/// as ε.
 Draft aimed(Random& random, Kind kind) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
@@ -142,8 +144,9 @@ Differences differences(const Query& query) {
 
 constexpr std::size_t none = 3;  ///< stands for no axis
 
-/// The sum of the products of three differences in F, one along each axis. If an axis is left out, it is the
-/// sum of the products of two differences in the component of W along that axis.
+/// The sum of the magnitudes of the products in F, each of three differences, one along each axis. If an axis
+/// is left out, the sum of the magnitudes of the products of two differences in W's component along that
+/// axis.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -160,8 +163,8 @@ void scale_axis(Query& query, std::size_t axis, int exponent) {
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] = std::ldexp(query.x[i], exponent);
 }
 
-/// Multiplies an axis by the largest multiple of 1/8 that keeps the exponent of the sum of products. A value
-/// that is two or three times larger is then likely to overflow.
+/// Multiplies an axis by the largest multiple of 1/8 that keeps the exponent of the sum of products. With the
+/// sum near the top of its binade, a value two or three times as large is likely to overflow.
 void fill_binade(Query& query, std::size_t axis, double sum) {
   const double mantissa = std::ldexp(sum, -std::ilogb(sum));
   const double factor = (std::ceil(16 / mantissa) - 1) / 8;
@@ -169,7 +172,8 @@ void fill_binade(Query& query, std::size_t axis, double sum) {
 }
 
 /// Scales the axes that are not left out, so that the sum of products is in [2^x, 2^(x + 1)), unless it is
-/// zero. All axes get the same power of two, as far as x allows, or powers that differ by up to 2^spread.
+/// zero. All axes are multiplied by the same power of two, as far as x allows, or by powers that differ by up
+/// to 2^spread.
 void scale_products(Random& random, Query& query, std::size_t left_out, int x, int spread) {
   const double sum = sum_of_products(query, left_out);
   int exponent = x;
@@ -199,8 +203,8 @@ void scale_vertices(Random& random, Query& query) {
   for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], exponents[i / 3 % 4]);
 }
 
-/// Scales products of two differences. The third axis is scaled either in the same way, so that F overflows
-/// or underflows too, or so that F stays inside the range by a factor of up to 2^60.
+/// Scales products of two differences. Scales the third axis so that F also overflows or underflows, or so
+/// that F stays inside the range by a factor of up to 2^60.
 void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   const auto left_out = static_cast<std::size_t>(random.integer(0, 2));
   scale_products(random, query, left_out, x, spread);

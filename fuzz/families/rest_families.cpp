@@ -10,8 +10,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Primitives of about size 1 whose points at random weights, often on a border, are `gap` apart. Half of the gaps
-/// are along the normal.
+/// Primitives of about size 1, with a point of each at random weights, often on a border. The two points are
+/// `gap` apart; half of the gaps are along the normal.
 struct Draft {
   Contact contact;
   Vector gap;
@@ -27,7 +27,7 @@ struct Draft {
     if (random.one_in(2)) gap = length * contact.q.start.cross(contact.r.start);
   }
 
-  /// The query, around a place far from the points that are drawn.
+  /// The query; the origin of its coordinates is moved away from the drawn points.
   [[nodiscard]] Query query(Random& random, Kind kind) const {
     Contact at = contact;
     at.base = still(random.vector(1));

@@ -11,7 +11,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// An exact contact at t = 0 or t = 1. One coordinate of that time is then moved by x ulps.
+/// An exact contact at t = 0 or t = 1; then one coordinate at that time is moved by x ulps.
 Query end_contact(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   contact.time = random.integer(0, 1);
@@ -22,12 +22,12 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// If the weights change at the rates α' and β', the place of contact moves along a curve. The first
-/// primitive moves along a tangent of this curve, which makes a double root. The curve departs from its
-/// tangent by (β' r' + sign α' q') (t - time)². If the first primitive is moved by the value of this vector
-/// at t = time ± h, it meets the curve at these two times; if it is moved the other way, it never does. Half
-/// of the primitives lie in a coordinate plane at the contact time and leave it along its normal, so that the
-/// smallest move is exact.
+/// A point with weights that change at the rates α' and β' follows a curve. The first primitive moves along a
+/// tangent of this curve, so F has a double root. The curve departs from its tangent by (β' r' + sign α' q')
+/// (t - time)². If the first primitive is shifted by this vector for t = time ± h, it meets the curve at
+/// these two times; if it is shifted the opposite way, it never does. Half of the primitives lie in a
+/// coordinate plane at the contact time and leave it along its normal, so that even the smallest shift is
+/// exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
   ContactSampler sampler(random);
@@ -58,7 +58,7 @@ Query even_roots(Random& random, Kind kind, double x) {
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
 /// for a nilpotent J, F(t) is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives touch if M0 maps
 /// the vector (1, -sign α, -β) to 0. It does, because all rows of C except the first are orthogonal to this
-/// vector, and J ignores the first. Finally, q and r are moved slightly, and the contact with them.
+/// vector, and J ignores the first row. Finally, q and r are moved slightly, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
   ContactSampler sampler(random);

@@ -1,4 +1,4 @@
-// The tables of families, one file for each theme; families() lists all families.
+// The tables of families. Each theme has a file; families() lists all families.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch,
-// an easily missed contact before an easy one, and slow motion. Contact is exact.
+// Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch, a
+// contact that is easily missed before another one that is not, and slow motion. Contact is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,8 +23,8 @@ struct Factor {
   static Factor constant() { return {1, 1}; }
 };
 
-/// A point on the plane or the line of each primitive: its weights as in Contact are α / whole and β / whole.
-/// If whole is 0, there is no such point: at the root of the factor, sign α q = -β r, so the sides are
+/// A point on the plane or line of each primitive: its weights, as in Contact, are α / whole and β / whole.
+/// If whole is 0, no such point exists: at the root of the factor, sign α q = -β r, so the sides are
 /// parallel.
 struct Weights {
   int whole, alpha, beta;
@@ -40,21 +40,23 @@ struct Weights {
 
 struct PlannedRoot {
   Factor factor;
-  Vector direction;  ///< in which the points with these weights pass each other
+  Vector direction;  ///< the direction in which the points with these weights pass each other
   Weights weights;
 };
 
 double determinant(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
 
-/// Whether the directions, and the weights, are linearly independent. Otherwise F would be 0 at all times.
+/// Whether both the directions and the weights are linearly independent. If one of them were not, F would be
+/// 0 at all times.
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
   const auto& [a, b, c] = roots;
   return determinant(a.direction, b.direction, c.direction) != 0 &&
          determinant(a.weights.column(kind), b.weights.column(kind), c.weights.column(kind)) != 0;
 }
 
-/// The vertices at t = 0 or t = 1 in the query in which F is a multiple of the product of the factors. At the
-/// root of a factor, its two points coincide, so the primitives touch if the weights are inside.
+/// The vertices at t = 0 or t = 1 of a query in which F is a multiple of the product of the factors. At the
+/// root of a factor, the two points with its weights coincide, so the primitives touch if the weights are
+/// inside.
 ///
 /// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
 /// the factors on its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is
@@ -81,7 +83,7 @@ Weights inside(Random& random, Kind kind) {
   return {whole, alpha, beta};
 }
 
-/// Weights of a point that is outside, but by at most 2/5 of each side.
+/// Weights of a point that is outside by at most 2/5 of each side.
 Weights outside(Random& random, Kind kind) {
   for (;;) {
     const int whole = random.integer(5, 8);
@@ -92,8 +94,8 @@ Weights outside(Random& random, Kind kind) {
   }
 }
 
-/// Weights of a point on an edge of the triangle, or of an end of one edge inside the other edge. In one of
-/// three cases, a vertex of each primitive is at the point.
+/// Weights of a point on an edge of the triangle, or of an end of one edge on the other edge. In one of three
+/// cases, the point is a vertex of each primitive.
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
@@ -128,8 +130,7 @@ Query close_roots(Random& random, Kind kind, double x) {
     time += gap * random.integer(1, 3);
   }
   if (!has_third) factors[2] = Factor::constant();
-  const int inside_at =
-      random.integer(1, has_third ? 7 : 3);  // one bit for each root, and at least one of them
+  const int inside_at = random.integer(1, has_third ? 7 : 3);  // one bit for each root; at least one is set
   const Path base{random.integer_vector(64), random.integer_vector(64)};
   return with_drawn_roots(random, kind, base, [&] {
     std::array<PlannedRoot, 3> roots{};
@@ -143,7 +144,7 @@ Query close_roots(Random& random, Kind kind, double x) {
 }
 
 /// The first contact is on the border in two of three queries, and inside in the others. The sides are
-/// parallel 2^x before or after the first contact. The second contact is inside.
+/// parallel at a time 2^x before or after the first contact. The second contact is inside.
 Query border_first(Random& random, Kind kind, double x) {
   const double first = sixteenths(random, 1, 12);
   const double second = first + sixteenths(random, 1, 3);
@@ -164,9 +165,9 @@ Query border_first(Random& random, Kind kind, double x) {
   });
 }
 
-/// Contact at t = 0, or at t = 2^x / (1 + 2^x), then departure, and a second contact later. At the first
-/// contact, the points of contact pass each other along an axis on which everything else is at rest, so that
-/// the tiny numbers are exact.
+/// Contact at t = 0, or at t = 2^x / (1 + 2^x); then the primitives separate, and touch again later. At the
+/// first contact, the points of contact pass each other along an axis on which everything else is at rest, so
+/// that the tiny numbers are exact.
 Query return_later(Random& random, Kind kind, double x) {
   const Factor first{random.one_in(2) ? 0 : -power_of_two(x), 1};
   const double second = sixteenths(random, 4, 16);
@@ -227,15 +228,15 @@ Graze graze_face(Random& random, Kind kind, double time) {
   }
 }
 
-/// Everything is in the plane z = 0: a vertex and an edge touch. The edge turns about the point of contact,
-/// from the direction of x towards y, and the vertex passes this point along x. The vertex stays on one side
-/// of the edge. The triangle's third vertex, or the other end of the vertex's edge, is placed so that the
+/// A vertex and an edge touch in the plane z = 0, in which everything moves. The edge turns about the point
+/// of contact, from the direction of x towards y, and the vertex passes this point along x, on one side of
+/// the edge. The triangle's third vertex, or the other end of the vertex's edge, is placed so that the
 /// primitives are apart at all other times.
 Graze graze_edge(Random& random, Kind kind, double time) {
   const int length = random.integer(1, 4);
   const double turn = random_sign(random) * random.integer(1, 4);
   const double speed = random_sign(random) * random.integer(1, 4);
-  const double side = std::copysign(1, turn * speed);  // the sign of y on the side without the vertex
+  const double side = std::copysign(1, turn * speed);  // the sign of y on the side away from the vertex
   const Path edge = passing(length * Vector::UnitX(), turn * Vector::UnitY(), time);
   const double away = alpha_sign(kind) * side * random.integer(1, 4);
   const Path multiple = scaled(edge, random.integer(-1, 1));
@@ -251,8 +252,8 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
 }
 
-/// Half of the queries touch at one time. In the others, the first primitive is moved by 2^x towards the
-/// second one, or away from it.
+/// In half of the queries, the primitives touch at one time. In the others, the first primitive is moved by
+/// 2^x towards the second primitive, or away from it.
 Query touch_once(Random& random, Kind kind, double x) {
   const double time = sixteenths(random, 1, 15);
   auto [contact, w, inward] =

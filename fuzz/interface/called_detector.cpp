@@ -14,7 +14,7 @@ namespace nearmiss {
 CalledDetector::CalledDetector(const nearmiss_subject& detector, void* state, bool at_once)
     : DescribedSubject(Detector(detector, state).info()), detector_(detector, state), at_once_(at_once) {}
 
-/// The number of the text of the exception that is being handled.
+/// The number of the text of the exception that is being handled (fault_texts.hpp).
 std::int32_t CalledDetector::number_of_exception() const {
   make_arithmetic_plain();
   try {
@@ -30,7 +30,7 @@ std::string CalledDetector::fault_text(const Verdict& verdict) const {
   return verdict.fault == Fault::exception ? texts_.text(verdict.fault_code) : "";
 }
 
-/// Asks about queries that the detector gets at once.
+/// Asks the detector about queries in one call.
 void CalledDetector::ask(std::span<const Query> queries, std::span<Verdict> verdicts) const {
   const Kind kind = queries.front().kind;
   const std::size_t n = queries.size();
@@ -64,7 +64,7 @@ void CalledDetector::decide(std::span<const Query> queries, std::span<Verdict> v
         if (n == 1)
           answers[i] = thrown;
         else
-          decide(some.subspan(i, 1), answers.subspan(i, 1));  // to find those that throw
+          decide(some.subspan(i, 1), answers.subspan(i, 1));  // one by one, to find the queries that throw
       }
     }
   }

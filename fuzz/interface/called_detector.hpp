@@ -1,4 +1,4 @@
-// A detector of the caller's program as a subject.
+// A subject that calls a detector of the caller's program.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace nearmiss {
 
-/// Calls a detector in this process. A C++ exception is a fault of the query that throws it.
+/// Calls a detector in this process. If the detector throws a C++ exception, the answer to that query is a
+/// fault.
 class CalledDetector final : public DescribedSubject {
  public:
-  /// The detector's functions get `state`. One thread at a time calls them, unless `at_once`.
+  /// The detector's functions get `state`. With `at_once`, several threads may call them at the same time.
   CalledDetector(const nearmiss_subject& detector, void* state, bool at_once);
 
   using DescribedSubject::decide;

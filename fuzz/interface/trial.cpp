@@ -31,7 +31,7 @@
 namespace nearmiss {
 namespace {
 
-/// A result, and what its pointers point to.
+/// A result, with the memory that its pointers point to.
 struct Result : nearmiss_trial_result {
   std::string lines;
   std::deque<std::string> texts;
@@ -55,7 +55,7 @@ std::vector<std::string> split(const std::string& names) {
   return parts;
 }
 
-/// The caller's options, of whose structure an older version may have had fewer fields.
+/// The caller's options, with defaults for fields that an older version of the structure lacks.
 nearmiss_trial_options complete(const nearmiss_trial_options& given) {
   if (given.size == 0) throw Error("size: found 0, expected sizeof(nearmiss_trial_options)");
   nearmiss_trial_options options{};
@@ -131,7 +131,8 @@ void add_finding(const Finding& finding, Result& result) {
   added.separation = finding.shrunk.separation;
 }
 
-/// The findings in the order of the text: the most ordinary class first, and in it the gravest failure.
+/// The findings in the order of the text: the most ordinary class first; within a class, the gravest failure
+/// first.
 std::vector<Finding> in_order(const Campaign& campaign) {
   std::vector<Finding> findings = campaign.findings();
   std::ranges::stable_sort(findings, {}, [](const Finding& each) {
@@ -140,7 +141,7 @@ std::vector<Finding> in_order(const Campaign& campaign) {
   return findings;
 }
 
-/// Shrinks the first findings of the first ways to fail; a test need not wait for more.
+/// Shrinks only the first finding of the first few ways to fail, so that a test ends soon.
 void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop) {
   constexpr std::size_t most = 3;
   constexpr ShrinkLimits limits{.work = limits_in_campaign.work, .time = std::chrono::seconds(2)};
@@ -160,7 +161,7 @@ void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop
   }
 }
 
-/// Asks the detector, and simplifies some of what it fails on.
+/// Asks the detector, and simplifies some of the queries on which it fails.
 Campaign campaign_of(const CampaignPlan& plan, const Subjects& subjects, double seconds) {
   Stop stop = Stop::never();
   if (seconds > 0) stop.limit(std::chrono::duration<double>(seconds));
@@ -200,7 +201,8 @@ std::unique_ptr<Result> hold(const nearmiss_subject& detector, void* state,
   return result;
 }
 
-/// Does work for a C function. Returns whether it succeeded; if not, writes why to `message`.
+/// Does the work of a C function. Returns whether it succeeded; after an exception, writes its text to
+/// `message`.
 template <class Work>
 bool told(char* message, std::size_t size, const Work& work) {
   const PlainArithmetic guard;

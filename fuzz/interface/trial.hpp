@@ -8,18 +8,18 @@
 /// A CCD is a function, or an object with a const operator(), of one of these forms:
 ///
 ///     bool f(const Question&)                                       whether there is a collision
-///     std::optional<double> f(const Question&)                      its time, if there is one: an estimate
-///     plugin::Answer f(const Question&)                             either, or "cannot tell"
+///     std::optional<double> f(const Question&)                      an estimate of its time, if there is one
+///     plugin::Answer f(const Question&)                             with or without a time, or "cannot tell"
 ///     void f(std::span<const Question>, std::span<plugin::Answer>)  many queries at once
 ///
-/// The last two give times if TrialOptions::time_sort says so. A function is asked vertex-triangle and
+/// The last two forms give times if TrialOptions::time_sort says so. A function is asked vertex-triangle and
 /// edge-edge queries, unless the options name other kinds. A detector of nearmiss_functions.hpp is a CCD,
-/// too, and decides each kind by a function with one of the field's usual signatures; it says itself what it
+/// too. It decides each kind by a function with one of the field's usual signatures, and states its own
 /// promises:
 ///
 ///     nearmiss::trial(nearmiss::plugin::detector("mine").vertex_triangle(f).edge_edge(g))
 ///
-/// The CCD runs in the test's process: a crash ends the test, and an endless loop never returns (trial.h).
+/// The CCD runs in the test's process: a crash ends the test, and an endless loop hangs it (trial.h).
 #pragma once
 
 #if __cplusplus < 202002L
@@ -50,20 +50,20 @@ namespace nearmiss {
 
 using plugin::Question;
 
-inline constexpr int of_the_form = -1;  ///< estimates for a function that returns optional, else no times
+inline constexpr int of_the_form = -1;  ///< estimates if a function returns optional, else no times
 
 /// The queries of a trial, its length, and the promises of the CCD.
 struct TrialOptions {
-  std::string name = "my_ccd";   ///< of a function, in the text; a detector has its own
+  std::string name = "my_ccd";   ///< the name of a function in the text; a detector has its own
   std::string families = "all";  ///< names with ',' between them (nearmiss fuzz --help)
   std::string separation = {};   ///< of each query: a positive number, or "drawn"; "": contact
-  int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that it decides
+  int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that the CCD decides
   std::uint64_t seed = 1;        ///< of the random queries
-  std::uint64_t cases = 20'000;  ///< number of queries; 0: as many as there is time for
-  std::chrono::duration<double> time{};  ///< for the queries; a second more to simplify some; 0: no limit
-  int threads = 1;                       ///< how many call the CCD at once
+  std::uint64_t cases = 20'000;  ///< number of queries; 0: until the time is over
+  std::chrono::duration<double> time{};  ///< for the queries; then one second to simplify; 0: no limit
+  int threads = 1;                       ///< how many threads call the CCD at once
   int time_sort = of_the_form;   ///< what the times of a function mean: NEARMISS_TIME_LOWER_BOUND and so on
-  nearmiss_contract contract{};  ///< what a function takes for granted; a detector says it itself
+  nearmiss_contract contract{};  ///< what a function takes for granted; a detector states its own
 };
 
 /// The result of a trial.
@@ -73,17 +73,17 @@ class TrialReport {
 
   /// Whether the CCD was asked, and never failed.
   [[nodiscard]] bool clean() const { return result_->is_clean != 0; }
-  /// Counters of all its answers.
+  /// Counters of all answers.
   [[nodiscard]] const nearmiss_trial_counts& counts() const { return result_->all; }
-  /// Counters of its answers to queries of a kind.
+  /// Counters of the answers to queries of a kind.
   [[nodiscard]] const nearmiss_trial_counts& counts(Kind kind) const {
     return result_->of_kind[static_cast<std::size_t>(kind)];
   }
-  /// The first queries of each way to fail, the most ordinary ones first.
+  /// The first few queries of each way to fail; ordinary ones come first.
   [[nodiscard]] std::span<const nearmiss_trial_finding> findings() const& {
     return {result_->findings, result_->finding_count};
   }
-  void findings() const&& = delete;  // they would not outlive a report without a name
+  void findings() const&& = delete;  // the findings would outlive a temporary report
   /// At most 15 lines.
   [[nodiscard]] std::string_view text() const { return result_->text; }
 
@@ -109,7 +109,7 @@ constexpr bool is_time<std::optional<Number>> = std::is_floating_point_v<Number>
 
 template <class CCD>
 concept Batched = std::is_invocable_v<const CCD&, std::span<const Question>, std::span<plugin::Answer>>;
-/// The type that a function returns for one query, without const and &.
+/// The type that a function returns for one query, without const and reference.
 template <class CCD>
 using Said = std::remove_cvref_t<std::invoke_result_t<const CCD&, const Question&>>;
 template <class CCD>
@@ -159,13 +159,13 @@ int time_sort_of(int asked) {
   return asked == of_the_form ? NEARMISS_NO_TIME : asked;
 }
 
-/// The first argument of the functions in a CCD's description.
+/// The `state` that the functions in a CCD's description get: a pointer to the CCD.
 template <class CCD>
 void* pointer_to(const CCD& ccd) {
   return const_cast<void*>(static_cast<const void*>(&ccd));
 }
 
-/// The description of a CCD, whose functions get a pointer to it first.
+/// The description of a CCD. Its functions expect pointer_to(ccd) as their first argument.
 template <class CCD>
 nearmiss_subject describe(const CCD& ccd, const TrialOptions& options) {
   if constexpr (is_detector<CCD>) {
@@ -221,7 +221,7 @@ TrialReport hold(const CCD& ccd, const TrialOptions& options, const char* check)
 
 }  // namespace detail
 
-/// The answer of a CCD to one query, as the counterexamples of reports ask for it.
+/// The answer of a CCD to one query. The counterexamples in reports call this.
 template <class CCD>
 plugin::Answer ask(const CCD& ccd, const Question& question) {
   if constexpr (std::is_function_v<CCD>)
@@ -230,8 +230,8 @@ plugin::Answer ask(const CCD& ccd, const Question& question) {
     return detail::ask(ccd, question);
 }
 
-/// Whether a CCD gives an answer that counts, as the counterexamples of reports ask for it: no unknown
-/// number, and a valid time where it gives times.
+/// Whether a CCD gives a valid answer: a known value and, if the CCD gives times, a time in [0, 1]. The
+/// counterexamples in reports call this.
 template <class CCD>
 bool answers(const CCD& ccd, const Question& question) {
   const plugin::Answer answer = ask(ccd, question);
@@ -261,7 +261,7 @@ static TrialReport trial(const CCD& ccd, const TrialOptions& options = {}) {  //
     return detail::hold(ccd, options, check);
 }
 
-/// Queries of one kind for loops of one's own, row by row: x0 x1 .. at t = 0, then at t = 1.
+/// Queries of one kind for the caller's own loops. A row of x has x0 x1 .. at t = 0, then at t = 1.
 struct HardQueries {
   Kind kind;
   std::vector<double> x, separation;
@@ -272,7 +272,8 @@ struct HardQueries {
   }
 };
 
-/// The first n queries of a kind of a family (nearmiss fuzz --help). Throws std::invalid_argument.
+/// The first n queries of a kind of a family (nearmiss fuzz --help). Throws std::invalid_argument for an
+/// unknown family or an invalid kind.
 inline HardQueries hard_queries(const std::string& family, Kind kind, std::uint64_t seed, std::size_t n) {
   HardQueries made{kind, std::vector<double>(n * coordinate_count(kind)), std::vector<double>(n)};
   std::array<char, 4096> message{};

@@ -32,7 +32,7 @@ std::string_view macro_of(Kind kind) {
   return macros[static_cast<std::size_t>(kind)];
 }
 
-/// The positions at a time (0 or 1), separated by commas.
+/// The query's positions at a time (0 or 1), separated by commas.
 std::string positions(const Query& query, std::size_t time) {
   std::string text;
   for (int vertex = 0; vertex < vertices(query.kind); ++vertex) {
@@ -43,14 +43,15 @@ std::string positions(const Query& query, std::size_t time) {
   return text;
 }
 
-/// Whether a text can stand for a variable.
+/// Whether a text can be the name of a C++ variable.
 bool is_identifier(std::string_view text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   return !text.empty() && is_letter(text.front()) &&
          std::ranges::all_of(text, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
-/// A condition that holds for a right answer to the finding's query. `arguments` are those of nearmiss::ask.
+/// A C++ condition that holds if the answer to the finding's query is right. `arguments` are those of
+/// nearmiss::ask.
 std::string expectation(const Finding& finding, const std::string& arguments) {
   const std::string answer = "nearmiss::ask" + arguments;
   auto earliest = earliest_time(finding.shrunk);

@@ -1,4 +1,4 @@
-// The text of a trial for the terminal of a test.
+// The text that a test prints about its trial.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace nearmiss {
 
-/// How the trial was held, as far as the text says it.
+/// What the text says about how the trial was held.
 struct TrialSetting {
-  std::string subject;     ///< the detector's name, and the expression for it in the example
-  std::string_view check;  ///< the macro of the example
+  std::string subject;     ///< the detector's name, which also stands for it in the example
+  std::string_view check;  ///< the macro that checks the example
   std::uint64_t seed;
 };
 
-/// At most 15 lines: a verdict, the counters that say more, and the first of the findings as code to paste.
+/// At most 15 lines: a verdict, counters, and the first finding as code to paste.
 std::string trial_text(const TrialSetting& setting, const Statistics& statistics,
                        const std::vector<Finding>& findings);
 

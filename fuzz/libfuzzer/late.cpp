@@ -12,7 +12,8 @@ const Target target{.subject = "wang-time", .needs_lower_bounds = true, .takes_s
 
 namespace {
 
-/// How near a time is to t*: each halving of their difference, relative to t*, counts as two steps.
+/// How near a time is to t*, as a number that grows by two with each halving of the difference relative to
+/// t*.
 std::size_t common_digits(double time, EarliestTime& earliest) {
   Enclosure known = earliest.known();
   if (time >= known.lo) known = earliest.enclosure();

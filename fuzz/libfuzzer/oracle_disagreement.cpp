@@ -30,7 +30,7 @@ bool filter_agrees(const Query& query, bool collision) {
   return !contradicts(first) && !contradicts(filter(query));
 }
 
-/// Shows the answers of each method as numbers, with a separate range for each method.
+/// Shows libFuzzer the answers of all methods as numbers; each method has its own range.
 void show_all(Kind kind, std::span<const Answer> answers) {
   const auto number = [](std::optional<bool> said) { return said ? (*said ? 2U : 1U) : 0U; };
   std::size_t before = 0;

@@ -14,7 +14,7 @@ namespace nearmiss::libfuzzer {
 struct Target {
   const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names one
   bool needs_lower_bounds = false;  ///< whether the subject must give times that are lower bounds
-  /// Whether queries may have a separation. If not, or if the subject takes none, they ask for contact.
+  /// Whether queries may have a separation. If not, or if the subject takes none, queries ask for contact.
   bool takes_separations = false;
 };
 
@@ -32,18 +32,19 @@ enum class Signal {
   filter_stage,  ///< the stage of the oracle's filter
   true_stage,    ///< the stage at which the subject decided a query that collides
   false_stage,   ///< the stage at which the subject decided any other query
-  margin,        ///< how near the tolerance that a collision needs is to the subject's
-  distance,      ///< distance of a false positive, divided by its bound
+  margin,        ///< the part of the subject's tolerance that a collision needs
+  distance,      ///< distance of a false positive, divided by the bound
   agreement,     ///< how many digits a time has in common with the exact earliest time
   answers,       ///< the answer of each exact method of the oracle
   details,       ///< other properties that each method reports
 };
 
-/// Shows a value, separately for each kind of query. All values from 127 on count as the same value.
+/// Shows libFuzzer a value, separately for each kind of query. All values from 127 on count as the same
+/// value.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows how near a factor is to 1, from below. Steps become finer towards 1, so that there is always a next
-/// step to reward. NaN shows nothing.
+/// Shows libFuzzer how near a factor below 1 is to 1. Steps become finer towards 1, so that every approach
+/// reaches a new step. NaN shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
 /// Writes the finding as a case into the folder NEARMISS_CASES, or the current folder, prints a line, and

@@ -1,4 +1,4 @@
-// libFuzzer target: the reader of stores, *.db, and everything that commands do with what it accepts. The
+// libFuzzer target: the reader of stores, *.db, and everything that commands do with an accepted store. The
 // input has a line for each SQL statement that makes the store, because a store whose bytes are changed at
 // random would hardly ever get past its checksums.
 #include "reports/store/store.hpp"
@@ -44,11 +44,11 @@ class Folder {
   fs::path path_;
 };
 
-/// A store in memory, while it is made.
+/// A store in memory, which is being made.
 class OpenStore {
  public:
   OpenStore() : db_(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE) {
-    // A statement may take endless time, fill the memory, or write to other files.
+    // Without limits, a statement could run forever, fill the memory, or write to other files.
     constexpr int most_instructions = 100'000;
     constexpr int longest_value = 1 << 20;
     sqlite3_progress_handler(
@@ -61,7 +61,7 @@ class OpenStore {
   OpenStore& operator=(const OpenStore&) = delete;
   ~OpenStore() { sqlite3_hard_heap_limit64(0); }
 
-  /// Runs statements, a line each, and leaves out those that SQLite refuses.
+  /// Runs statements, one per line, and skips those that SQLite refuses.
   void run(std::istream& statements) {
     for (std::string line; std::getline(statements, line);) try_to([&] { db_.exec(line); });
   }

@@ -16,7 +16,7 @@ namespace nearmiss::libfuzzer {
 
 namespace {
 
-/// Unlike ==, distinguishes 0 from -0.
+/// Whether two queries have the same bits; unlike ==, distinguishes 0 from -0.
 bool same_bits(const Query& a, const Query& b) {
   return a.kind == b.kind && std::memcmp(a.x.data(), b.x.data(), sizeof a.x) == 0;
 }
@@ -34,7 +34,7 @@ void expect_round_trip(const Case& each) {
   const Case again = parse_case(text, "again");
   expect(same_bits(again.query, each.query), "the same query");
   expect(again.truth == each.truth, "the same truth");
-  // What is not printable is not written.
+  // Unprintable characters are not written.
   expect(printable(again.why) == printable(each.why) && to_text(again) == to_text(each), "the same reason");
   expect(again.provenance == printable(each.provenance), "the same provenance");
   expect(same_bits(parse_line(each.query.kind, to_line(each.query), "again"), each.query), "the same line");

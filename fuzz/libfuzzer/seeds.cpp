@@ -44,7 +44,7 @@ std::vector<Case> cases_of(std::span<const Family> families) {
   return cases;
 }
 
-/// The cases in the folders, and queries of the families that ask for contact, or about vertices and edges.
+/// The cases in the folders, and queries of the families that ask for contact and of vertex_families().
 std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
   std::vector<Case> cases = cases_of(families());
   for (Case& each : cases_of(vertex_families())) cases.push_back(std::move(each));
@@ -173,7 +173,7 @@ Campaign campaign() {
   return campaign;
 }
 
-/// The SQL statements that make a store, a line each, without its checksums.
+/// The SQL statements that make a store, one per line, without the checksums.
 std::string statements_of(const Campaign& campaign, const fs::path& file) {
   fs::remove(file);
   write_campaign(campaign, file);
@@ -195,7 +195,7 @@ std::string statements_of(const Campaign& campaign, const fs::path& file) {
   return text;
 }
 
-/// Campaigns of which a store has all, or only a part.
+/// Campaigns for the seeds: a whole one, and some without a part of their results.
 std::map<std::string, Campaign> campaigns() {
   const Campaign whole = campaign();
   return {{"whole", whole},
@@ -214,7 +214,7 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     write("read_store", name + ".sql", statements_of(each, folder / "store.db"));
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
-  constexpr std::size_t one_in_with_meshes = 10;  // whose files have equal parts
+  constexpr std::size_t one_in_with_meshes = 10;  // fewer meshes, since their files have equal parts
   for (std::size_t number = 0; const Case& each : make_cases(cases)) {
     for (const char* target : {"false_negative", "late", "refuted_bound", "oracle_disagreement"})
       write(target, each.name, bytes(each.query));

@@ -1,6 +1,6 @@
-// This file is compiled without coverage: with coverage, the compiler itself declares the names below, which
-// would conflict with these declarations. If no file of the program has coverage, the names are not defined,
-// and both are null.
+// This file is compiled without coverage. With coverage, the compiler itself would declare the two names
+// below, in conflict with these declarations. If no file of the program has coverage, the names are
+// undefined, and their addresses are null.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>

@@ -18,8 +18,9 @@ class Untraced {
   std::vector<std::uint8_t> counters_;
 };
 
-/// Calls `ask` without a trace, for the oracle and all other code that is not on trial. Exact arithmetic has
-/// many branches; libFuzzer would follow these instead of the subject's, and take several times longer.
+/// Calls `ask` without a trace; use it for the oracle and all other code that is not on trial. Exact
+/// arithmetic has many branches. libFuzzer would follow these instead of the subject's branches, and take
+/// several times longer.
 template <class Ask>
 auto untraced(const Ask& ask) {
   const Untraced guard;

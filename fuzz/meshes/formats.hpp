@@ -13,33 +13,35 @@ namespace nearmiss {
 std::string mesh_ending(const std::filesystem::path& file);
 
 /// Reads a mesh file; its ending, in upper or lower case, gives the format. Throws Error as the reader of the
-/// format does, and if the file cannot be read, has more than 1 GiB, or has another ending.
+/// format does, and if the file cannot be read, has more than 1 GiB, or has an unknown ending.
 ///
-/// In all formats a byte order mark before text is skipped, polygons become fans of triangles, and nothing
-/// else is changed. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no
+/// In all formats, a byte order mark before text is skipped, polygons become fans of triangles, and the rest
+/// is kept as it is. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no
 /// primitive. A set of points without primitives is a mesh, too.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// Reads an OBJ file: vertices, faces and polylines; everything else that the format has is skipped. A line
 /// that ends in a backslash goes on in the next line; a comment ends with its line. The text is the whole
-/// file, and messages call the file `name`. Throws Error with file and line for a number that is not finite,
-/// a primitive with too few vertices or with a vertex that does not exist, and a line that is not in the
-/// format; also for a file without a point.
+/// file, and messages call the file `name`. Throws Error, with file and line, for a number that is not
+/// finite, a primitive with too few vertices or with a vertex that does not exist, and a line that is not in
+/// the format. Throws Error for a file without a point.
 Mesh parse_obj(std::string_view text, const std::string& name);
 
 /// Reads an OFF text file with a vertex or a face on each line. Comments, normals, colours and textures are
-/// skipped. Throws Error as parse_obj does, and also if the file is too short or too long, and for the binary
-/// form, SKEL, and dimensions other than 3.
+/// skipped. Throws Error as parse_obj does, and also if the file is too short or too long, is binary, is a
+/// SKEL file, or has another dimension than 3.
 Mesh parse_off(std::string_view text, const std::string& name);
 
 /// Reads a PLY file, text or binary in either byte order: the element vertex with x, y and z of type float or
-/// double, and the element face with lists of int or uint. Other elements and properties are skipped, but
-/// edge, halfedge and tristrips are refused, because they contain primitives. Throws Error as parse_off does.
+/// double, and the element face with lists of int or uint. Other elements and properties are skipped, except
+/// the elements edge, halfedge and tristrips, which are refused because they contain primitives. Throws Error
+/// as parse_off does.
 Mesh parse_ply(std::string_view text, const std::string& name);
 
-/// Reads an STL file, text or binary; several solids become one mesh. In this format each triangle has three
-/// points of its own. Equal points (0 and -0 are equal) become one point, the first of them. Two frames have
-/// the same primitives only if the same corners coincide in both. Throws Error as parse_off does.
+/// Reads an STL file, text or binary; several solids become one mesh. In this format, each triangle has three
+/// points of its own. Equal points (0 and -0 are equal) become one point, with the coordinates of the first
+/// of them. Two frames have the same primitives only if the same corners coincide in both. Throws Error as
+/// parse_off does.
 Mesh parse_stl(std::string_view text, const std::string& name);
 
 }  // namespace nearmiss

@@ -15,7 +15,7 @@ namespace nearmiss {
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: from '#' to the end of the line
-  /// backslash: a line that ends in '\', outside a comment, goes on with the words of the next line.
+  /// backslash: a line that ends in '\' continues in the next line, unless the '\' is in a comment.
   enum class Continuation { none, backslash };
 
   Lines(std::string_view text, std::string_view name, Comments comments,
@@ -27,7 +27,7 @@ class Lines {
   /// The words of this line, at least one.
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 
-  /// The next word of this line, or of a later one; empty at the end of the text.
+  /// The next word of this line, or the first word of the next line; empty at the end of the text.
   std::string_view next_word();
 
   /// Makes next_word go on after this line.
@@ -36,7 +36,8 @@ class Lines {
   /// The text after this line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
-  /// The number of this line, from 1. A line that goes on has the number of its first part.
+  /// The number of this line, from 1. A line that continues in the next ones has the number of its first
+  /// part.
   [[nodiscard]] long number() const { return number_; }
 
   /// "NAME:LINE", for messages.
@@ -47,7 +48,7 @@ class Lines {
   [[nodiscard]] Error error(std::string_view found, std::string_view expected) const;
 
  private:
-  /// Adds the words of the next line of the text to those of this line. Returns whether this line goes on.
+  /// Adds the words of the next line of the text to this line. Returns whether this line continues.
   bool take_line();
 
   std::string_view rest_;
@@ -65,7 +66,7 @@ double parse_decimal(std::string_view word, const Lines& lines);
 
 std::string lower_case(std::string_view word);
 
-/// A word, or the end of the file if the word is empty, as messages show it.
+/// A word as messages show it; an empty word stands for the end of the file.
 std::string shown(std::string_view word);
 
 }  // namespace nearmiss

@@ -13,7 +13,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Throws Error at the first difference of two lists of primitives.
+/// Throws Error for the first difference between two lists of primitives.
 template <std::size_t n>
 void expect_same(const std::vector<std::array<int, n>>& first, const std::string& first_name,
                  const std::vector<std::array<int, n>>& other, const std::string& other_name,

@@ -45,7 +45,7 @@ Bodies bodies(const Mesh& mesh);
 struct MovingMesh {
   std::vector<Vector3<double>> start, end;
   std::vector<std::array<int, 3>> triangles;
-  /// Each edge of triangles and lines once, the smaller index first, in ascending order.
+  /// Each edge of the triangles and lines once, in ascending order; the smaller index of an edge comes first.
   std::vector<std::array<int, 2>> edges;
   double separation = 0;  ///< of the queries of all pairs
 };

@@ -16,7 +16,7 @@ namespace {
 struct FaceOrPolyline {
   bool is_face;
   long line;
-  std::size_t begin, end;  ///< range of its vertices in the common list
+  std::size_t begin, end;  ///< range of the primitive's vertices in the common list
 };
 
 std::string_view name_of(bool is_face) { return is_face ? "face" : "polyline"; }
@@ -36,8 +36,8 @@ Vector3<double> coordinates(const Lines& lines) {
   return {parse_number(words[1], where), parse_number(words[2], where), parse_number(words[3], where)};
 }
 
-/// Adds the vertices of a face or polyline to a list, in which they count from 0. `points` is the number of
-/// points defined before.
+/// Adds the vertices of a face or polyline to a list, numbered from 0. `points` is the number of points
+/// defined before.
 void add_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
   const auto& words = lines.words();
   const std::size_t least = is_face ? 3 : 2;

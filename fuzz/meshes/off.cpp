@@ -59,7 +59,7 @@ Words next_line(Lines& lines, std::string_view what, int index, int count) {
   return lines.words();
 }
 
-/// Checks numbers that a mesh does not need.
+/// Throws Error unless all words are finite numbers; a mesh does not need their values.
 void expect_decimals(Words words, const Lines& lines) {
   for (const std::string_view word : words) parse_decimal(word, lines);
 }

@@ -100,7 +100,7 @@ std::string_view next_keyword(Lines& lines, std::string_view expected) {
   return lines.words()[0];
 }
 
-/// The element or property with this name; null if there is none. Throws Error if there are several.
+/// The element or property with the name `wanted`; null if there is none. Throws Error if there are several.
 template <class Named>
 const Named* find(const std::vector<Named>& all, std::string_view wanted, std::string_view name) {
   const auto has_name = [&](const Named& each) { return each.name == wanted; };
@@ -159,7 +159,7 @@ struct MeshProperties {
 };
 
 /// Finds these properties. Throws Error if one is missing, occurs twice or has a type that parse_ply does not
-/// accept, and for primitives that the mesh would lack.
+/// accept, and for elements with primitives that parse_ply cannot read.
 MeshProperties mesh_properties(const Header& header, std::string_view name) {
   const Element* const vertex = find(header.elements, "vertex", name);
   if (!vertex) throw Error(fmt::format("{}: found no element vertex, expected one", name));
@@ -361,7 +361,7 @@ class ItemReader {
   Numbers numbers_;
   std::string_view name_;
   PolygonSoup soup_;
-  Vector3<double> point_{0, 0, 0};  ///< the coordinates of this vertex
+  Vector3<double> point_{0, 0, 0};  ///< the coordinates of the current vertex
 };
 
 }  // namespace

@@ -29,10 +29,10 @@ Query at_rest(const Query& query) {
 
 namespace {
 
-/// The largest side of the box, at most the largest double.
+/// The largest side of the box around both primitives, at most the largest double.
 double size_of(const Query& query) { return std::min(extent(query), std::numeric_limits<double>::max()); }
 
-/// How much an answer may be off at a distance.
+/// The tolerated error of an answer at a distance.
 double tolerance(double distance, double size) {
   return std::max(DistanceError::part_of_distance * distance, DistanceError::part_of_size * size);
 }
@@ -42,8 +42,8 @@ double quotient(double error, double length) {
   return length > 0 ? error / length : std::numeric_limits<double>::infinity();
 }
 
-/// Whether the points with these weights are farther apart than `most`; exact. They are computed relative to x0, so
-/// that weights that add up to 1 - 2^-53 do not matter far from the origin.
+/// Whether the points with these weights are farther apart than `most`, decided exactly. Coordinates are
+/// taken relative to x0, so that far from the origin, weights whose sum is 1 - 2^-53 do no harm.
 bool are_farther(const Query& query, std::span<const double> weights, double most) {
   using exact::Number;
   Number squared(0);
@@ -59,7 +59,7 @@ bool are_farther(const Query& query, std::span<const double> weights, double mos
   return exact::sign(squared - Number(most) * Number(most)) > 0;
 }
 
-/// Whether weights that a subject gives are wrong. `most`: the largest distance that is not.
+/// Whether weights that a subject gives are wrong. `most` is the largest distance that their points may have.
 bool are_wrong(const Query& query, const std::array<double, 4>& all, double most) {
   constexpr double tiny = 1e-6;
   const std::span weights(all.data(), static_cast<std::size_t>(vertices(query.kind)));
@@ -82,7 +82,7 @@ double DistanceError::over_by_size() const { return std::min(quotient(over, size
 double DistanceError::under_by_size() const { return std::min(quotient(under, size), 1.0); }
 
 double over_limit(const Query& query, double distance) {
-  // Among the smallest doubles, 1 % of a distance is nothing.
+  // nextafter, because subtracting 1 % does not change the smallest doubles.
   return std::min({distance / (1 + DistanceError::part_of_distance),
                    distance - DistanceError::part_of_size * size_of(query), std::nextafter(distance, 0)});
 }
@@ -182,7 +182,7 @@ std::string DistanceQuestion::signature(const Subject& subject, const Judged& ju
 
 namespace {
 
-/// The query of a point without its motion.
+/// The query of a search point, at rest where it is at t = 0.
 Query query_at_rest(Kind kind, SearchPoint point) {
   point.q.end = point.q.start;
   point.r.end = point.r.start;
@@ -201,7 +201,7 @@ Query search_over(const Subject& subject, const Stop& stop, Random& random, Kind
     const double over = judged->error.over_by_size();
     return over > 0 ? std::log2(over) : unwanted / 2;
   };
-  // Some searches are among primitives of very different sizes, and some among much smaller ones.
+  // Half of the searches also try primitives much smaller than usual.
   const double smallest = random.one_in(2) ? usually_smallest : 1e-10;
   const double size = random.one_in(2) ? 1 : search_log_uniform(random, smallest, 1);
   const auto draw = [&] {

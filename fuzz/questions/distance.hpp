@@ -1,4 +1,4 @@
-// The question how far apart two primitives at rest are, and the judgement of an answer.
+// The question how far apart two primitives at rest are, and how its answers are judged.
 #pragma once
 
 #include <array>
@@ -27,20 +27,20 @@ Query at_rest(const Query& query);
 /// How a subject's answer compares with the exact distance d of a query at rest.
 struct DistanceError {
   /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A careful
-  /// function is not, as long as its products neither overflow nor vanish, and conservative advancement, which
-  /// keeps a part of the distance as its margin, is still safe.
+  /// function stays within this, as long as its products neither overflow nor vanish. Within it, conservative
+  /// advancement is still safe, because it keeps a part of the distance as its margin.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
 
   Enclosure exact;   ///< contains d; its relative width is below 2^-44, or as small as doubles allow
   double size = 0;   ///< the largest side of the box around both primitives
-  double over = 0;   ///< how much larger than d the answer is, rounded up; 0 if it is not
-  double under = 0;  ///< how much smaller it is, likewise
+  double over = 0;   ///< answer - d, rounded up; 0 if the answer is not larger
+  double under = 0;  ///< d - answer, rounded up; 0 if the answer is not smaller
   bool over_reported = false;   ///< wrong, and larger than d: unsafe
   bool under_reported = false;  ///< wrong, and smaller than d
-  /// The weights do not add up to 1, are negative, or give points whose distance is wrong, as above.
+  /// The weights do not add up to 1, are negative, or give points that are too far apart.
   bool wrong_weights = false;
 
-  /// The errors divided by d: infinite for primitives that touch, unless the error is 0.
+  /// The errors divided by d; an error other than 0 becomes infinite if the primitives touch.
   [[nodiscard]] double over_by_distance() const;
   [[nodiscard]] double under_by_distance() const;
   /// The errors divided by the size, at most 1; 0 for an error of 0.
@@ -48,23 +48,23 @@ struct DistanceError {
   [[nodiscard]] double under_by_size() const;
 };
 
-/// Judges an answer without a fault. The query is at rest, and as the subject rounds it.
+/// Judges an answer without a fault. The query must be at rest, and rounded as the subject rounds it.
 DistanceError error_of(const Query& query, const DistanceAnswer& answer);
 
-/// A distance that is smaller than the given one by what the judge tolerates, rounded; below 0 if nothing is left.
-/// The given one is over-reported if this is at least d, which is decided exactly.
+/// A distance minus the error that the judge tolerates, rounded; may be negative. The distance is
+/// over-reported if the result is positive and at least d, which is decided exactly.
 double over_limit(const Query& query, double distance);
 
-/// Whether an answer, of a query at rest as the subject rounds it, is over-reported: DistanceError's, in less
-/// time.
+/// DistanceError::over_reported of a query and an answer, in less time than error_of(). The query must be at
+/// rest, and rounded as the subject rounds it.
 bool is_over_reported(const Query& query, double distance);
 
-/// A question of QuestionTrial.
+/// The question of QuestionTrial how far apart primitives are.
 struct DistanceQuestion {
   struct Judged {
     Query query;  ///< at rest, as the subject rounds it
     DistanceAnswer answer;
-    DistanceError error = {};  ///< if there is no fault
+    DistanceError error = {};  ///< set if there is no fault
 
     /// "over-reported", "wrong-weights" or "fault"
     [[nodiscard]] std::optional<std::string_view> failure() const;
@@ -74,17 +74,17 @@ struct DistanceQuestion {
     [[nodiscard]] std::string_view word() const;
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;
-    /// For an over-reported distance: proof that the primitives come within a smaller one.
+    /// For an over-reported distance, a proof that the primitives come within a smaller distance.
     [[nodiscard]] std::string certificate() const;
   };
 
   struct Counts {
-    std::uint64_t queries = 0;            ///< queries that it was asked, within its contract
-    QueryClassCounts faults_by_class{};   ///< of them, those without an answer
+    std::uint64_t queries = 0;            ///< queries asked, within the subject's contract
+    QueryClassCounts faults_by_class{};   ///< queries without an answer
     QueryClassCounts over_by_class{};     ///< over-reported distances by the class of the query
-    QueryClassCounts under_by_class{};    ///< under-reported ones
+    QueryClassCounts under_by_class{};    ///< under-reported distances
     QueryClassCounts weights_by_class{};  ///< wrong weights
-    Histogram over_by_size, over_by_distance, under_by_size, under_by_distance;  ///< of all errors but 0
+    Histogram over_by_size, over_by_distance, under_by_size, under_by_distance;  ///< of all errors except 0
     std::vector<FarCase> largest_over, largest_under;                            ///< by size
 
     static constexpr auto counters() {
@@ -107,13 +107,14 @@ struct DistanceQuestion {
   };
 
   static bool is_answered(const Subject& subject, Kind kind) { return subject.gives_distance(kind); }
-  /// Asks about the start of a query; nothing if it breaks the subject's contract.
+  /// Asks about the primitives at the start of a query. Returns nothing if the query breaks the subject's
+  /// contract.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
-  /// The closest features, such as "ee edge-edge" or "ee touching"; or the fault.
+  /// The closest features, such as "ee edge-edge" or "ee touching"; if the subject failed, its fault.
   static std::string signature(const Subject& subject, const Judged& judged);
-  /// The families "search-over-NAME" and "v-search-over-NAME": each query is the one with the largest
-  /// over_by_size() that a search found. A fault ends a search. Making a query throws Stopped when `stop` is
-  /// due. The subject and `stop` must outlive them.
+  /// The families "search-over-NAME" and "v-search-over-NAME": each query has the largest over_by_size() that
+  /// a search found. A fault ends a search. Making a query throws Stopped when `stop` is due. The subject and
+  /// `stop` must outlive the families.
   static std::vector<Family> searches(const Subject& subject, const Stop& stop);
 };
 

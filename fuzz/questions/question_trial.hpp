@@ -1,5 +1,5 @@
-// Trials of further questions than whether primitives collide: the distance of primitives at rest (distance.hpp),
-// and the step that a filter permits (step.hpp).
+// Trials of two further questions: the distance of primitives at rest (distance.hpp), and the step that a
+// filter permits (step.hpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -32,26 +32,28 @@
 
 namespace nearmiss {
 
-/// A query that a subject fails, as the subject rounds it.
+/// A query on which a subject fails.
 struct QuestionFinding {
   std::string_view what;  ///< the failure, such as "over-reported"
   std::string subject;
-  std::string signature;  ///< the way in which it fails, such as "ee edge-edge"
+  std::string signature;  ///< the way to fail, such as "ee edge-edge"
   QueryClass query_class{};
   std::string provenance;        ///< "family:seed:index" of the query before shrinking
-  Query query;                   ///< the simplest one that fails in the same way and has the same class
+  Query query;                   ///< shrunk, and as the subject rounds it
   std::string answer;            ///< the subject's numbers, exactly
-  std::string text;              ///< what is wrong, for people
-  std::string certificate = {};  ///< proves it; "" for a fault or wrong weights
+  std::string text;              ///< what is wrong, in words
+  std::string certificate = {};  ///< proves the failure; "" for a fault or wrong weights
 };
 
-/// `Question` is DistanceQuestion or StepQuestion, which say what is asked, judged and counted.
+/// The results of a trial. `Question`, DistanceQuestion or StepQuestion, defines what is asked, and how it is
+/// judged and counted.
 template <class Question>
 struct QuestionResults {
   std::map<std::pair<std::string, Kind>, typename Question::Counts> counts;  ///< by subject
-  /// Answers by factors such as the angle. Each answer counts as a collision, which is missed if it is unsafe.
+  /// Answers by factors such as the angle. An answer counts as a collision; an unsafe answer counts as a
+  /// missed one.
   FactorTable factors;
-  std::vector<QuestionFinding> findings;  ///< ordinary ones first; one of each signature and class
+  std::vector<QuestionFinding> findings;  ///< one of each signature and class, ordinary ones first
 
   void merge(QuestionResults&& other) {
     for (const auto& [key, each] : other.counts) counts[key].merge(each);
@@ -68,23 +70,24 @@ struct QuestionResults {
 struct QuestionPlan {
   std::vector<Family> families = {};
   std::set<Kind> kinds = {};
-  bool search = true;       ///< whether there is directed search against each subject, too
-  std::uint64_t cases = 0;  ///< about the number of queries; 0: until the stop
+  bool search = true;       ///< whether to add directed search against each subject
+  std::uint64_t cases = 0;  ///< approximate number of queries; 0: until the stop
   std::uint64_t seed = 1;
   int jobs = 1;
 };
 
-/// After a time limit, findings may be shrunk for so long.
+/// The time after the limit in which findings may be shrunk.
 inline constexpr std::chrono::seconds question_grace(5);
 
-/// Puts subjects on trial: asks them in rounds of all families, and shrinks the findings at the end.
+/// Puts subjects on trial: asks about all families in turn, round by round, and shrinks the findings at the
+/// end.
 template <class Question>
 class QuestionTrial {
  public:
   using Results = QuestionResults<Question>;
   using Judged = typename Question::Judged;
 
-  /// All of these must outlive the trial.
+  /// The arguments must outlive the trial.
   QuestionTrial(const Subjects& subjects, const QuestionPlan& plan, const Stop& stop)
       : subjects_(subjects), plan_(plan), stop_(stop) {
     for (const Family& family : plan.families) sources_.push_back({family, nullptr});
@@ -94,7 +97,8 @@ class QuestionTrial {
         sources_.push_back({std::move(family), subject.get()});
   }
 
-  /// Until the number of cases or the stop. `show` is called with the number of queries so far.
+  /// Runs until the number of cases is reached or the stop is due. Calls `show` with the number of queries so
+  /// far.
   Results run(const std::function<void(std::uint64_t)>& show) {
     in_order<Work>(
         plan_.jobs, [&] { return next(); }, [&](Work& work) { perform(work); },
@@ -111,7 +115,7 @@ class QuestionTrial {
  private:
   static constexpr std::uint64_t one_in_asked_twice = 256;
 
-  /// A family, and its subject if it is that of a search.
+  /// A family; for directed search, with the only subject that is asked.
   struct Source {
     Family family;
     const Subject* only;
@@ -152,7 +156,7 @@ class QuestionTrial {
       const auto of_kinds = static_cast<std::uint64_t>(
           std::ranges::count_if(source.family.kinds, [&](Kind kind) { return can_ask(source, kind); }));
       if (of_kinds == 0) continue;
-      // Half of a family's numbers are queries of each of its two kinds.
+      // Half of a family's queries are of each of its two kinds.
       const std::uint64_t block = source.only != nullptr ? 2 : 4 * source.family.block_cases;
       const std::uint64_t first = block * round_;
       planned_ += of_kinds * block / 2;
@@ -175,11 +179,11 @@ class QuestionTrial {
         for (const auto& subject : subjects_)
           if (can_ask(*work.source, *subject, kind)) count(*subject, query, index, factors, work);
       }
-    } catch (const Stopped&) {  // what was asked counts
+    } catch (const Stopped&) {  // answers so far count
     }
   }
 
-  /// Asks a question again. An answer that is not the same is a fault.
+  /// Asks a question again. If the answer differs, turns it into a fault.
   static void expect_the_same(const Subject& subject, const Query& query, Judged& judged) {
     const std::optional<Judged> again = Question::ask(subject, query);
     if (!again || again->answer_text() != judged.answer_text())
@@ -212,7 +216,7 @@ class QuestionTrial {
     work.results.findings.push_back(std::move(finding));
   }
 
-  /// Adds results, with the first finding of each way to fail and each class.
+  /// Adds results, but of their findings only the first one of each way to fail and each class.
   void take(Results&& results) {
     for (const auto& [key, each] : results.counts) asked_ += each.queries;
     std::erase_if(results.findings, [&](const QuestionFinding& each) {
@@ -221,8 +225,8 @@ class QuestionTrial {
     results_.merge(std::move(results));
   }
 
-  /// Replaces the query by the simplest one that fails in the same way and has the same class, as far as there
-  /// is time.
+  /// Replaces the finding's query by the simplest query that fails in the same way and has the same class, as
+  /// far as time allows.
   void shrink(QuestionFinding& finding) const {
     try {
       shrink_within(finding, question_grace);
@@ -264,16 +268,19 @@ class QuestionTrial {
 
 /// The sum over all classes.
 std::uint64_t sum(const QueryClassCounts& counts);
-/// The same without extreme queries, which are shown, but say nothing about others.
+/// The sum over all classes except extreme, whose failures are shown but do not set the exit code.
 std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 
-/// A directed search as two families, of which one is among vertices and edges. Each block has one query.
+/// A directed search as two families: NAME for vt and ee queries, v-NAME for vv and ve queries. Each block
+/// has one query.
 std::vector<Family> search_families(std::string name, std::string about,
                                     std::function<Query(Random&, Kind)> make);
 
-/// The families of which a user can choose: those that campaigns have, and before them those at rest on request.
+/// The families among which a user can choose: with `at_rest`, first the families at rest; then those of
+/// campaigns.
 std::vector<Family> families_of_questions(bool at_rest);
-/// Those that are asked if nobody chooses: without the extreme ones, in which a plain function overflows.
+/// The families that are asked by default: families_of_questions() without the extreme ones, in which a plain
+/// function overflows.
 std::vector<Family> usual_families_of_questions(bool at_rest);
 
 }  // namespace nearmiss

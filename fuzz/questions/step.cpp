@@ -20,7 +20,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The motion of the query's vertices to y.
+/// The query whose vertices move to the positions y.
 Query to_positions(const Query& query, const std::array<double, 12>& y) {
   Query step = query;
   std::copy_n(y.begin(), 3 * vertices(query.kind), step.x.begin() + 12);
@@ -28,8 +28,8 @@ Query to_positions(const Query& query, const std::array<double, 12>& y) {
   return step;
 }
 
-/// How far a step goes along another one, as a part of it; rounded. Motions are divided by the largest first, so
-/// that nothing overflows or vanishes.
+/// How far `step` goes along `whole`, as a part of `whole`; rounded. Motions are first divided by the largest
+/// component, so that nothing overflows or vanishes.
 double part_of(const Query& step, const Query& whole) {
   double largest = 0;
   const auto motion = [](const Query& query, std::size_t i) { return query.x[12 + i] / 2 - query.x[i] / 2; };

@@ -1,4 +1,4 @@
-// The question which part of a step is safe, as filters of steps answer it, and the judgement of an answer.
+// The question that filters of steps answer, which part of a step is safe; and how their answers are judged.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,22 @@
 
 namespace nearmiss {
 
-/// A question of QuestionTrial. Only primitives that are apart at t = 0 are asked about.
+/// The question of QuestionTrial which part of a step is safe. Only primitives that are apart at t = 0 are
+/// asked about.
 struct StepQuestion {
   struct Judged {
     Query query;  ///< without a separation, as the subject rounds it
     StepAnswer answer;
-    // Without a fault:
+    // The following members are set if there is no fault.
     Query step = {};  ///< the filtered step; the clearance is its separation
-    /// In the filtered step, the primitives come nearer than the clearance, or touch if it is 0.
+    /// In the filtered step, the primitives come nearer than the clearance; if the clearance is 0, they
+    /// touch.
     bool touches = false;
-    /// The part of the safe motion that is kept: how far the filtered step goes along the original one, divided
-    /// by the earliest time of contact, or by 1 if there is none; from 0 to 1, rounded.
+    /// The part of the safe motion that the filter keeps: how far the filtered step goes along the original
+    /// one, divided by the earliest time of contact; without contact, divided by 1. From 0 to 1, rounded.
     double kept = 0;
-    bool cuts_free = false;  ///< the original step has no contact, but is not kept whole
-    bool objects = false;    ///< asked about the filtered step, the subject changes it again
+    bool cuts_free = false;  ///< the filter changes the original step although it has no contact
+    bool objects = false;    ///< the subject would change the filtered step again
 
     /// "unsafe" or "fault"
     [[nodiscard]] std::optional<std::string_view> failure() const;
@@ -42,14 +44,14 @@ struct StepQuestion {
     [[nodiscard]] std::string_view word() const { return failure().value_or("right"); }
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;
-    /// Proof that the filtered step comes nearer than the clearance.
+    /// A proof that the primitives touch in the filtered step, or come nearer than the clearance.
     [[nodiscard]] std::string certificate() const;
   };
 
   struct Counts {
-    std::uint64_t queries = 0;           ///< steps that it was asked to filter, within its contract
-    QueryClassCounts faults_by_class{};  ///< of them, those without an answer
-    QueryClassCounts unsafe_by_class{};  ///< filtered steps that are not safe
+    std::uint64_t queries = 0;           ///< steps to filter, within the subject's contract
+    QueryClassCounts faults_by_class{};  ///< steps without an answer
+    QueryClassCounts unsafe_by_class{};  ///< unsafe filtered steps
     std::uint64_t cut_free = 0;          ///< Judged::cuts_free
     std::uint64_t objects = 0;           ///< Judged::objects
     Histogram kept;                      ///< Judged::kept
@@ -71,12 +73,15 @@ struct StepQuestion {
   };
 
   static bool is_answered(const Subject& subject, Kind kind) { return subject.filters_step(kind); }
-  /// Nothing if the primitives touch at t = 0, or the query breaks the subject's contract.
+  /// Asks about a query's step. Returns nothing if the primitives touch at t = 0, or the query breaks the
+  /// subject's contract.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
-  /// The features of the first contact in the filtered step, or of the approach to the clearance; or the fault.
+  /// If the filtered step makes contact, the features of the first contact; if it only comes too near, those
+  /// of the first approach to the clearance; if the subject failed, its fault.
   static std::string signature(const Subject& subject, const Judged& judged);
-  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the one whose filtered step comes
-  /// nearest to contact, or to the clearance, relative to its size. An unsafe step or a fault ends a search.
+  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the one whose filtered step
+  /// comes nearest to contact, or to the clearance, relative to the query's size. An unsafe step or a fault
+  /// ends a search.
   static std::vector<Family> searches(const Subject& subject, const Stop& stop);
 };
 

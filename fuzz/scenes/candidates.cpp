@@ -61,8 +61,8 @@ class CandidatePasser {
 /// Consecutive rows (candidates.hpp) that are near each other, and the partners near them.
 class Block {
  public:
-  /// Begins the block with row `first`. It ends before row `end`, after 16 rows, or before the box around its
-  /// rows would become larger than `most`. Returns the first row after the block.
+  /// Begins the block with row `first`. The block ends before row `end`, after 16 rows, or before the box
+  /// around its rows would exceed size `most`. Returns the first row after the block.
   std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
     first_ = first;
     bounds_ = boxes[first];
@@ -90,7 +90,7 @@ class Block {
   }
 
   /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
-  /// If `after`, skips partners whose number is not larger than that of the row.
+  /// With `after`, calls it only for partners with a larger number than the row.
   template <class Pass>
   void compare(bool after, const Pass& pass) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -113,7 +113,8 @@ class Block {
   std::vector<CellBoxGroup> near_;
 };
 
-// With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
+// The largest size of a block, in typical groups. Larger blocks cost more comparisons, smaller blocks more
+// searches of the tree.
 constexpr std::int64_t block_groups = 2;
 
 }  // namespace
@@ -141,7 +142,7 @@ std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
   const auto sink_meeting = [&](const Candidate& candidate) {
     if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
   };
-  // The passer counts primitives with a common vertex without the exact test, since their boxes meet.
+  // Primitives with a common vertex need no exact test, since their boxes meet; the passer counts them.
   CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
   const bool edges = !has_triangle(kind_);
   const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
@@ -158,7 +159,7 @@ std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
   return passer.sharing();
 }
 
-/// Parts are small enough that even a small mesh has work for all threads.
+/// The number of rows of a part, small enough that even a small mesh has work for all threads.
 std::size_t CandidateFinder::rows_of_part() const {
   return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
 }

@@ -26,7 +26,7 @@ struct Candidate {
 /// A pair that a subject reports.
 struct ReportedPair {
   Candidate pair;
-  double time;  ///< in [0, 1], or NaN if the subject does not say
+  double time;  ///< of impact, in [0, 1]; NaN if the subject gives none
 };
 
 /// The query of a candidate.
@@ -42,26 +42,26 @@ using IsOver = std::function<bool()>;
 inline const IsOver never_over = [] { return false; };
 
 /// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
-/// axis (oracle/filter/box.hpp; closed boxes: touching counts). The pairs come in the order of rows
-/// (pair_rows below), and those of a row in the order of its partners: all triangles, or the edges after the
-/// row's edge. A part consists of consecutive rows, and depends only on the number of rows. Parts can be
-/// searched in any order and by any thread.
+/// axis (oracle/filter/box.hpp; closed boxes: touching counts). Pairs come in the order of rows (pair_rows
+/// below), and within a row in the order of its partners: all triangles, or the edges after the row's edge. A
+/// part consists of consecutive rows; only the number of rows decides which. Any thread may search any part
+/// at any time.
 class CandidateFinder {
  public:
-  /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` says so, and
-  /// Error for a coordinate that is not finite.
+  /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` returns
+  /// true, and Error for a coordinate that is not finite.
   CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
   CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh, in less time than a new CandidateFinder would take.
-  /// The pairs are those that a new one would find. After an exception, the object must not be used any more.
+  /// Replaces the mesh by another step of the same mesh. Finds the same pairs as a new CandidateFinder, which
+  /// takes longer to make. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes on, once, each pair of a part whose primitives have no common vertex. Returns the number of pairs
-  /// whose primitives have one. Pairs are not stored, so a scene of any size can be streamed. `is_over` is
-  /// called now and then, and ends the search.
+  /// Passes each pair of a part to `sink` once, except pairs of primitives with a common vertex; returns the
+  /// number of these. Stores no pairs, so a scene of any size can be streamed. Calls `is_over` now and then;
+  /// if it returns true, returns early or throws Stopped.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
@@ -73,19 +73,19 @@ class CandidateFinder {
   const MovingMesh* mesh_;
   Kind kind_;
   std::vector<CellBox> vertices_;
-  CellTree tree_;  ///< of the partners
+  CellTree tree_;  ///< finds partners
   std::int64_t block_size_;
 };
 
-/// Finds all candidates of both kinds, vertex-triangle pairs first, until `is_over` says that it is enough.
+/// Finds all candidates of both kinds, vertex-triangle pairs first. Ends early when `is_over` returns true.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over = never_over);
 
-/// The number of rows of all pairs of a kind, whether their boxes meet or not. A row has the pairs of one
-/// vertex with all triangles, or of one edge with all edges after it.
+/// The number of rows into which all pairs of a kind are divided, whether their boxes meet or not. A row has
+/// the pairs of one vertex with all triangles, or of one edge with all later edges.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
-/// Passes on each pair of a row whose primitives have no common vertex. Returns the number of pairs whose
-/// primitives have one.
+/// Passes each pair of a row to `sink`, except pairs of primitives with a common vertex; returns the number
+/// of these.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const IsOver& is_over);
 

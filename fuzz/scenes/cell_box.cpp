@@ -30,7 +30,7 @@ std::pair<Vector, Vector> bounds(const MovingMesh& mesh) {
   return {lo, hi};
 }
 
-/// The grid of cells over a mesh: cubes in the whole range of the mesh's coordinates.
+/// The grid of cubic cells that covers the whole range of a mesh's coordinates.
 class Grid {
  public:
   explicit Grid(const MovingMesh& mesh) {
@@ -44,8 +44,8 @@ class Grid {
     if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
   }
 
-  /// The cell of a coordinate along axis k; that of the nearest bound if the coordinate is beyond the bounds.
-  /// The conversion truncates, which is monotone, too.
+  /// The cell of a coordinate along axis k, or of the nearest bound if the coordinate is out of bounds. Every
+  /// operation is monotone, including the conversion, which truncates.
   [[nodiscard]] Cell cell(double x, int k) const {
     return static_cast<Cell>((std::clamp(x, lo_[k], hi_[k]) - centre_[k]) * per_unit_);
   }
@@ -59,7 +59,7 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // Two of these margins exceed any distance that boxes_meet rounds to the separation.
+  // Twice this margin exceeds every distance that boxes_meet, which rounds, accepts as within the separation.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;

@@ -1,4 +1,4 @@
-// Boxes of integers that stand for the boxes that primitives sweep.
+// The boxes that primitives sweep, with integer coordinates.
 #pragma once
 
 #include <algorithm>
@@ -47,9 +47,9 @@ struct CellBox {
 /// around the cells of their vertices meet. The converse is nearly true, since a cell is 2^-31 of the mesh's
 /// largest extent.
 ///
-/// No bound on rounding errors is needed for this: all operations that turn a coordinate into a cell are
-/// monotone, even when they are rounded, so x <= y for coordinates implies x <= y for their cells. Works on
-/// `jobs` threads. Throws Error for a coordinate that is not finite.
+/// This needs no bound on rounding errors: all operations that turn a coordinate into a cell are monotone
+/// even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Works on `jobs` threads. Throws
+/// Error for a coordinate that is not finite.
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
 
 /// The boxes of the vertices, edges or triangles of a mesh.

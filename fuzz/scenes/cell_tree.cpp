@@ -24,8 +24,8 @@ struct Item {
 };
 using Items = std::span<Item>;
 
-/// Sorts boxes so that the boxes of a group are near each other, and the groups of a larger group, too. The order
-/// depends only on the boxes, since the number decides between equal centres.
+/// Sorts boxes so that, at every level, the members of a group are near each other. The order depends only on
+/// the boxes: boxes with equal centres are sorted by number.
 class SpatialOrder {
  public:
   SpatialOrder(int jobs, const std::function<bool()>& is_over) : jobs_(jobs), is_over_(is_over) {}
@@ -77,7 +77,7 @@ class SpatialOrder {
 };
 
 /// Fills the groups of a level with `count` boxes; box_at(i) returns box i and its number. Returns the sum of
-/// the sizes of these boxes.
+/// the boxes' sizes.
 template <class BoxAt>
 double fill(std::vector<CellBoxGroup>& level, std::size_t count, int jobs, const BoxAt& box_at) {
   constexpr std::size_t chunk = 1 << 14;  // boxes; a multiple of the size of groups

@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// Up to four numbered boxes, which are compared with another box at once.
+/// Up to four numbered boxes. One vector operation compares all of them with another box.
 class CellBoxGroup {
  public:
   static constexpr std::size_t size = 4;
@@ -35,7 +35,7 @@ class CellBoxGroup {
   [[nodiscard]] std::int32_t largest_number() const {
     return *std::max_element(numbers_.begin(), numbers_.end());
   }
-  /// The box around all boxes.
+  /// The box around the group's boxes.
   [[nodiscard]] CellBox bounds() const;
 
   /// Calls visit(place) for each box that meets the given one and has the number `least` or a larger one, in
@@ -48,7 +48,7 @@ class CellBoxGroup {
 
  private:
   using Places = std::array<std::int32_t, size>;
-  /// A comparison of two such vectors compares all elements at once. An element of the result is -1 or 0.
+  /// Comparing two such vectors compares their elements in parallel; each element of the result is -1 or 0.
   using Vector [[gnu::vector_size(sizeof(Places))]] = std::int32_t;
 
   static Vector vector(const Places& places) {
@@ -56,7 +56,7 @@ class CellBoxGroup {
     std::memcpy(&made, &places, sizeof made);
     return made;
   }
-  /// A bit for each place: whether for_meeting visits it.
+  /// One bit per place: whether for_meeting visits it.
   [[nodiscard]] unsigned meeting(const CellBox& box, std::int32_t least) const {
     Vector apart = vector(numbers_) < least;
     for (std::size_t k = 0; k < 3; ++k) apart |= (vector(lo_[k]) > box.hi[k]) | (vector(hi_[k]) < box.lo[k]);
@@ -68,18 +68,18 @@ class CellBoxGroup {
   Places numbers_;
 };
 
-/// Groups of primitives' boxes that are near each other, groups of the bounds of these groups, and so on. The
-/// groups are chosen at the first step of a mesh. In later steps, the boxes move and the groups stay, until
-/// the bounds of the groups have become much larger.
+/// A tree of groups: the lowest level groups primitives' boxes that are near each other, the next level
+/// groups the bounds of these groups, and so on. The first step of a mesh chooses the groups. Later steps
+/// move the boxes and keep the groups, until the groups' bounds have become much larger.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` says so.
   CellTree(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// Turns this into the tree of another step of the same mesh. Throws Stopped when `is_over` says so.
+  /// Turns this into the tree of another step of the same mesh. Throws Stopped when `is_over` returns true.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// The median size of the bounds of a group of primitives' boxes, over all groups or a sample of them.
+  /// The median size of the bounds of the lowest level's groups; if there are many, of a sample of them.
   [[nodiscard]] std::int64_t typical_group() const;
 
   /// Calls visit(number) for each box that meets the given one and has the number `least` or a larger one.

@@ -21,7 +21,7 @@ struct ClaimedPrecision {
   double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
 };
 
-/// The precisions of all subjects, in their order.
+/// The claimed precision of each subject, in the order of `subjects`.
 std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
                                                  const Subjects& subjects);
 

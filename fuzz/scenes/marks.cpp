@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_primitives = 8000;  // limit for primitives with a mark, and for those without
+constexpr std::size_t most_primitives = 8000;  // at most this many with a mark, and as many without
 constexpr std::uint32_t collides = 1, tangled = 2;
 constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
@@ -146,7 +146,8 @@ struct Marks::Primitives {
   void add(const Vertices& vertices, Mark mark) { (mark != 0 ? marked : others).push_back({vertices, mark}); }
 };
 
-/// Adds the triangles, each with the marks of its edges, then the edges that are in no triangle.
+/// Adds the triangles, each with its own marks and those of its edges, then the edges that are in no
+/// triangle.
 void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
   std::vector<std::array<int, 2>> of_triangles;
   for (const auto& t : mesh.triangles) {
@@ -163,7 +164,7 @@ void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
   for (const auto& e : lines) primitives.add(Vertices(e.begin(), e.end()), mark_of(edges_, e));
 }
 
-/// Adds the points with a mark, and those in no primitive.
+/// Adds the points that have a mark or are in no primitive.
 void Marks::add_points(const MovingMesh& mesh, Primitives& primitives) const {
   std::vector<bool> in_primitive(mesh.start.size());
   for (const auto& t : mesh.triangles)

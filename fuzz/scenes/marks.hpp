@@ -14,12 +14,11 @@
 
 namespace nearmiss {
 
-/// Marks the primitives of pairs that collide, that a subject reports falsely, or that a subject misses.
+/// Marks the primitives of pairs that collide, and of pairs that a subject misses or falsely reports.
 class Marks {
  public:
   void add_collision(const Candidate& candidate);
-  /// Marks a pair by the outcome of one subject, which is given by its index. The 16th and later subjects
-  /// leave no mark.
+  /// Marks a pair by the outcome of the subject with this index. The 16th and later subjects leave no mark.
   void add(const Candidate& candidate, std::size_t subject, const Outcome& outcome);
   /// Marks an edge and a triangle that pass through each other.
   void add_tangled(const std::array<int, 2>& edge, const std::array<int, 3>& triangle);

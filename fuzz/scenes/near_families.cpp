@@ -62,8 +62,8 @@ Query touching(const Query& query, const Aim& aim) {
   return with_first_moved(query, second - first);
 }
 
-/// The query unchanged, or changed in one of the ways of near_families(). Perturbations are of `size` times
-/// its extent.
+/// The query unchanged, or changed in one of the ways of near_families(). A perturbation has `size` times the
+/// extent of the query.
 Query changed(Random& random, const Query& given, double size) {
   Query query = given;
   if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));
@@ -93,7 +93,7 @@ Family family_near(std::string name, std::string about, std::string size, Querie
 
 std::vector<Family> near_families(std::span<const Query> queries) {
   std::map<std::pair<bool, bool>, QueriesByKind>
-      groups;  // by whether they are of vertices, and have separations
+      groups;  // keys: whether the queries are vv or ve, and whether they have separations
   for (const Query& each : queries)
     groups[{!is_of_meshes(each.kind), each.separation > 0}][each.kind].push_back(each);
   std::vector<Family> families;

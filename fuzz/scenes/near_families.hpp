@@ -14,14 +14,15 @@
 
 namespace nearmiss {
 
-/// Queries of each kind that has some.
+/// Queries by kind, without entries for kinds that have none.
 using QueriesByKind = std::map<Kind, std::vector<Query>>;
 
-/// One of the queries of a kind, each with the same probability.
+/// A random query of a kind; all have the same probability.
 const Query& drawn(Random& random, const QueriesByKind& queries, Kind kind);
 
-/// Keeps those pairs of each kind with the smallest random numbers. A pair's number depends only on its
-/// vertices and the number of its motion, so the order of the pairs does not matter.
+/// A random sample of pairs: keeps the pairs of each kind with the smallest random numbers. A pair's number
+/// depends only on its vertices and the number of its motion, so the sample does not depend on the order of
+/// the pairs.
 class PairSample {
  public:
   /// Keeps at most `most` pairs of each kind.
@@ -44,10 +45,10 @@ class PairSample {
   std::map<Kind, std::vector<Kept>> kept_;  ///< heaps
 };
 
-/// Families whose queries are the given ones: unchanged, perturbed, moved by ulps, or with one primitive
-/// moved so that the two touch at a random time, as nearly as double allows. Queries for contact are in
-/// `near`, those with separations in `near-within`; those of two vertices, or of a vertex and an edge, in
-/// v-near and v-near-within. A family without queries is left out.
+/// Families that draw the given queries, and leave each unchanged, perturb it, move it by ulps, or move one
+/// primitive so that the two touch at a random time, as nearly as double allows. `near` has the vt and ee
+/// queries for contact, `near-within` those with separations; v-near and v-near-within have the vv and ve
+/// queries. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 
 /// The family `mesh`, made in the same ways from the pairs of all steps whose swept boxes meet. At most

@@ -22,7 +22,7 @@ std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 
-/// Receives the pairs of one part, and decides their fates batch by batch.
+/// Receives the pairs of one part, and decides their fates in batches.
 class FateTeller {
  public:
   FateTeller(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,

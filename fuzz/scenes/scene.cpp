@@ -48,7 +48,7 @@ bool comes_before(std::string_view a, std::string_view b) {
     }
   }
   if (a.empty() != b.empty()) return a.empty();
-  return whole_a < whole_b;  // such as 1 and 01
+  return whole_a < whole_b;  // values are equal, as for 1 and 01
 }
 
 /// The mesh files of a folder, in the order of their names.
@@ -84,8 +84,8 @@ std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& poin
   return first;
 }
 
-/// The points that were the first in their places. Throws Error if a merged point is no longer in the place
-/// of its first point.
+/// The points of a frame that were the first in their places at frame 0. Throws Error if a point that was
+/// merged into such a point is no longer in the same place.
 std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
                                          const std::vector<std::size_t>& first, const std::string& where) {
   std::vector<Vector3<double>> kept;

@@ -29,8 +29,8 @@ Scene with_separation(Scene scene, double separation);
 /// One step of a scene.
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);
 
-/// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` says that it is enough. The
-/// mesh is the same object in all steps. This takes less time than moving_mesh for each step.
+/// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` returns true. The mesh is one
+/// object that moves from step to step, which takes less time than moving_mesh for each step.
 void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
                    const std::function<void(std::size_t step, const MovingMesh& mesh)>& visit);
 
@@ -41,19 +41,20 @@ std::string scene_family(const Scene& scene);
 /// several steps. No family of random queries has such a name.
 std::string step_name(const Scene& scene, std::size_t step);
 
-/// A scene of one step: the same mesh at t = 0 and at t = 1, from two files. Throws Error.
+/// A scene of one step: the same mesh at t = 0 and at t = 1, from two files. Throws Error if read_mesh does,
+/// or if the primitives differ.
 Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::path& end);
 
 /// A scene whose frames are the mesh files of a folder, in the order of their names. Numbers in names are
 /// compared by their values: frame 2 comes before frame 10. Files without the ending of a mesh format
 /// (pictures, notes), hidden files (".frame.obj") and folders are skipped. Throws Error if there are fewer
-/// than two meshes, or meshes with several endings, since it is unclear which are meant.
+/// than two mesh files, or if their endings differ, since it is then unclear which are meant.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
 /// The scene in which points that coincide at frame 0 (0 and -0 are equal) are merged. Files repeat points at
-/// seams; without merging, neighbours there would have no common vertex, and be tested for collision. After
-/// merging, a triangle may have a vertex twice. `points` throws Error for a frame in which merged points are
-/// apart.
+/// seams. Without merging, triangles on the two sides of a seam would have no common vertex, and be tested
+/// for collision. After merging, a triangle may have a vertex twice. For a frame in which merged points are
+/// apart, the result's `points` throws Error.
 Scene welded(Scene scene);
 
 }  // namespace nearmiss

@@ -65,7 +65,7 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::funct
 }
 
 void SceneTrial::add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks) {
-  constexpr std::size_t most_pictures = 5;  // a picture of a large mesh has up to 0.5 MB
+  constexpr std::size_t most_pictures = 5;  // a picture of a large mesh takes up to 0.5 MB
   const std::array rank{marks.missed(), marks.size()};
   const auto place = std::find_if(pictures_.begin(), pictures_.end(),
                                   [&](const RankedPicture& each) { return each.rank < rank; });

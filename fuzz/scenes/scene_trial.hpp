@@ -24,9 +24,9 @@ class SceneTrial {
   /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
-  /// Asks a single subject about the pairs of a step whose boxes meet and for which `is_asked` is true. They
-  /// are counted in the family of the whole scene (scene_family), and in `counts`. Returns the pairs that the
-  /// subject reports, in the order of the plan. Throws Stopped.
+  /// Asks a single subject about the pairs of a step whose boxes meet and for which `is_asked` returns true.
+  /// Counts these pairs in the family of the whole scene (scene_family), and in `counts`. Returns the pairs
+  /// that the subject reports, in the order of the plan. Throws Stopped when the trial's stop is due.
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
@@ -37,7 +37,7 @@ class SceneTrial {
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
 
-  /// The results of some parts that are not statistics of trials.
+  /// The results of some parts, except the statistics of their trials.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};
@@ -47,7 +47,8 @@ class SceneTrial {
     void merge(const PartResult& other);
   };
 
-  /// Asks about all parts of the plan. Without `is_asked`, about all of their pairs.
+  /// Asks about the pairs of all parts of the plan for which `is_asked` returns true; about all pairs if
+  /// `is_asked` is empty.
   PartResult hold_parts(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress,
                         const IsAsked& is_asked);
   /// Asks about one part of the plan; counts and marks its pairs.
@@ -57,13 +58,13 @@ class SceneTrial {
   /// Keeps the picture of a step if it ranks among the highest.
   void add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks);
 
-  /// Makes the plan of a step. Throws Stopped.
+  /// Makes the plan of a step. Throws Stopped when the trial's stop is due.
   void make_plan(const MovingMesh& mesh);
 
   const Scene& scene_;
   LeaveOut leave_out_;
   Trials& trials_;
-  /// The picture of a step, and the numbers of its primitives that are missed, and marked.
+  /// The picture of a step, with the numbers of missed and of marked primitives.
   struct RankedPicture {
     std::array<std::size_t, 2> rank;
     std::size_t step;

@@ -12,10 +12,10 @@
 namespace nearmiss {
 
 struct Verification {
-  std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out; all were decided
+  std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out; all decided
   std::uint64_t wrong = 0;     ///< pairs for which the oracle contradicts the plan
   std::uint64_t wrong_searches =
-      0;  ///< steps in which the tree finds other pairs than those whose boxes meet
+      0;  ///< steps in which the pairs that the tree finds are not exactly those whose boxes meet
   std::map<std::string, std::uint64_t> spared;  ///< false positives of each subject on pairs left out
   double seconds = 0;  ///< time to ask the oracle and the subjects about all left-out pairs
 
@@ -24,9 +24,9 @@ struct Verification {
 };
 
 /// Asks the subjects and the oracle about every pair of a step that the plan leaves out. If the boxes of a
-/// pair do not meet, the oracle must find no collision; for rest and translation, it must agree with the
-/// plan. The pairs whose boxes meet must be those that the plan's tree finds. `progress` receives the
-/// completed share, and returns whether to continue.
+/// pair do not meet, the oracle must find no collision; for relative rest and translation, it must agree with
+/// the plan. The plan's tree must find exactly the pairs whose boxes meet. `progress` receives the completed
+/// share, and returns whether to continue.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 

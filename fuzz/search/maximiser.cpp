@@ -104,10 +104,10 @@ double Maximiser::value_at(const std::vector<double>& x) {
   try {
     value = show(point_at(x));
   } catch (...) {
-    error_ = std::current_exception();  // the optimiser would take it for an exception of its own
+    error_ = std::current_exception();  // the optimiser must not see it
   }
   if (over()) optimiser_->force_stop();
-  return std::min(value, 1e3);  // finite, because optimisers compute with it
+  return std::min(value, 1e3);  // finite, because optimisers compute with the value
 }
 
 SearchPoint Maximiser::point_at(const std::vector<double>& x) const {

@@ -24,8 +24,8 @@ class Maximiser {
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// Step sizes are drawn between `finest_step` and 0.5. With `moves_vertices`, which breaks contacts, every
-  /// second optimisation moves vertices in place of the coordinates of SearchPoint::visit().
+  /// Step sizes are drawn between `finest_step` and 0.5. With `moves_vertices`, every second optimisation
+  /// moves vertices instead of the coordinates of SearchPoint::visit(); this breaks contacts.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective,
             bool moves_vertices = false)
       : random_(random),
@@ -40,15 +40,16 @@ class Maximiser {
  private:
   [[nodiscard]] bool over() const;
   double show(const SearchPoint& point);
-  /// Optimises from the best point so far, or from one near it (`beside`), with steps of a random size.
+  /// Optimises from the best point so far, or with `beside` from a point near it, with steps of a random
+  /// size.
   void optimise(bool beside);
-  /// Moves vertices of the best point so far. A step that gains is repeated, each time twice as long. The
-  /// size of steps grows after a gain, and shrinks after a step without one.
+  /// Moves vertices of the best point so far. A step that improves the point is repeated, each time twice as
+  /// long. The size of steps grows after an improvement, and shrinks after a step without one.
   void move_vertices();
-  /// Draws one displacement along some axes, for one of the eight positions (four vertices, at t = 0 and
-  /// t = 1) or for several.
+  /// Draws one displacement along some axes, and applies it to one or several of the eight positions (four
+  /// vertices, at t = 0 and t = 1).
   Displacements draw_step(double size);
-  /// Whether the best point is improved by this step.
+  /// Whether this step improves the best point; if so, takes it.
   bool gains(const Displacements& step);
   /// The objective as an optimiser sees it.
   double value_at(const std::vector<double>& x);

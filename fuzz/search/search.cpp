@@ -28,16 +28,17 @@ class Searched {
   [[nodiscard]] const Subject& operator*() const { return subject_; }
   [[nodiscard]] const Subject* operator->() const { return &subject_; }
 
-  /// Draws the separation of one search. It is 0, and takes no random number, if the search is for contact.
+  /// Draws the separation of one search. If the search is for contact, the separation is 0, and no random
+  /// number is drawn.
   [[nodiscard]] double separation(Random& random, Kind kind) const {
     if (!separation_) return 0;
     const SearchPoint typical = draw_search_point(random, usually_smallest);
     return separation_(random, query_of(kind, typical, 0));
   }
 
-  /// The objective of a query: `value` of the subject's answer. It is `unwanted` if the query is not finite
-  /// or breaks the subject's contract, or if the subject is not asked any more. It is `if_slow` if the answer
-  /// exceeds the time limit. Throws Stopped.
+  /// The objective of a query: `value` of the subject's answer; `if_slow` if the answer exceeds the time
+  /// limit; `unwanted` if the query is not finite or breaks the subject's contract, or if the subject is not
+  /// asked any more. Throws Stopped when the stop is due.
   template <class Value, class IfSlow>
   double objective(const Query& query, const Value& value, const IfSlow& if_slow) const {
     constexpr int most_slow_searches = 3;
@@ -67,15 +68,15 @@ double reach(const Subject& subject, const Query& query) {
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives, which is smaller than usual if the subject has a small reach. That of two
-/// vertices, or of a vertex and an edge, is small for other reasons: it is the distance less h.
+/// The smallest size of primitives: smaller than usual if the subject has a small reach, except for vv and
+/// ve, whose reach, the distance less h, is small for other reasons.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical, 0)));
 }
 
-/// Counts a search that a query over the time limit ends; returns the value that ends it.
+/// Counts a search that a query over the time limit ends. Returns the objective's value that ends a search.
 double ended_by(const Searched& subject) {
   subject.count_slow_search();
   return HUGE_VAL;
@@ -103,7 +104,7 @@ struct Mixture {
   }
 };
 
-/// A point whose primitives meet: on a grid on which this is exact, or within h up to rounding errors.
+/// A point whose primitives meet: exactly, on a grid, or up to rounding errors, within h.
 SearchPoint meeting(const SearchPoint& point, bool exactly, double h) {
   return exactly ? on_grid(point) : with_gap_within(point, h);
 }
@@ -174,7 +175,7 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// time - t*, with the accuracy `rough_time`, or `least` if the difference is small.
+  /// time - t*, where t* has the accuracy `rough_time`; `least` if the difference is small.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);
@@ -184,8 +185,8 @@ struct GivenTime {
   static constexpr double least = 0x1p-50;
 };
 
-/// A late time has a higher value than any other time: the later it is, the higher. For all other times, the
-/// value is the higher the smaller (t* - time) / t* is.
+/// The value of a time for late_search. Any late time has a higher value than any other time, and later times
+/// have higher values. Among the other times, a smaller (t* - time) / t* gives a higher value.
 double lateness(const GivenTime& given) {
   constexpr double late = 200;
   const double least = GivenTime::least;
@@ -236,8 +237,9 @@ Query search_time(const Searched& subject, Random& random, Kind kind) {
 
 /// The family of a search's results. Its name consists of the prefix and the subject's name.
 ///
-/// A query of directed search takes about as long as a few thousand others. The subjects' times do not count,
-/// because batches are small, and the search leaves the caches warm only for the subject that it searches.
+/// A query of directed search takes about as long as a few thousand queries of other families. The subjects'
+/// run times do not count, because batches are small, and the search warms the caches only for its own
+/// subject.
 Family search_family(std::string_view prefix, std::string_view about,
                      Query (*search_one)(const Searched&, Random&, Kind), const Subject& subject,
                      const Stop& stop, std::string_view separation) {

@@ -20,7 +20,8 @@ SearchPoint draw_search_point(Random& random, double smallest) {
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
   };
-  // The order of evaluating arguments is up to the compiler, so each is drawn in its own statement.
+  // Each number is drawn in its own statement, since the compiler chooses the order in which it evaluates
+  // arguments.
   const auto some_path = [&] {
     const Vector start = random.vector(some(smallest, 1));
     return path(start, random.one_in(3) ? 0 : some(smallest, 1));

@@ -10,8 +10,8 @@ namespace nearmiss {
 /// How far each vertex is moved, in the order of Query::x.
 using Displacements = std::array<double, 24>;
 
-/// A contact, in the frame in which `base` is at rest at the origin, a gap between the primitives, and
-/// displacements of the vertices from there.
+/// A contact, in the frame in which `base` is at rest at the origin, with a gap between the primitives, and
+/// displacements that are then added to the vertices.
 struct SearchPoint {
   Path q, r;
   Vector3<double> w;      ///< velocity of the first primitive's point of contact
@@ -19,7 +19,7 @@ struct SearchPoint {
   Vector3<double> gap;
   Displacements moved{};
 
-  /// Visits all vectors, without the gap if the primitives must touch.
+  /// Visits all vectors except the displacements; also skips the gap if the primitives must touch.
   template <class Visit>
   void visit(bool touching, const Visit& visit_vector) {
     for (Vector3<double>* v : {&q.start, &q.end, &r.start, &r.end, &w, &place}) visit_vector(*v);
@@ -30,11 +30,11 @@ struct SearchPoint {
 /// The lower end of the usual range of sizes and speeds.
 inline constexpr double usually_smallest = 1e-5;
 
-/// A number from lo to hi, uniform on a logarithmic scale, which is the same with every C library.
+/// A log-uniform number from lo to hi, with the same bits with every C library.
 double search_log_uniform(Random& random, double lo, double hi);
 
-/// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some are thin, move in their
-/// plane, or stay near one plane; contact may be on a border or at an end of the step.
+/// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some primitives are thin, move
+/// in their plane, or stay near one plane; contact may be on a border or at an end of the step.
 SearchPoint draw_search_point(Random& random, double smallest);
 
 /// Rounds to a grid on which contact is exact.

@@ -13,7 +13,7 @@ namespace {
 using Points = std::array<Vector3<double>, 4>;
 using Weights = std::array<double, 4>;
 
-/// Keeps the nearest of the points that are offered.
+/// Keeps the nearest of the offered pairs of points.
 class Nearest {
  public:
   explicit Nearest(const Points& x) : x_(x) {}
@@ -27,7 +27,7 @@ class Nearest {
     weights_ = weights;
   }
 
-  /// Offers a vertex and its nearest point on an edge. The weights of the vertex have the sign `side`.
+  /// Offers a vertex and the point of an edge nearest to it. The vertex gets the weight `side`.
   void offer_vertex_edge(std::size_t vertex, std::size_t from, std::size_t to, double side) {
     const Vector3<double> edge = x_[to] - x_[from];
     const double squared = dot(edge, edge);
@@ -58,14 +58,14 @@ std::array<double, 2> coefficients(const Vector3<double>& u, const Vector3<doubl
   return {(vv * wu - uv * wv) / area, (uu * wv - uv * wu) / area};
 }
 
-/// The foot of the vertex on the triangle's plane, if it is inside.
+/// Offers the vertex and its projection onto the triangle's plane, if the projection is inside the triangle.
 void offer_face(const Points& x, Nearest& nearest) {
   const auto [second, third] = coefficients(x[2] - x[1], x[3] - x[1], x[0] - x[1]);
   if (is_inside(second) && is_inside(third) && second + third < 1)
     nearest.offer({1, -(1 - second - third), -second, -third});
 }
 
-/// The feet of the common perpendicular of two edges, if both are inside.
+/// Offers the ends of the common perpendicular of two edges, if both ends are inside the edges.
 void offer_perpendicular(const Points& x, Nearest& nearest) {
   const auto [back, t] = coefficients(x[1] - x[0], x[3] - x[2], x[0] - x[2]);
   const double s = -back;

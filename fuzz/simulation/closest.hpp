@@ -7,9 +7,9 @@
 
 namespace nearmiss {
 
-/// The weights of the closest points of the two primitives of a pair: those of the first primitive's vertices
-/// sum to 1, those of the second's to -1. So the sum of the weighted vertices is the vector from the second
-/// point to the first.
+/// The weights of a pair's closest points. The weights of the first primitive's vertices sum to 1, those of
+/// the second primitive's vertices to -1. So the weighted sum of all vertices is the vector from the second
+/// primitive's closest point to the first primitive's.
 std::array<double, 4> closest_weights(Kind kind, const std::array<Vector3<double>, 4>& x);
 
 }  // namespace nearmiss

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The vertices opposite each edge of the triangles, and the neighbours of each point on lines.
+/// For each edge of a triangle, the opposite vertices; for each point on lines, its neighbours.
 struct Opposites {
   std::map<std::array<int, 2>, std::vector<int>> of_edge;
   std::map<int, std::vector<int>> on_lines;
@@ -91,7 +91,7 @@ Eigen::MatrixXd Cloth::right_side(const Eigen::MatrixXd& inertia, const PointVec
     const Vector3<double> apart = at[i] - at[j];
     const double now = length(apart);
     const Vector3<double> at_rest = now > 0 ? Vector3<double>(apart * (spring.length / now)) : apart;
-    // A held neighbour is known, so its term stands on the right side.
+    // The position of a held neighbour is known, so its term is on the right-hand side.
     const auto add = [&](std::size_t point, std::size_t neighbour, const Vector3<double>& direction) {
       if (row_of_[point] < 0) return;
       const Vector3<double> known = held_[neighbour] ? Vector3<double>(at[neighbour] + direction) : direction;

@@ -1,4 +1,4 @@
-// Cloth and hair as masses and springs, which implicit integration moves without regard to contacts.
+// Cloth and hair as masses and springs, moved by implicit integration that ignores contacts.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -14,19 +14,18 @@ namespace nearmiss {
 /// Points with springs along the edges of a mesh and across them: between the two vertices opposite an edge,
 /// and between the neighbours of a point of a hair. All springs are at rest in the given mesh.
 ///
-/// A step is one of backward Euler. Its equations are solved by alternating between the directions of all
-/// springs and the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
-/// mass-spring systems"). The matrix of the second is constant and positive definite, and an implicit step is
-/// stable for any stiffness; a stiff cloth only converges more slowly.
+/// A step is one of backward Euler, solved by alternating between the directions of all springs and the
+/// positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of mass-spring systems").
+/// The equations for the positions have a constant, positive definite matrix. The implicit step is stable for
+/// any stiffness; a stiff cloth only converges more slowly.
 class Cloth {
  public:
-  /// `held` has a value for each point: held points are moved by the caller. `step` is in seconds. Throws Error
-  /// if a spring's stiffness times the square of the step is more than 10^10 masses, for which double is too
-  /// coarse.
+  /// `held` says for each point whether the caller moves it. `step` is in seconds. Throws Error if a spring's
+  /// stiffness times the square of the step is more than 10^10 masses, for which double is too coarse.
   Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step);
 
-  /// The positions after a step from `start` (positions and velocities in m and m/s). Held points are at
-  /// their positions in `held_at`. `check` is called now and then, and may end the work by an exception.
+  /// The positions after a step from `start` (positions and velocities in m and m/s). Held points move to
+  /// their positions in `held_at`. Calls `check` now and then; an exception from `check` ends the work.
   [[nodiscard]] PointVectors advance(
       const PointVectors& start, const PointVectors& velocities, const PointVectors& held_at,
       const std::function<void()>& check = [] {}) const;

@@ -42,7 +42,8 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
   const auto& edges = topology(pair.kind).pqr;  // q and r, whose cross product is the normal
   const Vector3<double> u = x[edges[1].to] - x[edges[1].from];
   const Vector3<double> v = x[edges[2].to] - x[edges[2].from];
-  // The closest points give the normal while they are apart, and the primitives when they meet.
+  // Primitives that collide after t = 0 give the normal, unless they are nearly parallel; otherwise, the
+  // closest points do.
   const Vector3<double> cross = u.cross(v);
   constexpr double parallel = 1e-6;
   touch.normal = time > 0 && length(cross) > parallel * length(u) * length(v) ? cross : from;
@@ -56,8 +57,8 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
   return touch;
 }
 
-/// An impulse after which the primitives move apart along the normal by at least `least_normal_motion` in the
-/// step, with the friction that it causes.
+/// Applies an impulse after which the primitives move apart along the normal by at least
+/// `least_normal_motion` in the step, and the friction that the impulse causes.
 void Response::apply(const Candidate& pair, const Touch& touch, double least_normal_motion,
                      PointVectors& end) const {
   const double along = dot(touch.motion, touch.normal);

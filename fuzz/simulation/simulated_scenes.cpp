@@ -26,7 +26,7 @@ Held ends_of_tube(const Mesh& mesh) {
   return held;
 }
 
-/// The points of all bodies but the first.
+/// The points of all bodies except the first.
 Held other_bodies(const Mesh& mesh) {
   Held held;
   for (const int body : bodies(mesh).of_point) held.push_back(body != 0);
@@ -42,7 +42,7 @@ Held ends_of_lines(const Mesh& mesh) {
   return held;
 }
 
-/// Two equal sheets, vertex above vertex. The lower one is held by its corners.
+/// Two equal sheets, vertex above vertex. The corners of the lower sheet are held.
 Scene two_sheets(int size) {
   const int squares = std::max(2, nearest(std::sqrt(size / 4.0)));
   const int in_sheet = (squares + 1) * (squares + 1);
@@ -72,7 +72,7 @@ std::function<Scene(int size)> built_in(const std::string& name) {
   return [name](int size) { return built_in_scene(fmt::format("{}@{}", name, size)); };
 }
 
-constexpr int largest = 20'000;  // whose matrix takes less than a second
+constexpr int largest = 20'000;  // the matrix of this size takes less than a second
 
 }  // namespace
 

@@ -8,14 +8,14 @@
 
 namespace nearmiss {
 
-/// A scene of which some points move as its frames say, and physics moves all others. In its unit of length,
-/// an edge is about 1 long.
+/// A scene in which some points follow the frames, and physics moves all other points. Edges are about 1 long
+/// in the scene's unit of length.
 struct SimulatedScene {
   Scene scene;
-  std::vector<bool> held;  ///< for each point: whether it moves as the frames say
+  std::vector<bool> held;  ///< for each point, whether it follows the frames
 };
 
-/// All scenes, in the order in which they are listed.
+/// All simulated scenes, in the order of `nearmiss simulate --help`.
 const std::vector<BuiltInScene>& simulated_scenes();
 
 /// Makes the scene NAME in its default size, or NAME@SIZE. Throws Error if there is no such scene, or the

@@ -9,13 +9,13 @@ namespace nearmiss {
 
 namespace {
 
-/// The largest energy that is told, 100 kJ, for a simulation that explodes.
+/// The largest energy that results report, 100 kJ, even if a simulation explodes.
 constexpr double most_picojoules = 1e17;
 
-constexpr int impulse_rounds = 10;  ///< after which the CCD is asked again, before impact zones
-constexpr int zone_rounds = 20;     ///< before the last one, after which nothing is changed any more
+constexpr int impulse_rounds = 10;  ///< rounds of impulses, before those of impact zones
+constexpr int zone_rounds = 20;     ///< rounds of impact zones; one more round only asks
 
-/// The points that the lines of a mesh join to others, in groups.
+/// The groups of points that the lines of a mesh join.
 std::vector<std::vector<int>> groups(const Mesh& joined) {
   const Bodies found = bodies(joined);
   std::vector<std::vector<int>> all(static_cast<std::size_t>(found.count));
@@ -49,7 +49,8 @@ std::size_t Simulation::steps() const {
   return scene_.scene.steps() * static_cast<std::size_t>(steps_per_frame_);
 }
 
-/// The positions of held points after a step: interpolated between two frames, or those of the last frame.
+/// The positions of held points after a step: interpolated between two frames; from the last frame on, those
+/// of the last frame.
 PointVectors Simulation::held_positions(std::size_t step) const {
   const auto count = static_cast<std::size_t>(steps_per_frame_);
   const std::size_t frame = std::min((step + 1) / count, scene_.scene.steps());

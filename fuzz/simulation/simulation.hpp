@@ -16,14 +16,14 @@
 
 namespace nearmiss {
 
-/// Asks a CCD about the motion of a step: about the pairs for which `asked` is true and whose boxes meet.
-/// Returns those that it reports, in an order that is always the same.
+/// Asks a CCD about the pairs of a motion whose boxes meet and for which `asked` returns true. Returns the
+/// pairs that the CCD reports, in an order that is always the same.
 using AskCcd = std::function<std::vector<ReportedPair>(const MovingMesh& motion,
                                                        const std::function<bool(const Candidate&)>& asked)>;
 
-/// Moves a scene step by step: implicit integration, repulsion of near primitives, then rounds in which a CCD
-/// is asked and the reported pairs are stopped, at last by rigid impact zones. The result only depends on the
-/// arguments and the CCD's answers.
+/// Moves a scene step by step: by implicit integration, by repulsion of near primitives, then in rounds that
+/// ask a CCD and stop the reported pairs, first by impulses, then by rigid impact zones. The result depends
+/// only on the arguments and the CCD's answers.
 class Simulation {
  public:
   /// Each frame of the scene takes `steps_per_frame` steps of `step` seconds.
@@ -32,12 +32,13 @@ class Simulation {
   /// The number of steps until the last frame of the scene.
   [[nodiscard]] std::size_t steps() const;
 
-  /// Does the next step. The result has no counts of answers. Throws Stopped.
+  /// Does the next step. The result lacks the counts of answers, which the caller adds. Throws Stopped when
+  /// `stop` is due.
   SimulatedStep advance(const AskCcd& ask, const Stop& stop = Stop::never());
 
   /// The motion of the last step.
   [[nodiscard]] const MovingMesh& motion() const { return motion_; }
-  /// The edges and triangles that pass through each other after it.
+  /// The edges and triangles that pass through each other after the last step.
   [[nodiscard]] const std::vector<Piercing>& tangled() const { return tangled_; }
 
  private:
@@ -50,7 +51,7 @@ class Simulation {
   Material material_;
   double step_;
   int steps_per_frame_;
-  std::shared_ptr<const Cloth> cloth_;  ///< copies share it, because its matrix takes long to factorise
+  std::shared_ptr<const Cloth> cloth_;  ///< shared by copies, because factorising its matrix takes long
   Response response_;
   MovingMesh motion_;  ///< in metres
   PointVectors velocities_;

@@ -100,7 +100,7 @@ Family simulation_family(std::string_view name, const Stop& stop) {
   Family family{.name = std::string(name),
                 .about = "pairs that a simulation asks its CCD about",
                 .make = [pairs](Random& random, Kind kind) { return drawn(random, *pairs, kind); }};
-  if (!pairs->contains(Kind::vertex_triangle)) {  // as in a simulation of lines
+  if (!pairs->contains(Kind::vertex_triangle)) {  // in a simulation of lines
     family.kinds.fill(Kind::edge_edge);
     family.only = Kind::edge_edge;
   }

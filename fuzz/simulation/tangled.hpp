@@ -1,4 +1,4 @@
-// Which primitives of a mesh at rest pass through each other.
+// Finds primitives that pass through each other at the end of a motion.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@ struct Piercing {
   auto operator<=>(const Piercing&) const = default;
 };
 
-/// All edges that pass through the inside of a triangle at the end of the motion, in ascending order: the end
-/// points are on different sides of its plane, and the edge passes between its sides. Touching does not
-/// count. The signs of determinants that decide this are exact.
+/// All edges that pass through the inside of a triangle at the end of the motion, in ascending order: the
+/// edge's ends are on different sides of the triangle's plane, and the edge passes between the triangle's
+/// sides. Touching does not count. Exact signs of determinants decide this.
 std::vector<Piercing> find_tangled(const MovingMesh& mesh);
 
 }  // namespace nearmiss

@@ -94,8 +94,9 @@ std::vector<RoundingConstant> rounding_bounds() {
 }
 
 std::vector<RoundingConstant> rounding_consequences() {
-  // The squared distance at the computed time exceeds that at the exact time by at most 2 ‖x‖ ‖v‖ |t̂ - t|,
-  // with ‖x‖ <= √3 B (√3 2B for edges), ‖v‖ <= √3 b, and |t̂ - t| <= (error of x.v + error of v.v + 1) ε / b.
+  // The squared distance at the computed time t̂ exceeds the one at the exact time t by at most 2 ‖x‖ ‖v‖ |t̂
+  // - t|, with ‖x‖ <= √3 B (√3 2B for edges), ‖v‖ <= √3 b, and |t̂ - t| <= (error of x.v + error of v.v + 1)
+  // ε / b.
   const double moved = 2 * 3 * (9 + 9 + 1);
   const double moved_far = 2 * 3 * 2 * (2 * 9 + 9 + 1);
   const double squared_distance = 3 * 7;
@@ -104,7 +105,7 @@ std::vector<RoundingConstant> rounding_consequences() {
   const double root_eps = std::sqrt(eps);
   const auto paper = paper_tolerances(1.0);
   const double mu = cubic_residual(eps / 2) / eps;
-  const double psi = least_psi(eps / 2, paper.S, paper.rho) / root_eps;  // includes the error of G
+  const double psi = least_psi(eps / 2, paper.S, paper.rho) / root_eps;  // the error of G is part of it
 
   return {
       {"VV: quotient", "4.2", "eps (B/b + 1)", 10, 9},

@@ -1,4 +1,4 @@
-// The rounding constants of the paper and of ccd/, each with the quoted value, the value by the paper's
+// The rounding constants of the paper and of ccd/, each with its quoted value, the value by the paper's
 // Theorem 4.1, and the proven value.
 #pragma once
 
@@ -18,8 +18,8 @@ struct RoundingConstant {
   std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
   std::string_view unit;
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
-  /// The first-order bound by Theorem 4.1 for the operations in ccd/ on exact vectors; or the value that
-  /// follows from other rows.
+  /// The first-order bound by Theorem 4.1 for the operations in ccd/, applied to exact vectors; for a
+  /// consequence, the value that follows from other rows.
   double derived = none;
   /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors
   /// (ccd/wang/bounds/proven.hpp).
@@ -30,7 +30,7 @@ struct RoundingConstant {
   [[nodiscard]] bool is_too_small() const {
     return quoted > 0 && !(derived <= quoted) && !(proven <= quoted);
   }
-  /// Whether the constant is proven although the theorem does not show it.
+  /// Whether the constant is proven to be large enough, although the theorem does not show this.
   [[nodiscard]] bool needs_proof() const { return derived > quoted && proven <= quoted; }
   [[nodiscard]] double slack() const { return quoted / derived; }
 };
@@ -51,7 +51,7 @@ struct ToleranceRow {
   double tight_bound = 0;      ///< the distance bound of the smallest tolerances
   std::string_view
       paper_breaks;  ///< the first constraint that the closed forms violate; empty if there is none
-  std::string_view printed_breaks;  ///< the same, but with the errors that the paper states
+  std::string_view printed_breaks;  ///< as paper_breaks, with the errors that the paper states
 };
 
 /// A row for each of 16 precisions, from 11 to 256 bits.

@@ -19,14 +19,14 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// The families of contact; for a subject that takes separations, also the same families with drawn
-/// separations; for one that takes them for vertices and edges, also the families of these, as they are
-/// asked.
+/// The families to ask a subject: those of contact; if the subject takes separations for mesh queries, also
+/// these families with drawn separations; if it takes them for vv and ve queries, also as_asked() of each
+/// family in `of_vertices`.
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
                                  std::span<const Family> of_vertices);
 
-/// Runs a campaign until a subject misses a collision, its distance bound is refuted, or its time is late;
-/// nothing if the campaign ends before.
+/// Runs a campaign until a subject misses a collision, refutes its distance bound, or gives a late time.
+/// Returns nothing if the campaign ends without such a failure.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const Stop& stop);
 

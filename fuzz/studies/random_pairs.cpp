@@ -16,7 +16,7 @@ std::uint64_t valid_candidates(const VertexEdge<double>& ve, const Tolerances<do
   const detail::CrossProduct<double> g(ve.x0i, ve.xji, tol.rho);
   const int inside = detail::equal_components(ve.xji).count + detail::zero_components(g).count +
                      detail::piece_minima(g, ve.xji, tol.S).count;
-  return static_cast<std::uint64_t>(inside) + 2;  // and 0 and 1
+  return static_cast<std::uint64_t>(inside) + 2;  // plus the times 0 and 1
 }
 
 template <Kind kind>

@@ -12,9 +12,9 @@ namespace nearmiss {
 struct RandomPairs {
   std::uint64_t queries = 0;
   std::uint64_t boxes_meet = 0;   ///< the boxes that the primitives sweep
-  std::uint64_t not_culled = 0;   ///< by planes
-  std::uint64_t vertex_edge = 0;  ///< vertex-edge tests without the culling of §5, all those of a pair
-  std::uint64_t candidates = 0;   ///< their valid candidates: times in [0, 1] in the set T of Algorithm 2
+  std::uint64_t not_culled = 0;   ///< pairs that no plane separates
+  std::uint64_t vertex_edge = 0;  ///< all vertex-edge tests of these pairs, without the culling of §5
+  std::uint64_t candidates = 0;   ///< of these tests: times in [0, 1] in the set T of Algorithm 2
   double bounds = 0;              ///< sum of B divided by the longest edge at t = 0
 
   [[nodiscard]] double part(std::uint64_t some) const {
@@ -22,9 +22,9 @@ struct RandomPairs {
   }
 };
 
-/// Counts the first queries of the family `uniform` that have a kind, with all velocities multiplied by
-/// `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis. Throws Stopped if the
-/// stop is due.
+/// Counts the first queries of the given kind in the family `uniform`, with all velocities multiplied by
+/// `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis. Throws Stopped when
+/// `stop` is due.
 RandomPairs count_random_pairs(Kind kind, double speed, std::uint64_t queries, std::uint64_t seed,
                                const Stop& stop);
 

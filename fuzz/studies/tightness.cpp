@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// A group of the tests with which wang accepts a query. The subject is wang without the tests that accept
-/// from farther away than this group.
+/// A group of tests with which wang accepts queries. `subject` measures the group: it is wang without the
+/// tests that accept from farther away than this group.
 struct Tests {
   std::string_view name, subject;
 };
@@ -39,12 +39,12 @@ struct Gauge {
   Extreme nothing;
   std::unique_ptr<Subject> subject;
   Family search;
-  /// Measures a query. The result is `nothing.value` if the query shows nothing, and std::nullopt if it is
-  /// not of the kind that is measured (collisions, or false positives).
+  /// Measures a query. Returns `nothing.value` if the query shows nothing, and std::nullopt if it is no
+  /// collision (for a tolerance) or no false positive (for a group of tests).
   std::function<std::optional<double>(const Query&)> read;
 };
 
-/// A search as miss_search() or far_search(), among pairs of meshes or among vertices.
+/// The family of miss_search() or far_search(); with `among`, made among vv and ve queries.
 template <class Search>
 Family search_by(const Search& search, const Subject& subject, bool among, const Stop& stop) {
   return among ? among_vertices(search(subject, stop, drawn_separation)) : search(subject, stop, "");
@@ -58,8 +58,8 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among, const Stop& s
   const auto read = [&tolerance, &subject = *subject,
                      none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
-    // needed_tolerance is a slight overestimate. The query gives a value only if the subject indeed misses it
-    // with a slightly smaller factor.
+    // needed_tolerance() overestimates slightly. The query counts only if the subject indeed misses it with a
+    // slightly smaller factor.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;
@@ -79,7 +79,8 @@ Gauge tests_gauge(const Tests& tests, bool among, const Stop& stop) {
           std::move(search), read};
 }
 
-/// Whether Algorithms 1 and 2 do without this tolerance or group of tests.
+/// Whether only queries with four vertices use this tolerance or group of tests, since Algorithms 1 and 2 do
+/// not.
 bool needs_four_vertices(std::string_view name) {
   constexpr std::array<std::string_view, 4> all{"eta", "mu", "tau", "proximity"};
   return std::ranges::find(all, name) != all.end();
@@ -138,13 +139,13 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
       std::vector<Extreme> parts(wave, gauge.nothing);
       try {
         in_parallel(plan.jobs, wave, [&](std::size_t i) {
-          const std::uint64_t number = round * (wave / 2) + i / 2;  // index among the blocks of its sort
+          const std::uint64_t number = round * (wave / 2) + i / 2;  // index among blocks of its source
           const std::uint64_t families = plan.families.size();
           parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4, ending)
                                 : read_block(gauge, plan.families[number % families], plan.seed,
                                              1000 * (number / families), 1000, ending);
         });
-      } catch (const Stopped&) {  // the parts that are done count
+      } catch (const Stopped&) {  // completed parts count
       }
       for (const Extreme& part : parts) sum.merge(part);
       sink(sum, false);

@@ -14,11 +14,11 @@ namespace nearmiss {
 /// `defects()` lists the defects.
 std::vector<SubjectInfo> built_in_subjects();
 
-/// Makes a built-in subject, "NAME:SCALAR" (ladder/scalars.hpp) or "defect:NAME" (defects.hpp). `given_bound`
-/// is as for make_subject. Throws Error for an unknown name.
+/// Makes a built-in subject from its name, from "NAME:SCALAR" (ladder/scalars.hpp) or from "defect:NAME"
+/// (defects.hpp). `given_bound` means the same as for make_subject. Throws Error for an unknown name.
 std::unique_ptr<Subject> make_built_in(std::string_view name,
                                        std::optional<double> given_bound = std::nullopt);
-/// As make_built_in, but null for an unknown name.
+/// Like make_built_in, but returns null for an unknown name.
 std::unique_ptr<Subject> try_make_built_in(std::string_view name,
                                            std::optional<double> given_bound = std::nullopt);
 

@@ -43,12 +43,12 @@ bool has_at_most_one_root(const Query& query) {
   return roots.empty() || (roots.size() == 1 && roots.front().sign_of(F.derivative()) != 0);
 }
 
-/// Exact, since the remainder of fmod is exact.
+/// Whether all coordinates are multiples of the grid. Exact, because fmod is exact.
 bool is_on_grid(const Query& query, double grid) {
   return std::all_of(query.x.begin(), query.x.end(), [&](double c) { return std::fmod(c, grid) == 0; });
 }
 
-/// The square of the distance of two of the eight points: x0 to x3 at t = 0, then at t = 1.
+/// The squared distance of points p and q; points 0 to 3 are x0 to x3 at t = 0, and 4 to 7 at t = 1.
 Number squared_distance(const Query& query, std::size_t p, std::size_t q) {
   Number sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {

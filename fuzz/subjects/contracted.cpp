@@ -15,7 +15,7 @@ namespace {
 
 constexpr Verdict not_asked{.fault = Fault::contract};
 
-/// A subject that is asked only queries that keep its contract, or only those that do not.
+/// A subject that is asked only queries that keep its contract, or only queries that break it.
 class Contracted final : public ForwardingSubject {
  public:
   Contracted(std::shared_ptr<const Subject> subject, bool keeps)
@@ -63,7 +63,7 @@ class Contracted final : public ForwardingSubject {
     std::vector<std::size_t> places;  ///< in the batch
     std::vector<Query> queries;
 
-    /// Puts the results `own` of these queries into their places in the batch, and `other` into all other
+    /// Puts the results of these queries (`own`) into their places in the batch, and `other` into all other
     /// places.
     template <class Each>
     void spread(const std::vector<Each>& own, std::span<Each> all, const Each& other) const {

@@ -1,4 +1,4 @@
-// Contracts, and subjects that are asked only what their contracts allow.
+// Contracts, and subjects that are asked only queries that keep them.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace nearmiss {
 /// coplanar at all times, F counts as having more than one root.
 bool keeps_contract(const Query& query, const Contract& contract);
 
-/// For a subject with a contract, makes one that is asked only queries that keep the contract; all other
-/// queries get the fault `contract`. If `asks_beyond`, makes a second subject that is asked only these
-/// others, with the name "NAME (beyond contract)" (reports/statistics/failure.hpp). A subject without a
-/// contract is returned unchanged.
+/// Makes a subject that is asked only queries that keep the contract; all other queries get the fault
+/// `contract`. With `asks_beyond`, also makes the subject "NAME (beyond contract)"
+/// (reports/statistics/failure.hpp), which is asked only these other queries. A subject without a contract is
+/// returned unchanged.
 std::vector<std::unique_ptr<Subject>> keep_contract(std::unique_ptr<Subject> subject, bool asks_beyond);
 
 /// The requirements of a contract, in words; "" if it has none.

@@ -40,13 +40,13 @@ constexpr std::array tolerance_table{
     NamedTolerance{"eta", &Tolerances<double>::eta, 1, false},
 };
 
-/// Multiples of the paper's tolerances for double.
+/// The paper's tolerances for double, each multiplied by a factor.
 struct DefectiveTolerances {
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
-  /// These tolerances with the changed one loosened by s. If none is changed, all accepting tolerances are
-  /// loosened, as lengths.
+  /// These tolerances with the changed one loosened by the factor s. If none is changed, loosens all
+  /// accepting tolerances: lengths by s, squares of lengths by s², and so on.
   [[nodiscard]] DefectiveTolerances loosened(double s) const {
     DefectiveTolerances loose = *this;
     if (changed != nullptr) {
@@ -91,7 +91,7 @@ constexpr std::array<std::string_view, 3> sound_names{"wang", "wang-time", "adva
 struct NamedEdit {
   std::string_view name, about, of;
 
-  /// Its place among the sound subjects.
+  /// The place of that subject in sound_names.
   [[nodiscard]] constexpr std::ptrdiff_t place() const {
     return std::ranges::find(sound_names, of) - sound_names.begin();
   }
@@ -106,9 +106,9 @@ static_assert(std::ranges::all_of(edit_table, [](const NamedEdit& each) {
 /// The change that makes a sound subject defective.
 struct Change {
   Sound sound = Sound::wang;
-  int edit = 0;  ///< its number in edit_table, from 1; 0: none
+  int edit = 0;  ///< the number of the edit in edit_table, from 1; 0: none
   DefectiveTolerances tolerances = {};
-  bool in_float = false;  ///< whether it computes in float; wang-time: only the time
+  bool in_float = false;  ///< whether the subject computes in float; wang-time: only the time
 };
 
 template <Kind kind>
@@ -177,7 +177,7 @@ class DefectiveSubject final : public Subject {
   std::unique_ptr<Subject> sound_;
 };
 
-/// Defects in float, and the subjects of which they are made.
+/// A defect that computes in float, and the sound subject from which it is made.
 struct InFloat {
   std::string_view name, about;
   Sound of;

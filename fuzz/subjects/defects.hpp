@@ -12,15 +12,15 @@
 
 namespace nearmiss {
 
-/// The real code of a sound subject with one step left out or one tolerance changed.
+/// A defective subject: the real code of a sound subject, with one step left out or one tolerance changed.
 struct Defect {
   std::string name;  ///< "defect:vv"
   std::string about;
 };
 
-/// All defects. Those of wang: every tolerance times 1/2, 1/10, 1/100 and 0; tolerances that exclude
-/// degenerate primitives also times 10 and 100; every step left out; and float in place of double. Those of
-/// wang-time and advance: every step left out, and a time in float.
+/// All defects. Those of wang have one tolerance multiplied by 1/2, 1/10, 1/100 or 0 (or by 10 or 100, if it
+/// excludes degenerate primitives), leave out one step, or compute in float instead of double. Those of
+/// wang-time and advance leave out one step, or compute the time in float.
 std::span<const Defect> defects();
 
 /// The tolerances by name.
@@ -28,17 +28,19 @@ struct NamedTolerance {
   std::string_view name;
   double Tolerances<double>::*value;
   int dimension;  ///< the tolerance is a length to this power
-  bool accepts;   ///< a larger value accepts more; the other tolerances exclude degenerate primitives
+  bool accepts;   ///< whether a larger value accepts more pairs; otherwise, the tolerance excludes degenerate
+                  ///< primitives
 };
 std::span<const NamedTolerance> named_tolerances();
 
 /// The name of the defect that multiplies a tolerance: "defect:mu*0.5".
 std::string scaled_tolerance(std::string_view tolerance, double factor);
 
-/// Makes a defect from its name; a tolerance may have any factor >= 0. The subject promises what the sound
-/// one does: its distance bound and its sort of time. If the defect changes a tolerance, needed_tolerance()
-/// gives the factor that loosens this tolerance: it multiplies an accepting tolerance and divides any other.
-/// Nothing for a name that does not start with "defect:". Throws Error for an unknown defect.
+/// Makes a defect from its name; a tolerance may have any factor >= 0. The defect makes the promises of the
+/// sound subject: its distance bound and its sort of time. If the defect changes a tolerance,
+/// needed_tolerance() gives the factor by which this tolerance must be loosened: multiplied, if it is an
+/// accepting tolerance, otherwise divided. Returns null for a name that does not start with "defect:". Throws
+/// Error for an unknown defect.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

@@ -12,14 +12,14 @@
 namespace nearmiss {
 
 /// The subjects `exact`, `exact-scalar` and `exact-decision`: the certified filter, then exact arithmetic for
-/// the queries that it leaves undecided. `exact` decides many queries with h = 0 side by side, `exact-scalar`
-/// one at a time. Both give the largest double that is not after the earliest time; `exact-decision` gives no
-/// time. They claim to have no false positives, so their distance bound is 0.
+/// queries that the filter leaves undecided. `exact` decides many queries with h = 0 in parallel lanes,
+/// `exact-scalar` one at a time. Both give the largest double that is not after the earliest time;
+/// `exact-decision` gives no time. All three claim to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
 
-/// The kinds that a campaign asks if nobody says otherwise: those that a subject other than an exact one
-/// decides, and takes separations for if queries of this kind have some; those of meshes if there is no such
-/// subject.
+/// The kinds that a campaign asks by default: those that at least one subject can be asked, apart from exact
+/// subjects; without such a subject, vt and ee. A kind whose queries have separations needs a subject that
+/// takes them.
 std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
                                const std::function<bool(Kind)>& has_separations);
 

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// Passes everything on to another subject, which must outlive it. A derived class changes how that subject
-/// is asked by overriding decide() for batches, which decides single queries, too. decide_timed() and
+/// Passes everything on to another subject, which must outlive it. To change how that subject is asked, a
+/// derived class overrides decide() for batches, which also decides single queries. decide_timed() and
 /// time_each() do not call decide().
 class ForwardingSubject : public BatchSubject {
  public:

@@ -12,7 +12,8 @@ namespace nearmiss {
 /// Whether a text may be the NAME in NAME=SUBJECT: a letter, then letters, digits, '_', '.' and '-'.
 bool is_given_name(std::string_view text);
 
-/// A subject on the command line: [NAME=]SUBJECT. It has a NAME if it contains '=' before any ':' or '/'.
+/// A subject on the command line: [NAME=]SUBJECT. The text has a NAME if it contains '=' before any ':' or
+/// '/'.
 struct SubjectText {
   std::string name;  ///< "" if none is given
   std::string subject;
@@ -21,8 +22,8 @@ struct SubjectText {
   static SubjectText parse(std::string_view text);
 };
 
-/// The subject under another name, which replaces its own. Options, and the bound of a built-in subject, stay
-/// at the end: "new:KEY=VALUE", "new@0.5". Nothing changes if the name is "".
+/// The subject, renamed. Its options, and the bound of a built-in subject, stay at the end of the name:
+/// "new:KEY=VALUE", "new@0.5". If `name` is "", the subject is returned unchanged.
 std::unique_ptr<Subject> named(std::unique_ptr<Subject> subject, const std::string& name, bool is_plugin);
 
 /// The name that named() gave to a subject; "" if there is none.

@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Whether a sum is exact (Knuth's TwoSum), if it does not overflow.
+/// Whether a + b is exact (Knuth's TwoSum). The sum must not overflow.
 bool is_exact_sum(double a, double b) {
   const double sum = a + b;
   const double of_b = sum - a;
@@ -39,19 +39,19 @@ bool is_exact(const Recorded& each) {
   return true;
 }
 
-/// Whether the query that ends at tmax, rounded, is decided as the exact one.
+/// Whether the decision about the query that ends at tmax is the same before and after rounding.
 bool is_same_decision(const Recorded& each) {
   auto earliest = earliest_time(each.query);
   return earliest_time(each.asked()).has_value() == (earliest && earliest->enclosure().hi <= each.tmax);
 }
 
-/// A time as a part of [0, tmax]. A quotient that no double holds is rounded down, so that it is no later.
+/// The time divided by tmax, rounded down so that it does not become later.
 double part_of(double time, double tmax) {
   const double part = time / tmax;
   return std::fma(part, tmax, -time) > 0 ? std::nextafter(part, 0.0) : part;
 }
 
-/// What can be judged of a record of a file.
+/// The answer of a record in the form in which it can be judged; nothing if it cannot.
 std::optional<RecordedAnswer> judgeable(const std::filesystem::path& file, const Recorded& each) {
   const bool has_time = each.answer == NEARMISS_COLLISION && !std::isnan(each.time);
   RecordedAnswer judged{
@@ -85,14 +85,14 @@ class RecordedSubject final : public DescribedSubject {
     });
   }
   [[nodiscard]] BoundAnswer ask_bound(const Query& /*query*/) const override {
-    return BoundAnswer::given(HUGE_VAL);  // it claims none
+    return BoundAnswer::given(HUGE_VAL);  // claims no bound
   }
 
  private:
   Answers answers_;
 };
 
-/// The recorded answer as a verdict. A collision may lack a time, although others have one.
+/// The recorded answer as a verdict. A collision may lack a time even if other answers have times.
 Verdict verdict_of(const DetectorInfo& info, const RecordedAnswer& each) {
   if (each.answer == NEARMISS_COLLISION && std::isnan(each.time))
     return Verdict::accepted(Stage::unspecified, each.time);
@@ -128,7 +128,7 @@ std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
     Answers known;
     std::vector<RecordedAnswer> answers;
   };
-  std::array<std::vector<Made>, 2> made;  // of answers in double and in float
+  std::array<std::vector<Made>, 2> made;  // for answers in double, and in float
   for (RecordedAnswer& each : answers) {
     auto& passes = made[each.in_float ? 1 : 0];
     const Verdict verdict = verdict_of(info, each);

@@ -1,4 +1,4 @@
-// What the CCD of a recording answered, as a subject.
+// The answers of a recorded CCD, as a subject.
 #pragma once
 
 #include <cstdint>
@@ -16,37 +16,39 @@ namespace nearmiss {
 
 inline constexpr std::string_view recorded_name = "recorded";
 
-/// A query and its recorded answer, as they are judged.
+/// A query and its recorded answer, in the form in which they are judged.
 struct RecordedAnswer {
   std::filesystem::path file;
-  std::uint64_t number;  ///< of the record
+  std::uint64_t number;  ///< the number of the record
   Query query;
   int answer;     ///< as in nearmiss_subject.h
   double time;    ///< in the query's own step; NaN if none
   bool in_float;  ///< whether the program takes the step to that time in float
 };
 
-/// Records that are left out.
+/// Counts of records that are left out.
 struct LeftOut {
   UnusedRecords unused;
-  std::uint64_t rounded = 0;  ///< tmax is not 1, and no query of doubles stands for what was asked
+  std::uint64_t rounded = 0;  ///< tmax is not 1, and no query in doubles represents the recorded question
 };
 
-/// Passes on what can be judged of a recording, in order. If tmax is not 1, that is the query that ends at
-/// tmax. But below 1, a reported collision with a time is judged in the whole step, where the same times are
-/// late (and a collision after tmax counts as found), and any other answer on the rounded query if doubles do
-/// not hold the exact one, and it is decided in the same way. Throws Error.
+/// Passes on the records that can be judged, in order. If tmax is 1, or if tmax < 1 and the answer is a
+/// collision with a time, the answer is judged on the recorded query: a time is late in the whole step
+/// exactly if it is late in the part (but a collision after tmax counts as found). Any other answer is judged
+/// on the query that ends at tmax; if doubles cannot represent this query, then on the rounded query,
+/// provided that tmax < 1 and rounding does not change the decision. Throws Error as the reader of recordings
+/// does.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
-/// Some answers, no two different ones to the same query, and a subject that gives them under the name
-/// recorded_name. It promises lower bounds if any answer has a time.
+/// Some answers, with at most one answer per query, and a subject that gives these answers under the name
+/// recorded_name. The subject promises lower bounds if any answer has a time.
 struct RecordedPass {
   std::unique_ptr<Subject> subject;
   std::vector<RecordedAnswer> answers;
 };
 
-/// All answers, in as few passes as possible: a simulation may ask the same query twice, and get different
-/// answers.
+/// Divides all answers into as few passes as possible. Several are needed if a simulation asked the same
+/// query twice, and got different answers.
 std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers);
 
 }  // namespace nearmiss

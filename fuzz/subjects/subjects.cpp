@@ -22,7 +22,7 @@ namespace {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The plug-in of a subject that is given without NAME=.
+/// The plug-in of a subject's text without NAME=; nothing for other subjects.
 std::optional<std::string> plugin_of(std::string_view subject) {
   return is_plugin(subject) ? std::string(subject) : plugin_of_peer(subject);
 }
@@ -42,14 +42,14 @@ std::string stem_of(const std::filesystem::path& file) {
   return shared_object == std::string::npos ? file.stem().string() : name.substr(0, shared_object);
 }
 
-/// The last file that a program's command names; "" if it names none.
+/// The last file that a program's command names; "" if the command names no file.
 std::string file_of_program(std::string_view program) {
   const auto files = isolation::files_of_program(program.substr(program_prefix.size()));
   return files.empty() ? "" : files.back();
 }
 
-/// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if a NAME
-/// cannot begin with the file's name, or must not. "" if there is no file, or if neither text can be a NAME.
+/// A name made from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If this cannot be a
+/// NAME, or is a built-in name, then DETECTOR-FILE. "" if there is no file, or if neither can be a NAME.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";
@@ -65,8 +65,8 @@ std::string name_of_file(const Subject& subject) {
   return "";
 }
 
-/// Whether a plug-in or a renamed subject has the name of a built-in subject or a published CCD, so that a merge
-/// would add up the results of both.
+/// Whether a plug-in or a renamed subject has the name of another, built-in subject or published CCD, so that
+/// a merge would add up the results of both.
 bool takes_built_in_name(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   const bool is_renamed = !given_name(subject).empty();

@@ -14,21 +14,21 @@
 
 namespace nearmiss {
 
-/// The plug-in that a subject's text [NAME=]SUBJECT stands for: a path or a command stands for itself, the
-/// name of a published CCD for the plug-in that was built from its code (peers.hpp). Nothing for other
-/// subjects. Throws Error if the CCD is not built.
+/// The plug-in in a subject's text [NAME=]SUBJECT. A path or a command is a plug-in itself; the name of a
+/// published CCD stands for the plug-in that was built from its code (peers.hpp). Nothing for other subjects.
+/// Throws Error if the CCD is not built.
 std::optional<std::string> plugin_named(std::string_view text);
 
-/// Makes the subject of a text [NAME=]SUBJECT, which gets the NAME if there is one: a built-in subject (as
-/// make_built_in), or a plug-in (plugin_named), which runs in processes of its own (isolation/) under
-/// `limits`. Throws Error for an unknown subject, and for a shared object with several detectors if the text
-/// does not say which.
+/// Makes the subject of a text [NAME=]SUBJECT, and gives it the NAME if there is one. The subject is a
+/// built-in subject (as make_built_in), or a plug-in (plugin_named), which runs in processes of its own
+/// (isolation/) under `limits`. Throws Error for an unknown subject, and for a shared object with several
+/// detectors if the text does not choose one.
 std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});
 
-/// As make_any_subject, but if the text has no NAME= and names no detector of a shared object, makes a subject
-/// of each detector.
+/// Like make_any_subject, but if the text has no NAME= and chooses no detector of a shared object, makes a
+/// subject of each detector.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
@@ -36,17 +36,16 @@ std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
 /// Whether a name, apart from options and a bound, is that of a built-in subject or a published CCD.
 bool is_built_in_name(std::string_view name);
 
-/// Gives different names to plug-ins with equal names, such as versions of one CCD, or with a built-in
-/// name. Each that was not given a NAME gets the name of its file, "v1" for ./v1.so, or
-/// "v1.DETECTOR" if the file has several detectors or the detector was chosen. Throws Error if a name is still
-/// that of another subject.
+/// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each of
+/// them that has no NAME gets the name of its file: "v1" for ./v1.so, or "v1.DETECTOR" if the file has
+/// several detectors or the detector was chosen. Throws Error if two subjects still have the same name.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
-/// The name that a subject has without a given NAME, and without options: what a plug-in calls itself.
+/// The name of a subject without a given NAME and without options: for a plug-in, the exported name.
 std::string own_name(const Subject& subject);
 
-/// The text that makes a subject under its name, whatever other subjects there are: "v1=./v1.so"; without
-/// NAME= if it has its own name.
+/// A text that makes this subject under its present name, independent of other subjects: "v1=./v1.so";
+/// without NAME= if the subject has its own name.
 std::string text_of(const Subject& subject);
 
 }  // namespace nearmiss

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = Stop::Clock;
 
-/// Runs a campaign: its work consists of slices, whose cases count in their order.
+/// Runs a campaign. Its work consists of slices, which count in the order of their cases.
 class CampaignRun {
  public:
   CampaignRun(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink, const Stop& stop)
@@ -32,7 +32,7 @@ class CampaignRun {
     trials_.run([&] { return next(); });
     if (!is_enough_) {
       progress_.is_asking = false;
-      trials_.pass_on();  // tells the sink that only shrinking is left, which takes time
+      trials_.pass_on();  // tells the sink that only shrinking is left
       trials_.finish();
     }
     progress_.complete =
@@ -51,7 +51,7 @@ class CampaignRun {
                 [this, cases = slice->cases()](bool complete) { return counts(cases, complete); }};
   }
 
-  /// A slice counts unless it, or one before it, was interrupted.
+  /// Whether a slice counts: neither this slice nor an earlier one was interrupted.
   bool counts(std::uint64_t cases, bool complete) {
     is_over_ = is_over_ || !complete;
     if (!is_over_) progress_.cases += cases;

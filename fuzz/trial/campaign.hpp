@@ -13,38 +13,38 @@
 namespace nearmiss {
 
 /// The plan of a campaign. Its cases have an order (case_order.hpp). The cases that count are always the
-/// first ones in that order, so the result depends neither on `jobs` nor on how often the campaign was
-/// stopped and resumed. The shards together give the result of the whole campaign, except for subjects that
-/// are set aside (so_far.hpp).
+/// first ones in this order, so the result depends neither on `jobs` nor on how often the campaign was
+/// stopped and resumed. Merging the results of all shards gives the result of the whole campaign, except for
+/// subjects that are set aside (so_far.hpp).
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 0;  ///< total, divided in proportion to `block_cases`; 0 if there is no end
+  std::uint64_t cases = 0;  ///< total, divided in proportion to `block_cases`; 0 for a campaign without end
   std::uint64_t first =
-      0;  ///< if there is no end: the number of cases of the shard to decide, in order; 0 is no limit
+      0;  ///< in a campaign without end: the number of the shard's cases to decide; 0 is no limit
   Comparison comparison;
-  bool shrink = true;  ///< whether the findings that are kept are shrunk
+  bool shrink = true;  ///< whether kept findings are shrunk
   int jobs = 1;
   std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
   std::uint64_t shards = 1;
-  Statistics before = {};                ///< of the cases of this shard that earlier runs decided
-  std::vector<Finding> findings_before;  ///< findings that these runs kept
+  Statistics before = {};                ///< of this shard's cases that earlier runs decided
+  std::vector<Finding> findings_before;  ///< findings that earlier runs kept
 };
 
 /// The progress of a campaign.
 struct CampaignProgress {
   std::uint64_t cases = 0;         ///< decided in this shard
   std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed
-  std::uint64_t of = 0;            ///< all cases of this shard; 0 if there is no end
+  std::uint64_t of = 0;            ///< all cases of this shard; 0 for a campaign without end
   std::size_t to_shrink = 0;       ///< findings that are still to be shrunk
   bool is_asking = true;           ///< false when only shrinking is left
   bool complete = false;           ///< whether this shard is completed, and all findings are shrunk
   std::chrono::duration<double> elapsed{};
 };
 
-/// Receives the results of further cases several times a second, in order, with the first findings of each
-/// signature and class (FirstFindings), and those that have been shrunk meanwhile. Returns false to end the
-/// campaign.
+/// Receives the results of further cases several times a second, in order. A result has the first findings of
+/// each signature and class (FirstFindings), and the findings that have been shrunk since the last result.
+/// Returns false to end the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
 /// Runs a plan until it is done, the sink ends it or `stop` is due; returns the progress.

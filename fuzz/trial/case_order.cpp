@@ -16,8 +16,8 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
   return sum;
 }
 
-/// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 and so
-/// on units, up to `largest()`; all later rounds have `largest()` units.
+/// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 units
+/// and so on, until a round has `largest()`; all later rounds have as many.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {
@@ -28,19 +28,19 @@ class Rounds {
     doublings_ = std::min<std::uint64_t>(doublings_, std::bit_width(std::max<std::uint64_t>(fitting, 1)) - 1);
   }
 
-  /// The unit with which a round begins.
+  /// The number of the unit with which a round begins.
   [[nodiscard]] std::uint64_t start(std::uint64_t round) const {
     if (round < doublings_) return (std::uint64_t{1} << round) - 1;
     return largest() * (round - doublings_ + 1) - 1;
   }
 
-  /// The round that contains the unit number `multiple`.
+  /// The round that contains unit number `multiple`.
   [[nodiscard]] std::uint64_t containing(std::uint64_t multiple) const {
     if (multiple + 1 < largest()) return std::bit_width(multiple + 1) - 1;
     return (multiple + 1) / largest() + doublings_ - 1;
   }
 
-  /// The number of rounds before those of the largest size.
+  /// The number of rounds before the first round of the largest size.
   [[nodiscard]] std::uint64_t doublings() const { return doublings_; }
   [[nodiscard]] std::uint64_t largest() const { return std::uint64_t{1} << doublings_; }
 
@@ -48,7 +48,7 @@ class Rounds {
   std::uint64_t doublings_ = 7;
 };
 
-/// The number of the plan's cases for family f, in proportion to the size of its blocks.
+/// The number of the plan's cases that family f gets, in proportion to its `block_cases`.
 std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
   std::uint64_t before = 0;
   for (std::size_t i = 0; i < f; ++i) before += plan.families[i].block_cases;
@@ -84,7 +84,7 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan, std::size_t f) {
   const std::uint64_t block_cases = plan.families[f].block_cases;
   const std::uint64_t share = share_of(plan, f);
   const std::uint64_t before = std::min(share, block_cases * rounds.start(rounds.doublings()));
-  const std::uint64_t whole = (share - before) / (block_cases * rounds.largest());  // full rounds
+  const std::uint64_t whole = (share - before) / (block_cases * rounds.largest());  // full large rounds
   const auto own_rounds = [&](std::uint64_t count) {
     return count / plan.shards + (plan.shard < count % plan.shards ? 1 : 0);
   };
@@ -104,13 +104,13 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 
 namespace {
 
-/// The index of a family's query by its number among those that are asked.
+/// The index of query `number` among the family's queries that are asked.
 std::uint64_t index_of_case(const Family& family, std::uint64_t number) {
   if (!family.only) return number;
   return family.kinds.size() * number + (family.kinds.front() == *family.only ? 0 : 1);
 }
 
-/// The number of a query among those that are asked.
+/// The number of query `index` among the family's queries that are asked.
 std::uint64_t case_of_index(const Family& family, std::uint64_t index) {
   return family.only ? index / family.kinds.size() : index;
 }

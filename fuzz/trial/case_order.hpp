@@ -1,10 +1,10 @@
 // The order of a campaign's cases: round by round, family by family.
 //
-// A round has a block of cases of every family. The first round has `block_cases` of a family, and every
-// later round twice as many as the one before, until a block is 128 times as large. So the cases decided by
-// any time are spread over all families, and subjects soon get large batches. A campaign with a given number
-// of cases is divided into 64 rounds or more where that is possible, so that its shards, which have every
-// n-th round, are of about the same size.
+// A round has a block of cases of every family. In the first round, a family's block has `block_cases` cases.
+// Every later round has blocks twice as large as the round before, up to 128 times the first. So at any time,
+// the decided cases are spread over all families, and subjects soon get large batches. A campaign with a
+// given number of cases is divided into at least 64 rounds if possible. Each of n shards has every n-th
+// round, so all shards have about the same size.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@
 
 namespace nearmiss {
 
-/// Cases [first, last) of a family: the queries of the kinds that are asked (`kinds_asked`), in their order.
+/// Cases [first, last) of a family. Its cases are the queries of the kinds that are asked (`kinds_asked`), in
+/// their order.
 struct CaseBlock {
   const Family* family;
   std::uint64_t first, last;
@@ -27,22 +28,22 @@ struct CaseBlock {
   [[nodiscard]] std::uint64_t cases() const { return last - first; }
 };
 
-/// The cases of one kind in a block. Throws Stopped.
+/// The cases of one kind in a block. Throws Stopped when `stop` is due.
 Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop);
 
-/// The number of cases in a plan's shard; 0 if there is no end.
+/// The number of cases in a plan's shard; in a campaign without end, plan.first.
 std::uint64_t cases_of_shard(const CampaignPlan& plan);
 
-/// The number of cases up to and including query `index` of a family in a campaign without shards.
+/// The number of a campaign's cases, without shards, up to and including query `index` of a family.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
-/// The cases of a plan's shard, in order. The plan must outlive it.
+/// The cases of a plan's shard, in order. The plan must outlive this object.
 class CasesOfShard {
  public:
   /// Begins after the first `done` cases.
   CasesOfShard(const CampaignPlan& plan, std::uint64_t done);
 
-  /// The next cases of one block, at most as many as `pace` says; nothing when all are done.
+  /// The next cases of one block, at most as many as `pace` chooses; nothing when all cases are done.
   std::optional<CaseBlock> next(const Pace& pace);
 
  private:

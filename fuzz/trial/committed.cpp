@@ -9,7 +9,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Moves the end of the query to the time, in this scalar. Returns whether all coordinates are finite.
+/// Replaces the end of the query by the positions at a time, computed in this scalar. Returns whether all
+/// coordinates are finite.
 template <class Scalar>
 bool move_end(Query& query, double time) {
   const auto t = static_cast<Scalar>(time);

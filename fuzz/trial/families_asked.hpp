@@ -1,4 +1,4 @@
-// The families that a trial of a program's own functions asks.
+// The families that a trial inside another program asks.
 #pragma once
 
 #include <span>
@@ -11,14 +11,15 @@
 
 namespace nearmiss {
 
-/// The families of these names, or of the groups `all` and `vertices`, of which these kinds are asked.
-/// Without names, all of pairs of meshes and of vertices and edges that have such kinds, in the order of a
-/// campaign. `separation` is "drawn" or a positive number, for families that have no separations of their
-/// own; if it is "", families of vertices and edges draw them, and the others ask for contact. Throws Error.
+/// The families with the given names, or in the groups `all` and `vertices`, restricted to queries of the
+/// given kinds; without names, all families that have such queries, in the order of a campaign. `separation`
+/// is "drawn" or a positive number, for families without separations of their own; if it is "", families of
+/// vv and ve queries draw separations, and the others ask for contact. Throws Error for an unknown name, or a
+/// family without queries of these kinds.
 std::vector<Family> families_asked(const std::vector<std::string>& names, std::span<const Kind> asked,
                                    std::string_view separation = {});
 
-/// Throws Error if one of the subjects is asked none of the families' queries.
+/// Throws Error if some subject would be asked no query at all.
 void expect_all_asked(const Subjects& subjects, std::span<const Family> families);
 
 }  // namespace nearmiss

@@ -17,8 +17,8 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 
 namespace {
 
-/// The magnitude of time - t*: an upper bound in the right bin of a Histogram, with a relative accuracy of
-/// 1/1000 unless it lies in the first bin; and its sign, 0 if the time certainly is t*.
+/// The difference time - t*. The magnitude is an upper bound in the right bin of a Histogram, with a relative
+/// accuracy of 1/1000 unless it lies in the first bin. The sign is 0 if the time certainly is t*.
 struct TimeDifference {
   double magnitude;
   int sign;
@@ -51,7 +51,7 @@ std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth)
                   .stuck = verdict.time == 0 && sign < 0};
   (sign > 0 ? error.after : error.early) = magnitude;
   error.travelled = error.early * truth.relative_speed();
-  if (!promised || error.late || verdict.time == 0) return error;  // without motion, nothing is committed
+  if (!promised || error.late || verdict.time == 0) return error;  // at time 0, the step has no motion
   if (const auto step = committed_step(truth.query(), verdict.time, subject_.rounds())) {
     const StepEnd end = end_of(*step);
     error.committed = end == StepEnd::touches;

@@ -27,41 +27,43 @@ class Judge {
  public:
   explicit Judge(const Subject& subject);
 
-  /// The distance with which a false positive is compared, in the query's unit of length: the bound that the
-  /// subject claims, or wang's bound for the same pair if the subject claims none; or why the subject fails
-  /// to give it.
+  /// The unit in which the distance of a false positive is measured, as a length: the subject's claimed
+  /// bound, or wang's bound for the same pair if the subject claims none. If the subject fails to give its
+  /// bound, the fault.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
-  /// Compares an answer with the truth about the query as the subject rounds it. If the smallest distance is
-  /// exactly the separation h > 0, any answer is right, and a report counts as that of a collision. A subject
-  /// that claims bounds must give a number >= 0 for a false positive; anything else is a fault. A subject
-  /// that cannot tell claims nothing about the distance. The ratio of a false positive is that of
-  /// `Truth::distance`, accurate to 1/1000 if a finding stores it or if it is at least `least_kept` (Counts).
-  /// It is 0 if the unit is beyond the largest double, since no distance is larger.
+  /// Compares an answer with the truth about the query, after the subject's rounding. If the smallest
+  /// distance is exactly the separation h > 0, any answer is right, and a reported pair counts as a
+  /// collision. A subject that claims bounds must give a number >= 0 for a false positive; anything else is a
+  /// fault. The answer "cannot tell" claims nothing about the distance. The ratio of a false positive is that
+  /// of `Truth::distance`, accurate to 1/1000 if a finding stores it or if it is at least `least_kept`
+  /// (Counts). The ratio is 0 if the unit is infinite, since no distance is larger.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0) const;
 
-  /// How the subject fails on a query; nothing if it does not. Throws Error as the subject does.
+  /// Asks the subject. Returns how it fails on a query; nothing if it does not. Throws Error as the subject
+  /// does.
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
   /// How the subject fails on a query with this answer.
   [[nodiscard]] std::optional<Failure> failure(const Query& query, const Verdict& verdict) const;
 
  private:
-  /// The outcome of an answer, without its distance; and the unit of that distance, if the answer is a false
-  /// positive other than "cannot tell", and the subject gives a finite unit.
+  /// The outcome of an answer, without the distance of a false positive; and the unit in which to measure
+  /// this distance, if it is to be measured: the answer is a false positive, is not "cannot tell", and
+  /// ask_unit() gives a finite unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
                                                                      Truth& truth) const;
-  /// The error of the time of a true positive; nothing if the subject gives none.
+  /// The error of a true positive's time of impact; nothing if the subject gives no time.
   [[nodiscard]] std::optional<TimeError> time_error(const Verdict& verdict, Truth& truth) const;
 
   const Subject& subject_;
-  std::unique_ptr<Subject> wang_;  // used for a subject that claims no bound
+  std::unique_ptr<Subject> wang_;  // gives the unit if the subject claims no bound
 };
 
-/// The finding of an outcome that fails (reports/statistics/failure.hpp); nothing if it does not fail, or if
-/// its failure makes no finding.
+/// The failure that an outcome shows (reports/statistics/failure.hpp); nothing if it shows none, or one that
+/// makes no finding.
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth);
 
-/// How the oracle fails on a query, that is, how its methods disagree; nothing if they agree.
+/// How the oracle's methods disagree about a query; nothing if they agree.
 std::optional<Failure> oracle_failure(const Query& query);
 
 }  // namespace nearmiss

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t separation = 24;  // its index among Numbers
+constexpr std::size_t separation = 24;  // the index of the separation among Numbers
 
 /// The path of a vertex along axis k consists of two coordinates: that at t = 0 has this index, and that at
 /// t = 1 has this index plus 12.
@@ -53,8 +53,9 @@ void exchange(Numbers& x, std::size_t v, std::size_t w) {
     std::swap_ranges(start + 3 * v, start + 3 * v + 3, start + 3 * w);
 }
 
-/// Scales all axes together, or each one, so that the largest magnitude is in [2^exponent, 2^(exponent + 1)),
-/// and rounds. A separation that is scaled with all axes becomes 1 at least, since 0 asks another question.
+/// Scales all axes together, or each axis by itself, so that the largest magnitude is in [2^exponent,
+/// 2^(exponent + 1)), and rounds to integers. A separation, which is scaled only with all axes, becomes at
+/// least 1, since 0 would ask another question.
 void round(Numbers& x, int exponent, bool each_axis) {
   const bool has_separation = x[separation] != 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -69,8 +70,8 @@ void round(Numbers& x, int exponent, bool each_axis) {
   }
 }
 
-/// Scales the query by powers of two, and rounds all coordinates to integers that are small, or a little
-/// larger. Before that, a vertex moves to the origin: at t = 0, or at all times.
+/// Moves a vertex to the origin, at t = 0 or at all times. Then scales the query by powers of two, and rounds
+/// all coordinates to integers: small ones, or somewhat larger ones.
 Neighbourhood round_all(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (const int exponent : {0, 1, 2, 3, 4, 6})
@@ -86,8 +87,8 @@ Neighbourhood round_all(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Sets all coordinates of an axis to 0, or subtracts the coordinates of one point at t = 0, at t = 1 or
-/// both, or those of a moving point. If the subtraction is exact, no contact is lost.
+/// Sets all coordinates of an axis to 0, or subtracts from them the coordinate of one point at t = 0, at t =
+/// 1 or at both, or that of a moving point. An exact subtraction keeps every contact.
 Neighbourhood move_axes(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -104,7 +105,7 @@ Neighbourhood move_axes(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Subtracts a multiple of one axis from another, so that a coordinate becomes 0.
+/// Subtracts a multiple of one axis from another axis, so that a coordinate becomes 0.
 Neighbourhood shear_axes(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k)
@@ -118,7 +119,7 @@ Neighbourhood shear_axes(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Copies the motion of one vertex to another, or one point to another.
+/// Copies the motion of one vertex to another vertex, or one point to another point.
 Neighbourhood join_vertices(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t to = 0; to < 8; ++to)
@@ -163,8 +164,8 @@ Neighbourhood change_times(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Divides all numbers, or the coordinates of an axis, a vertex or a path, by one of these numbers, by a
-/// power of two near one of them, or by a small number.
+/// Divides all numbers, or the coordinates of an axis, a vertex or a path, by one of the divided numbers, by
+/// a power of two near one of them, or by a small number.
 Neighbourhood scale(const Numbers& numbers) {
   std::vector<Set> sets{everything};
   for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -191,9 +192,8 @@ Set alike(const Numbers& x, std::size_t i) {
   return set;
 }
 
-/// Replacements of numbers of one magnitude: 0; a small number; another number of the query; a number so
-/// small that its sum with 1 is rounded to 1, or so large that this sum is rounded to the number; a number
-/// with fewer bits.
+/// Replacements of numbers of one magnitude: 0; a small number; another number of the query; a number y so
+/// small that 1 + y is rounded to 1, or so large that 1 + y is rounded to y; a number with fewer bits.
 Alternatives replacements(const Numbers& numbers, Set set) {
   const double magnitude = std::abs(numbers[static_cast<std::size_t>(std::countr_zero(set))]);
   if (magnitude == 0) return {};
@@ -227,7 +227,7 @@ Neighbourhood change_numbers(const Numbers& x) {
     Set last = 0;
     for (const Set within : {everything, of_axis, of_path, only(i)}) {
       const Set set = alike(x, i) & within;
-      if (set != last && set % only(i) == 0)  // each set once, at its first member
+      if (set != last && set % only(i) == 0)  // take each set once, at its first member
         changes.push_back(replacements(x, set));
       last = set;
     }

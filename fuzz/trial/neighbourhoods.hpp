@@ -9,17 +9,18 @@
 
 namespace nearmiss {
 
-/// A change of a query's numbers; it may leave them as they are, or make the query less simple.
+/// A change of a query's numbers. It may leave the numbers as they are, or make the query less simple.
 using Change = std::function<void(Numbers&)>;
 
-/// Changes of which at most one is taken: the first that simplifies the query and leaves it failing.
+/// Changes of which the shrinker takes at most one: the first that simplifies the query and leaves it
+/// failing.
 using Alternatives = std::vector<Change>;
 
-/// Changes of a query, one after the other.
+/// The entries are tried one after the other.
 using Neighbourhood = std::vector<Alternatives>;
 
-/// All neighbourhoods of a query, in the order in which they are tried. Each function makes its neighbourhood
-/// from the query's present numbers when it is called.
+/// The functions that make the neighbourhoods of a query from its present numbers, in the order in which they
+/// are tried.
 std::vector<std::function<Neighbourhood(const Numbers&)>> neighbourhoods(Kind kind);
 
 }  // namespace nearmiss

@@ -9,9 +9,9 @@
 
 namespace nearmiss {
 
-/// Chooses the size of slices of cases such that one takes at most about a tenth of a second: work looks at
-/// its limits between slices. By default, a slice has no more cases than fit into a processor's caches, with
-/// all that is noted about them. No result except run times depends on it. Many threads use it at once.
+/// Chooses the sizes of slices of cases. A slice takes at most about a tenth of a second, because trials look
+/// at their limits only between slices. By default, the cases of a slice, with all that is noted about them,
+/// fit into a processor's caches. Only run times depend on the sizes. Many threads use a Pace at once.
 class Pace {
  public:
   using Duration = std::chrono::duration<double>;

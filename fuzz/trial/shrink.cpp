@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The length, in words, of the integers in exact arithmetic with a query's numbers.
+/// The length, in machine words, of the integers that exact arithmetic with a query's numbers needs.
 int words(const Numbers& x) {
   const auto all = magnitudes(x);
   if (all.empty()) return 1;
@@ -54,8 +54,8 @@ class Shrinker {
     return query;
   }
 
-  /// Takes the changes that make the query simpler and leave it failing, in their order. Asks about many
-  /// changes at once, and about more after each batch without a failure.
+  /// Takes, in their order, the changes that make the query simpler and leave it failing. Asks about many
+  /// changes in a batch, and about more after each batch in which no query fails.
   void explore(const Neighbourhood& changes) {
     constexpr std::size_t largest_batch = 64;
     std::size_t size = 1;
@@ -75,7 +75,8 @@ class Shrinker {
     }
   }
 
-  /// At most `size` candidates, from the place (`entry`, `alternative`) on. Moves the place behind them.
+  /// At most `size` candidates, from the place (`entry`, `alternative`) on. Moves the place behind the last
+  /// of them.
   std::vector<Candidate> candidates(const Neighbourhood& changes, std::size_t& entry,
                                     std::size_t& alternative, std::size_t size) const {
     std::vector<Candidate> batch;
@@ -94,7 +95,7 @@ class Shrinker {
   /// another.
   bool is_simpler(Candidate& candidate) const {
     Numbers& x = candidate.numbers;
-    for (double& c : x) c += 0.0;  // makes -0 into 0
+    for (double& c : x) c += 0.0;  // turns -0 into 0
     x.back() = std::abs(x.back());
     if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); })) return false;
     const Query changed = query_of(x);

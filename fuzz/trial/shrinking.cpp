@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The part of all processors' time that shrinking takes while there is something to ask.
+/// The largest part of all processors' time that shrinking takes while queries are being asked.
 constexpr double share = 0.1;
 
 }  // namespace
@@ -51,7 +51,7 @@ void Shrinking::add(const Finding& finding, std::size_t nth) {
     waiting_.emplace(Priority{finding.query_class, nth, number}, Task{number, finding});
   }
   has_changed_.notify_all();
-  if (threads_.empty()) start();  // if the system has no thread left, tried again later
+  if (threads_.empty()) start();  // if the system has no thread left, a later call tries again
 }
 
 std::map<std::size_t, Finding> Shrinking::take() {
@@ -75,8 +75,8 @@ bool Shrinking::start() {
 }
 
 void Shrinking::shrink(Task& task) {
-  // For a query over the time limit, every step would take as long as that limit. Only `nearmiss shrink`
-  // shrinks such findings.
+  // Every step of shrinking a query over the time limit would take as long as that limit. Only `nearmiss
+  // shrink` shrinks such findings.
   const bool is_slow = failure_of(signature_of(task.finding)) == FailureKind::slow;
   try {
     if (is_slow)

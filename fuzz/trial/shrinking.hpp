@@ -1,4 +1,4 @@
-// Shrinks findings beside a trial, so that no query waits for it.
+// Shrinks findings while a trial goes on, so that no query waits.
 #pragma once
 
 #include <chrono>
@@ -19,23 +19,23 @@
 
 namespace nearmiss {
 
-/// Shrinks findings on a thread of its own for at most a tenth of all processors' time, and the rest at the
-/// end. Findings of ordinary queries come first, and the first finding of each signature before the second.
-/// The order does not change what findings are shrunk to. Its functions are called by one thread at a time.
+/// Shrinks findings: during the trial on a thread of its own, for at most a tenth of all processors' time,
+/// and the remaining ones at the end. Findings of ordinary queries come first, and the first finding of each
+/// signature before the second. The order does not affect the shrunk queries. Only one thread at a time may
+/// call the functions of this class.
 class Shrinking {
  public:
-  /// Shrinks the findings that are kept (FirstFindings) unless `enabled` is false. Subjects and `stop` must
-  /// outlive it.
+  /// With `enabled`, shrinks kept findings (FirstFindings). Subjects and `stop` must outlive this object.
   Shrinking(const Subjects& subjects, int jobs, const Stop& stop, bool enabled);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
   ~Shrinking();
 
-  /// Takes on a finding, which gets the next number, from 0 on.
+  /// Takes on a finding, and gives it the next number, from 0 on.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
-  /// Removes from a result all findings but the first ones of each signature and class (FirstFindings),
-  /// which it takes on, and gives these their certificates. Adds the findings that have been shrunk since
+  /// Takes on the first findings of each signature and class (FirstFindings) in a result, and gives them
+  /// certificates; removes all other findings from the result. Adds the findings that have been shrunk since
   /// the last call. Throws what shrinking threw.
   void sift(TrialResult& result);
 
@@ -45,16 +45,16 @@ class Shrinking {
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t left() const;
 
-  /// Shrinks the rest on all cores, until `stop` is due, with its grace. Calls `report` several times a
-  /// second.
+  /// Shrinks the remaining findings on all cores, until `stop` and its grace are over. Calls `report` several
+  /// times a second.
   void finish(const std::function<void()>& report);
 
  private:
   using Clock = Stop::Clock;
   /// `nth` is the finding's number among those of its signature and class.
   void add(const Finding& finding, std::size_t nth);
-  /// The order of shrinking: by class, then by the number among the findings of the same signature and class,
-  /// then by the number among all.
+  /// The order of shrinking: by class, then by number among the findings of the same signature and class,
+  /// then by number among all findings.
   using Priority = std::tuple<QueryClass, std::size_t, std::size_t>;
   struct Task {
     std::size_t number;
@@ -63,10 +63,10 @@ class Shrinking {
 
   /// Starts a thread that works; returns false if the system has no thread left.
   bool start();
-  /// Shrinks what waits, and waits for more unless all queries have been asked.
+  /// Shrinks the waiting findings, and waits for more unless all queries have been asked.
   void work();
   void shrink(Task& task);
-  /// While there are queries to ask, waits until the thread has worked no more than its share of the time.
+  /// While queries are being asked, waits until the thread has worked no more than its share of the time.
   void rest();
 
   FindingShrinker shrinker_;
@@ -87,8 +87,8 @@ class Shrinking {
   bool ends_ = false;
 
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point busy_since_ = start_;  // of the only thread, while there are queries to ask
-  Clock::duration busy_{};                 // before that
+  Clock::time_point busy_since_ = start_;  // of the only thread, while queries are being asked
+  Clock::duration busy_{};                 // before busy_since_
   std::vector<std::thread> threads_;
 };
 

@@ -19,38 +19,38 @@ namespace nearmiss {
 /// How much the search for the simplest query may ask of a subject.
 struct ShrinkLimits {
   static constexpr std::int64_t of_call = 10;       ///< the work of a call, in queries
-  static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may need a new process
+  static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may end the process
 
-  /// The number of queries that are asked, with the work of calls and processes. It counts no time, so it
-  /// ends the search at the same query on every machine.
+  /// The number of queries to ask, including the work of calls and processes. This limit does not depend on
+  /// time, so it ends the search at the same query on every machine.
   std::int64_t work = 1'200'000;
   /// The time limit for all answers. Only a slow subject reaches it.
   std::chrono::milliseconds time = std::chrono::minutes(1);
 };
 
-/// For findings of a campaign, so that subjects spend their time on cases. An answer may take 1 ms, and the
-/// start of a process 100 ms, before the time ends the search.
+/// Limits for a campaign, whose subjects should spend their time on cases. The time limit ends a search
+/// before the work does only if an answer takes more than 1 ms, or the start of a process more than 100 ms.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(12)};
 
-/// Shrinks findings of some subjects. Many threads use it at once.
+/// Shrinks findings of some subjects. Many threads may use a FindingShrinker at once.
 class FindingShrinker {
  public:
-  /// Called between questions; may wait.
+  /// Called between two calls of the subject; may wait.
   using Rest = std::function<void()>;
 
-  /// The subjects and `stop` must outlive it.
+  /// The subjects and `stop` must outlive this object.
   FindingShrinker(std::span<const Subject* const> subjects, const Stop& stop, const ShrinkLimits& limits);
   FindingShrinker(const FindingShrinker&) = delete;
   FindingShrinker& operator=(const FindingShrinker&) = delete;
   ~FindingShrinker();
 
-  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class that
-  /// is no more exotic than the finding's query: it has coincident vertices only if that query has. If the
-  /// finding is `broken_since` an earlier version of the CCD, both are queries that the earlier version
-  /// answers rightly. The result depends only on the finding and the subjects, unless the time limit ends a
-  /// search. A query that the subject refuses does not fail. A contradiction to a recorded truth is not
-  /// shrunk, because the truth is known only for the finding's own query. Throws Stopped if the stop is due,
-  /// with its grace; then the finding stays as it is.
+  /// Sets `simplest`, the simplest query that fails in the same way, and `shrunk`, the simplest such query
+  /// that has the finding's class and is no more exotic than the finding's query: for example, its vertices
+  /// coincide only if those of the finding's query do. If the finding is `broken_since` an earlier version of
+  /// the CCD, that version answers both queries rightly. The result depends only on the finding and the
+  /// subjects, unless the time limit ends a search. A query that the subject refuses does not fail. A
+  /// contradiction to a recorded truth is not shrunk, because the truth is known only for the finding's own
+  /// query. If the stop and its grace are over, throws Stopped and leaves the finding as it is.
   void shrink(Finding& finding, const Rest& rest = {}) const;
 
  private:
@@ -63,8 +63,8 @@ class FindingShrinker {
   std::vector<std::unique_ptr<OfSubject>> of_;
 };
 
-/// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure
-/// of the oracle. Throws Stopped.
+/// The finding's query, shrunk to a query that fails with the same signature. `subject` may be null for a
+/// failure of the oracle. Throws Stopped when `stop` is due.
 Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop = Stop::never(),
                    const ShrinkLimits& limits = {});
 

@@ -31,7 +31,7 @@ std::string without_numbers(std::string_view text) {
   return printable(result);
 }
 
-/// Begins the signature of a collision with an invalid time, behind the kind.
+/// The signature of a collision with an invalid time has this text after the kind.
 constexpr std::string_view invalid_time = "invalid time";
 
 /// "invalid time NaN", for example

@@ -12,26 +12,26 @@
 namespace nearmiss {
 
 /// The signature of a missed collision: the features of its first contact, such as "vt simple-root inside
-/// on-edge", or, for h > 0, of its first approach to h. "vt no-contact" or "vt no-approach" if exact
-/// arithmetic finds none.
+/// on-edge"; for h > 0, of its first approach to h. If exact arithmetic finds no contact or approach, "vt
+/// no-contact" or "vt no-approach".
 std::string contact_signature(const Query& query);
 
-/// The signature of a report beyond the bound: the stage that accepted, such as "ee ve-minimum".
+/// The signature of a report beyond the bound: the stage that accepted the pair, such as "ee ve-minimum".
 std::string report_signature(Kind kind, Stage stage);
 
 /// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7", "vt
 /// time", "vt invalid time NaN" or "vt exception no root in [#, #]". `text` is what an exception said; its
 /// numbers become #, so that exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
-/// That of a fault in any answer of a subject.
+/// The signature of a subject's fault with this code.
 std::string fault_signature(const Subject& subject, Kind kind, Fault fault, std::int32_t code);
 
-/// Whether a signature is that of a collision with a time that is not in [0, 1], or is NaN.
+/// Whether a signature is that of a collision with a time outside [0, 1], or NaN.
 bool is_of_invalid_time(std::string_view text);
 
 /// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists
 /// the answers (oracle/agreement/), as in "vt collision (no: filter; yes: exact, certificate, parity)". "" if
-/// they agree.
+/// `text` is empty, because the methods agree.
 std::string disagreement_signature(Kind kind, std::string_view text);
 
 }  // namespace nearmiss

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
 constexpr std::array values{0, 1, -1, 2};
-constexpr int most_numbers = 3;  // queries with at most this many numbers are all listed
+constexpr int most_numbers = 3;  // the list has all queries with at most this many nonzero numbers
 using Integers = std::array<int, 24>;
 
 /// A symmetry of queries: coordinate i of the copy is coordinate from[i], times a sign.
@@ -62,7 +62,7 @@ std::vector<Symmetry> symmetries(Kind kind) {
 /// The place of an integer in the order that decides which symmetric copy comes first: 0, 1, -1, 2, -2.
 constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
 
-/// Whether a copy has only numbers that the list uses: -2 is not among them.
+/// Whether a copy has only numbers that the list uses, which excludes -2.
 bool is_listed(const Integers& x, const Symmetry& symmetry) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;
@@ -104,8 +104,8 @@ class Maker {
     list_.push_back({query, complexity(query)});
   }
 
-  /// Adds all queries that have the present coordinates in the paths before this one, and at most `numbers`
-  /// nonzero numbers (Complexity::numbers) in the other paths.
+  /// Adds all queries that have the present coordinates in the paths before `path`, and at most `numbers`
+  /// nonzero numbers (Complexity::numbers) in the remaining paths.
   void extend(std::size_t path, int numbers) {
     if (path == paths) {
       if (is_first_copy(x_, symmetries_)) add();
@@ -125,7 +125,7 @@ class Maker {
   /// Adds random queries: half of the coordinates are 0, and half of the paths are at rest.
   void draw() {
     constexpr std::uint64_t drawn = 4096;
-    constexpr std::uint64_t stream = 0x5a11;  // of no family
+    constexpr std::uint64_t stream = 0x5a11;  // a stream that no family uses
     for (std::uint64_t i = 0; i < drawn; ++i) {
       Random random(1, stream + static_cast<std::uint64_t>(kind_), i);
       const auto value = [&] {
@@ -136,11 +136,11 @@ class Maker {
         x_[paths + path] = random.one_in(2) ? x_[path] : value();
       }
       add();
-      if (list_.back().complexity.numbers <= most_numbers) list_.pop_back();  // it is listed already
+      if (list_.back().complexity.numbers <= most_numbers) list_.pop_back();  // the list has it already
     }
   }
 
-  /// Gives every query each of the separations.
+  /// Replaces every query by copies with each of the separations.
   void separate() {
     std::vector<SmallQuery> separated;
     for (const SmallQuery& each : list_)
@@ -151,7 +151,7 @@ class Maker {
     list_ = std::move(separated);
   }
 
-  /// Decides the queries, and leaves out those with two right answers.
+  /// Decides the queries, and removes those with two right answers.
   void decide_all() {
     std::vector<Query> queries(list_.size());
     std::transform(list_.begin(), list_.end(), queries.begin(),
@@ -190,7 +190,7 @@ const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
 
 SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
                              const std::function<void()>& check) {
-  constexpr std::size_t largest_batch = 64;  // the first ones are smaller: the subject may end at each query
+  constexpr std::size_t largest_batch = 64;  // the first ones are smaller: a query may end the process
   const Judge judge(subject);
   const std::span list(small_queries(kind, apart));
   std::size_t first = 0;
@@ -202,13 +202,13 @@ SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
       ask(subject, judge, asked);
     } catch (const isolation::TrialError&) {
       throw;
-    } catch (const Error&) {  // the subject refuses the queries, or further ones
+    } catch (const Error&) {  // the subject refuses these or any further queries
       return;
     }
   }
 }
 
-/// Asks the subject, and notes how it fails.
+/// Asks the subject about some queries, and notes how it fails.
 void SmallFailures::ask(const Subject& subject, const Judge& judge, std::span<const SmallQuery> asked) {
   std::vector<Query> queries;
   for (const SmallQuery& each : asked) queries.push_back(each.query);

@@ -1,4 +1,4 @@
-// What earlier cases mean for later ones: which subjects are set aside, and which distances are kept.
+// What earlier cases decide for later cases: which subjects are set aside, and which distances are kept.
 #pragma once
 
 #include <algorithm>
@@ -20,17 +20,17 @@ inline constexpr std::uint64_t most_slow = 3;
 /// Whether a subject with these counts is set aside.
 inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fault::time) >= most_slow; }
 
-/// What earlier cases tell about one subject, kind and family.
+/// What earlier cases show about one subject, for one kind and family.
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries over the time limit
-  /// The ratio that a false positive needs to be among the farthest, which are kept. The distance of others
-  /// need not be precise.
+  /// The least ratio with which a false positive is kept as one of the farthest. The distance of any other
+  /// false positive need not be precise.
   double least_kept = 0;
 
   [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }
 };
 
-/// The cases that count so far. Many threads use it at once.
+/// What is known from the cases that count so far. Many threads use a SoFar at once.
 class SoFar {
  public:
   [[nodiscard]] Known of(const CountsKey& key) const {

@@ -221,7 +221,7 @@ class Judging {
     return truth.disagreement(answers);
   }
 
-  /// The signature of a missing certificate; "" if there is one.
+  /// The signature for a missing certificate; "" if there is a certificate.
   static std::string certify(const Truth& truth, OracleCounts& counts) {
     if (!is_proved(truth.query(), truth.decision()))
       return disagreement_signature(truth.query().kind, "no certificate");

@@ -25,27 +25,27 @@ inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   return pointers;
 }
 
-/// Queries of one kind and family that are decided, timed and counted together. All of them have a separation
-/// h > 0, or none has; a subject that takes no separation is only asked in the second case.
+/// Queries of one kind and family that are decided, timed and counted together. Either all of them have a
+/// separation h > 0, or none has. A subject that takes no separation is asked only batches without.
 struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths =
-      {};  ///< recorded truths; empty if there are none. Both are right for a tie
-  /// The numbers of the queries in their family or stream: first, first + step, and so on. They choose
-  /// samples.
+      {};  ///< recorded truths, or empty; for a tie, either value is right
+  /// The queries have the numbers first, first + step and so on in their family or stream. These numbers
+  /// choose samples.
   std::uint64_t first_number = 0, step = 1;
-  bool timed = true;         ///< whether run times count
+  bool timed = true;         ///< whether the subjects' run times count
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
-  /// Returns the origin of query i of the batch; called only for queries that are kept.
+  /// Returns the origin of query i of the batch. Called only for kept queries.
   std::function<std::string(std::size_t)> provenance = {};
-  /// If set, returns the place of query i in the order of a campaign. Other trials pass on their findings in
-  /// order.
+  /// If set, returns the place of query i in the order of a campaign. Trials without it pass on their
+  /// findings in order.
   std::function<std::uint64_t(std::size_t)> place = {};
   /// If set, returns the values of the factors with which query i was made.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
-  /// If set, receives every outcome: that of query i for the subject with this index.
+  /// If set, receives the outcome of every query i for every subject, which is given by its index.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 
   /// The number of query i of the batch.
@@ -60,7 +60,7 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
-  /// Findings that were passed on earlier and have been shrunk since, by their number among all findings.
+  /// Earlier findings that have been shrunk since they were passed on, by number among all findings.
   std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);
@@ -69,19 +69,19 @@ struct TrialResult {
 /// Receives results as they come, in an order that does not depend on threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
-/// Selects the queries on which all methods of the oracle are compared, and versions of a CCD to compare.
+/// Selects the queries on which all methods of the oracle are compared, and the versions of a CCD to compare.
 struct Comparison {
-  /// The sample of the hard queries, which the filter leaves undecided, is larger by this factor.
+  /// Hard queries, which the filter leaves undecided, are sampled this many times as often.
   static constexpr std::uint64_t more_of_undecided = 64;
-  /// A query counts as decided near the filter's bounds if the filter leaves it undecided when its error
-  /// bounds are larger by this factor.
+  /// A query counts as decided near the filter's bounds if the filter would leave it undecided with all error
+  /// bounds multiplied by this factor.
   static constexpr double caution = 16;
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
-  bool near_bounds = false;     ///< also compares all queries that the filter decides near its bounds
+  bool near_bounds = false;     ///< also compares every query that the filter decides near its bounds
   bool certify_truths =
       false;  ///< also demands a certificate of each recorded truth that the oracle confirms
-  /// The names of two subjects of which the second is compared with the first (versions.hpp); or none.
+  /// Empty, or the names of two subjects: the second is compared with the first (versions.hpp).
   std::vector<std::string> versions = {};
 
   [[nodiscard]] std::uint64_t one_in_undecided() const {
@@ -91,8 +91,8 @@ struct Comparison {
 
 /// Puts the subjects on trial over a batch: times each over the whole batch, separately from the oracle, and
 /// judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is
-/// also the query that is kept. `known` has, for each subject, what is known from earlier queries; it may be
-/// empty. A subject that is set aside (so_far.hpp) is not asked; if that happens within the batch, its later
+/// also the query that is kept. `known` is empty, or has for each subject what earlier queries showed. A
+/// subject that is set aside (so_far.hpp) is not asked; if it is set aside within the batch, its later
 /// answers do not count. Throws Error for a coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
                        std::vector<Known> known = {});

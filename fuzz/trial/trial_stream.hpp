@@ -13,15 +13,15 @@
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind, family and whether there is a separation, and runs the trials. It
-/// stores only a few batches at any time. Nothing is timed: a handful of queries says nothing about a
-/// subject's speed.
+/// Collects queries into batches by kind, by family, and by whether they have a separation, and runs the
+/// trials. It stores only a few batches at any time. Nothing is timed: a handful of queries says nothing
+/// about a subject's speed.
 class TrialStream {
  public:
   explicit TrialStream(Trials& trials) : trials_(trials) {}
 
-  /// Adds a query; returns false after a request to stop. `provenance` is called only for queries that are
-  /// kept, and at the latest in finish(). Throws Error as hold_trial does.
+  /// Adds a query; returns false after a request to stop. `provenance` is called, in finish() at the latest,
+  /// only if the query is kept. Throws Error as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
@@ -39,7 +39,7 @@ class TrialStream {
   Trials& trials_;
   std::map<std::tuple<std::string, Kind, bool>, Pending> pending_;  // by family, kind and whether h > 0
   std::vector<Pending> full_;
-  std::uint64_t batches_ = 0;  ///< begun so far
+  std::uint64_t batches_ = 0;  ///< number of batches so far
 };
 
 }  // namespace nearmiss

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The queries [first, last) of a batch, which must outlive them.
+/// The queries [first, last) of a batch. The batch must outlive the result.
 Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
   const auto part = [&](const auto& all) {
     using All = std::decay_t<decltype(all)>;
@@ -40,7 +40,7 @@ Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
   return own;
 }
 
-/// The largest number of queries that one of the subjects wants at once, within limits.
+/// The largest number of queries that any of the subjects wants at once, within limits.
 std::size_t largest_batch_of(const Subjects& subjects) {
   constexpr std::size_t most = 1 << 16;
   std::size_t largest = Pace::usual;
@@ -61,7 +61,7 @@ std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
 struct Trials::OnItsWay {
   Work work;
   TrialResult result = {};
-  std::map<CountsKey, Known> before = {};  ///< what was known when the work began to ask
+  std::map<CountsKey, Known> before = {};  ///< what was known when the work began
   bool complete = true;
   Clock::time_point since = {};  ///< the end of the last trial
 };
@@ -126,8 +126,8 @@ void Trials::ask(OnItsWay& item, const Batch& batch) {
   }
 }
 
-/// What is known of each subject before the next trial of a piece of work: what counted when the work began,
-/// and what the work itself has found since.
+/// What is known about each subject before the next trial of a piece of work: the cases that counted when the
+/// work began, and those that the work itself has decided since.
 std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
   std::vector<Known> known;
   for (const auto& subject : subjects_) {
@@ -140,7 +140,7 @@ std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) cons
   return known;
 }
 
-/// Whether a piece of work would have asked the subjects about the same queries if it had begun now.
+/// Whether a piece of work, if it began now, would ask the subjects about the same queries.
 bool Trials::knew_enough(const OnItsWay& item) const {
   return std::all_of(item.before.begin(), item.before.end(), [&](const auto& each) {
     const auto& [key, before] = each;

@@ -14,16 +14,16 @@
 
 namespace nearmiss {
 
-/// Puts the subjects on trial over a batch, slice by slice. Does nothing more after a stop.
+/// Puts the subjects on trial over a batch, slice by slice. After a stop, does nothing.
 using AskBatch = std::function<void(const Batch&)>;
 
 /// A piece of work: one thread asks about some batches, one after the other.
 struct Work {
-  /// Calls ask(batch) for each batch; may throw Stopped. It is called again, and must start anew, if earlier
-  /// work has set a subject aside meanwhile.
+  /// Calls ask(batch) for each batch; may throw Stopped. If earlier work has set a subject aside meanwhile,
+  /// `hold` is called again, and must start anew.
   std::function<void(const AskBatch& ask)> hold;
-  /// Called afterwards, in the order of the pieces. Returns whether the result counts. `complete` is false if
-  /// a stop came before the end.
+  /// Called after `hold`, in the order of the pieces of work. Returns whether the result counts. `complete`
+  /// is false if a stop interrupted the piece.
   std::function<bool(bool complete)> counts = [](bool /*complete*/) { return true; };
 };
 
@@ -31,7 +31,7 @@ struct Work {
 class Trials {
  public:
   /// The sink receives results several times a second, in order, with the first findings of each signature
-  /// and class (FirstFindings). If `shrink` is true, it also receives the findings that have been shrunk
+  /// and class (FirstFindings). With `shrink`, the sink also receives the findings that have been shrunk
   /// meanwhile. The subjects and `stop` must outlive this object.
   Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, bool shrink,
          TrialSink sink);
@@ -39,24 +39,24 @@ class Trials {
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const Stop& stop() const { return stop_; }
   [[nodiscard]] int jobs() const { return jobs_; }
-  /// The number of queries that a batch should have, so that the subjects get as many at once as they want:
-  /// up to 2^16, because a batch is judged by one thread, and each thread has one.
+  /// The number of queries that a batch should have, so that subjects get as many at once as they want. At
+  /// most 2^16, because each thread judges a batch of its own.
   [[nodiscard]] std::size_t batch_size() const { return batch_size_; }
   /// How many queries of a family to make at once.
   [[nodiscard]] const Pace& pace() const { return pace_; }
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t to_shrink() const { return shrinking_.left(); }
 
-  /// Takes on the results of earlier runs, which the sink does not receive.
+  /// Takes on the results of earlier runs. The sink does not receive them.
   void resume(const Statistics& before, const std::vector<Finding>& findings);
 
-  /// Does all pieces of work that next() returns, until it returns none or the stop is due.
+  /// Does all pieces of work that next() returns, until next() returns nothing or the stop is due.
   void run(const std::function<std::optional<Work>()>& next);
 
   /// Adds a result that is known without a trial.
   void add(TrialResult&& result);
 
-  /// Passes on the results that have come since the last time.
+  /// Passes on the results that have come since the last call.
   void pass_on();
 
   /// Shrinks the findings that are not shrunk yet, and passes them on. Calls `report` several times a second

@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// The oracle's answers about one query. The decision is given; each further answer is computed at most once.
-/// The query must outlive this object.
+/// The oracle's answers about one query. The constructor gets the decision; each further answer is computed
+/// at most once. The query must outlive this object.
 class Truth {
  public:
   explicit Truth(const Query& query);
@@ -27,11 +27,11 @@ class Truth {
   /// The answers of all exact methods.
   [[nodiscard]] Answers ask_methods() const;
 
-  /// Whether there is an earliest time: a collision, or a distance of exactly the separation.
+  /// Whether t* exists: for a collision, or if the smallest distance is exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement of these answers with the decision, or of a tie or an
-  /// earliest time that is not proved. "" if they agree.
+  /// The signature of a disagreement: these answers differ from the decision, or a tie or an earliest time is
+  /// not proved. "" if all agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.
@@ -45,7 +45,7 @@ class Truth {
   /// The earliest time at which the distance is at most h, for a collision or a tie.
   EarliestTime& time();
   /// The largest speed of a vertex of one primitive relative to a vertex of the other, in units of the pair's
-  /// bound B per step; rounded.
+  /// bound B per step, up to rounding errors.
   [[nodiscard]] double relative_speed() const;
 
   /// The distance of a false positive, less the separation, divided by a unit of length.
@@ -54,7 +54,7 @@ class Truth {
     bool exceeds;  ///< whether the ratio is above 1, decided exactly
   };
   Distance distance(double unit);
-  /// Computes only the `exceeds` of distance(), in less time.
+  /// Computes only distance().exceeds, in less time.
   [[nodiscard]] bool exceeds(double unit) const;
 
   /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.

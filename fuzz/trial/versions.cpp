@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-/// A text that all versions of a CCD share: the name that they export, and whether they are asked beyond the
+/// A text that all versions of a CCD share: the exported name, and whether they are asked beyond their
 /// contract.
 std::string ccd_of(const Subject& subject) {
   return innermost(subject).name() +

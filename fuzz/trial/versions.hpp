@@ -11,26 +11,27 @@
 
 namespace nearmiss {
 
-/// For each subject, the one that it is compared with: the first subject whose plug-in exports the same name,
-/// if that comes before it. `chosen` has the names of two subjects of which the second is compared with the
-/// first, or none. A subject that is asked beyond its contract is compared with another such subject.
+/// For each subject, the index of the earlier version: the first subject whose plug-in exports the same name,
+/// if that is another subject. A subject that is asked beyond its contract is compared with another such
+/// subject. `chosen` is empty, or has the names of two subjects: the second is then compared with the first.
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
-/// Compares the outcomes of versions of a CCD, one query of a batch after the other.
+/// Compares the outcomes of versions of a CCD over a batch, query by query.
 class VersionComparison {
  public:
   VersionComparison(const Subjects& subjects, const Comparison& comparison);
 
-  /// Notes the outcome of a subject's answer to the present query, and the index of its finding if it fails.
+  /// Notes the outcome of a subject's answer to the present query, and the index of the finding if the
+  /// subject fails.
   void note(std::size_t subject, const Outcome& outcome, std::optional<std::size_t> finding);
 
-  /// Counts the present query. If a version fails and the one before it does not, names the latter in the
-  /// finding (`broken_since`). Then goes on to the next query.
+  /// Counts the present query. If a version fails and the version before it does not, names the version
+  /// before in the finding (`broken_since`). Then goes on to the next query.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries, which are of this kind and family. Versions that were not asked the same
-  /// queries get counters of 0.
+  /// Adds the counters of all queries to a table; the queries are of this kind and family. Versions without a
+  /// common query get counters of 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 
  private:
@@ -45,8 +46,8 @@ class VersionComparison {
   std::vector<VersionCounts> counts_;               // by subject
 };
 
-/// Whether a subject is asked a query, within its contract, and answers it rightly. A version of a CCD breaks
-/// a query if it fails on the query, and the version before it answers rightly.
+/// Whether a subject's contract admits a query, and the subject answers the query rightly. A version of a CCD
+/// breaks a query if it fails on the query, and the version before it answers the query rightly.
 class AnswersRightly {
  public:
   /// The subject must outlive this object.

@@ -1,4 +1,4 @@
-// Compares the features of first approaches with rational arithmetic, where their time is rational.
+// Compares the features of first approaches at rational times with those that rational arithmetic finds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -29,7 +29,7 @@ Point position(const Query& query, int vertex, const Rational& t) {
   return x;
 }
 
-/// The simplest features that are at most h apart at a rational time, if there are any.
+/// The simplest features that are at most h apart at a rational time; no features if none are.
 Closest closest_features(const Query& query, const Rational& t) {
   const Rational squared_h = Rational(query.separation) * Rational(query.separation);
   const Topology& of = topology(query.kind);

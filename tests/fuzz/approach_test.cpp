@@ -1,4 +1,4 @@
-// Tests the search for the smallest distance on queries of families.
+// Tests the search for the smallest distance, on queries of families.
 #include "oracle/distance/approach.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
   }
 }
 
-/// A query for which double intervals once gave a distance of 4.85e-08 of its bound.
+/// A query for which intervals of double once gave a distance of 4.85e-08 times its bound.
 TEST(DistanceInUnits, ASliversDistanceIsKnown) {
   const Query query = make_query(find_family("sliver"), 77, 454);
   const Enclosure distance = minimum_distance(query);

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// The names of the rows that have a property, in both tables of rounding constants.
+/// The names of the rows with a property in both tables of rounding constants.
 std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() const) {
   std::vector<std::string_view> names;
   for (const auto& rows : {rounding_bounds(), rounding_consequences()})
@@ -24,8 +24,8 @@ std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() cons
   return names;
 }
 
-// The paper assumes that relative positions of edges are bounded by B. Constants that depend on this
-// assumption are too small, except δ.
+// The paper assumes that relative positions of edges are within B. All constants that depend on this
+// assumption, except δ, are too small.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   EXPECT_THAT(names_of(&RoundingConstant::is_too_small),
               ElementsAre("VE of EE: weight", "VE of EE: barycentric test", "EE: weight, far p",

@@ -1,4 +1,4 @@
-// Meshes from files of all formats: refused files, and the messages about them.
+// Mesh files of all formats that are refused, and the messages about them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -164,13 +164,15 @@ TEST_F(BadFilesTest, BadObjIsNamedWithItsLine) {
 
 using Parse = Mesh (*)(std::string_view, const std::string&);
 
-/// Expects that a cut file is refused, unless at most `last` bytes are missing: it may still be complete.
+/// Expects that every cut file is refused, unless at most `last` bytes are missing, when it may still be
+/// complete.
 void expect_refused_when_cut(Parse parse, const std::string& text, std::size_t last) {
   for (std::size_t size = 0; size + last < text.size(); ++size)
     EXPECT_THROW(parse(text.substr(0, size), "cut"), Error) << size << " bytes of " << text;
 }
 
-// A file may lack its last newline, and an STL file the solid's last name. Any other cut is noticed.
+// A file may lack its last newline, and an STL file the name of the solid at its end. Any other cut is
+// noticed.
 TEST(CutFileTest, ACutFileIsRefused) {
   expect_refused_when_cut(parse_off, off, 1);
   expect_refused_when_cut(parse_ply, text_ply, 1);

@@ -1,4 +1,4 @@
-// Large batches: what detectors get at once, where it lies, and what becomes of a failure.
+// Large batches: how many queries detectors get at once, in which layout, and what becomes of a failure.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -26,15 +26,15 @@ namespace {
 
 using testing::answers_of;
 
-constexpr std::size_t batch = 100'000;  // of the detectors in batches.c
+constexpr std::size_t batch = 100'000;  // the `batch` of the detectors in batches.c
 
-/// A detector of batches.c, with so much time that a busy machine does not divide its batches.
+/// A detector of batches.c. Its time limit is so long that even on a busy machine, batches are not divided.
 std::unique_ptr<Subject> wanting(const std::string& detector, std::uint64_t bytes = std::uint64_t{1} << 30) {
   return make_any_subject(testing::plugin("batches") + ":" + detector, std::nullopt,
                           {.time = std::chrono::minutes(10), .bytes = bytes});
 }
 
-/// Different queries, whose coordinates are in [0, 1].
+/// Different queries with coordinates in [0, 1].
 std::vector<Query> in_unit_cube(Kind kind, std::size_t count) {
   std::vector<Query> queries(count, Query{.kind = kind});
   for (std::size_t i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ std::vector<Query> in_unit_cube(Kind kind, std::size_t count) {
   return queries;
 }
 
-/// What rows and arrays compute.
+/// The time that the detectors `rows` and `arrays` of batches.c give.
 double mean(const Query& query) {
   const std::vector<double> x = coordinate_list(query);
   double sum = 0;
@@ -89,7 +89,7 @@ TEST(Batches, ACrashIsThatOfOneQuery) {
     ASSERT_EQ(verdicts[i].fault, i == crashing ? Fault::crash : Fault::error) << i;
 }
 
-// The call crashes as a whole, and then a part of it, whose queries do not crash one by one.
+// The whole call crashes, then a part of it, but no query of this part crashes by itself.
 TEST(Batches, ACrashThatDoesNotRepeatCounts) {
   const auto verdicts = answers_of(*wanting("wearing"), std::vector<Query>(20'000));
   const auto crashes =

@@ -1,4 +1,4 @@
-// Built-in scenes, which are made by formulas, and their parts.
+// Built-in scenes, and the formulas and shapes of which they are made.
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ class EveryScene : public ::testing::TestWithParam<BuiltInScene> {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scenes()),
                          [](const auto& each) { return each.param.name; });
 
-/// A hash of the points of the first, a middle and the last frame, and of the triangles and lines.
+/// A hash of the points in the first, a middle and the last frame, and of the triangles and lines.
 std::uint64_t fingerprint(const Scene& scene) {
   testing::BitHash hash;
   for (const std::size_t frame : {std::size_t{0}, scene.frames / 2, scene.frames - 1})

@@ -23,7 +23,7 @@ struct Ran {
   int saves = 0;
 };
 
-/// A plan of these families, or of all families if none is named.
+/// A plan of the named families, or of all families if `of` is empty.
 CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const char*> of = {}) {
   CampaignPlan plan;
   for (const char* name : of) plan.families.push_back(find_family(name));
@@ -33,7 +33,7 @@ CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const 
   return plan;
 }
 
-/// A campaign of wang and, if the test needs findings, also of basic, which misses collisions.
+/// A campaign of wang; for findings, also of basic, which misses collisions.
 Ran run(const CampaignPlan& plan, bool with_basic = false, const Stop& stop = Stop::never(),
         std::unique_ptr<Subject> another = nullptr) {
   Subjects subjects;
@@ -100,7 +100,7 @@ TEST(Campaign, DoesNotDependOnTheNumberOfThreads) {
   const Ran three = run(plan_of(2000, 3), true);
   EXPECT_EQ(one.statistics, three.statistics);
   EXPECT_TRUE(one.findings == three.findings);
-  EXPECT_FALSE(one.findings.empty());  // basic misses
+  EXPECT_FALSE(one.findings.empty());  // misses of basic
 }
 
 TEST(Campaign, CountsEveryFailureAndKeepsAFewOfEachSignature) {
@@ -131,7 +131,7 @@ TEST(Campaign, ShardsAddUpToTheWhole) {
   EXPECT_EQ(sum, whole.statistics);
 }
 
-/// Never reports a collision, and requests a stop after this number of queries.
+/// A subject that never reports a collision, and requests a stop after this number of queries.
 std::unique_ptr<Subject> stopping(std::atomic<bool>& stop, std::uint64_t queries) {
   const auto left = std::make_shared<std::atomic<std::uint64_t>>(queries);
   return std::make_unique<testing::MadeUpSubject>("stopping", [&stop, left](const Query&) {

@@ -1,5 +1,4 @@
-// Tests the search for the pairs of a moving mesh whose swept boxes meet, in meshes of every sort, and from
-// step to step.
+// Tests the search for pairs whose swept boxes meet, in meshes of every sort, and from step to step.
 #include "fuzz/scenes/candidates.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +26,7 @@ std::vector<Candidate> found_candidates(const MovingMesh& mesh) {
   return found;
 }
 
-/// All pairs whose boxes meet, row by row. The finder must give the same list.
+/// All pairs whose boxes meet, row by row: the list that the finder must give.
 std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
   std::vector<Candidate> found;
   for (const Kind kind : kinds_of_meshes)
@@ -44,7 +43,8 @@ std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
 using Points = std::vector<Vector3<double>>;
 using Point = std::function<Vector3<double>(Random&)>;
 
-/// Compares the finder with brute force, without and with separations. Returns the number of candidates.
+/// Compares the finder with brute force, without a separation and with each of these. Returns the number of
+/// candidates.
 std::size_t expect_brute_force(MovingMesh mesh, const std::vector<double>& separations = {}) {
   const auto expected = candidates_by_brute_force(mesh);
   EXPECT_TRUE(found_candidates(mesh) == expected);
@@ -108,7 +108,7 @@ MovingMesh vertex_beside_triangle(int axis, double height) {
   return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
 }
 
-// Tests each side of the box with the doubles next to it.
+// Tests the coordinate of each side of the box, and the doubles next to it.
 TEST(Candidates, BoxesThatTouchMeet) {
   for (int axis = 0; axis < 3; ++axis)
     for (const auto& [height, expected] :
@@ -132,7 +132,7 @@ MovingMesh any_mesh(std::uint64_t seed, int n, const Point& point) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// Separations that equal the distance between two coordinates of a mesh, and the doubles next to them.
+/// Distances between two coordinates of a mesh, and the doubles next to them, as separations.
 std::vector<double> distances(const MovingMesh& mesh, std::uint64_t seed) {
   Random random(seed, 1, 0);
   const auto any = [&](const Points& points) {
@@ -183,8 +183,8 @@ TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   }
 }
 
-// The distance between a vertex and a triangle rounds to the separation. The midpoint between the vertex and
-// the triangle lies on the border of two cells, because the grid extends from -2 to 2 times this midpoint.
+// The distance between a vertex and a triangle rounds to the separation. Their midpoint lies on the border of
+// two cells, because the grid extends from -2 to 2 times the midpoint.
 TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
   std::size_t found = 0;
   Random random(1, 0, 0);
@@ -240,7 +240,7 @@ void displace(Points& points, Random& random, double way) {
   }
 }
 
-// In the first steps, bodies move a little, and the tree keeps its groups. Then they fly apart.
+// In the first steps, bodies move a little, and the tree keeps its groups. Then the bodies fly apart.
 TEST(Candidates, AMovedFinderFindsTheSameAsANewOne) {
   for (const Kind kind : kinds_of_meshes)
     for (const int jobs : {1, 3}) {

@@ -1,4 +1,4 @@
-// Every answer of the oracle has a certificate, which a checker that shares no code with the oracle accepts.
+// Every answer of the oracle has a certificate. A checker that shares no code with the oracle accepts it.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(CertificateOfEveryFamily, ProvesTheDecision) {
   });
 }
 
-/// Expects a proof that something happens before a time, for h > 0 a distance below h.
+/// Expects a proof that contact, or for h > 0 a distance below h, happens before a time.
 void expect_late(const Query& query, double time) {
   const auto text = certify_meets(query, {0, time, true}, query.separation > 0);
   ASSERT_TRUE(text);
@@ -107,7 +107,7 @@ TEST(Certificate, OfADistanceThatIsReachedAtAnIrrationalTimeIsThatOfTheNextDoubl
             statement_about(with_separation(query, 1e-323), "meets", {}, false));
 }
 
-// The points that are closest at the rational time of the smallest distance have weights of 30,000 digits.
+// The smallest distance is at a rational time, at which the closest points have weights of 30,000 digits.
 TEST(Certificate, HasNoLongerNumbersThanTheCheckersRead) {
   const Query query{.kind = Kind::edge_edge,
                     .x = {-0x1.d29303170fab2p+1018, -0x1.cd28dd6e89c6ap-1000, -0x1.8e4ed253d9e3p-500,
@@ -151,7 +151,8 @@ TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
                                                             0.25, 0.25, -4, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
   expect_late(rational, 0.2);
   EXPECT_FALSE(certify_meets(rational, {0, std::nextafter(0.2, 0), true}));
-  // The vertex meets the inside of the triangle, or its edge x1x2 in a plane, when 2 t^2 = 1.
+  // When 2 t² = 1, the vertex meets the inside of the triangle (`inside`), or in a plane its edge x1x2
+  // (`border`).
   const Query inside{.kind = Kind::vertex_triangle, .x = {0, 0, 1, -8, -8, 0,  8, -8, 0, 0, 8, 0,  //
                                                           2, 0, 1, -8, -8, -8, 8, -8, 8, 0, 8, 0}};
   const Query border{.kind = Kind::vertex_triangle, .x = {0, 1, 0, -8, 0,  0, 8, 0, 0, 0, -20, 0,  //
@@ -164,7 +165,7 @@ TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
   }
 }
 
-// The edge passes below the vertex at a distance of exactly 1 at t, and nowhere nearer.
+// The edge passes below the vertex: its distance is exactly 1 at t, and larger at all other times.
 TEST(Certificate, ProvesThatADistanceIsNeverBelowOneThatIsReachedAtATimeOfFewBits) {
   for (int k = 1; k <= 15; ++k) {
     SCOPED_TRACE(k);
@@ -178,7 +179,7 @@ TEST(Certificate, ProvesThatADistanceIsNeverBelowOneThatIsReachedAtATimeOfFewBit
   }
 }
 
-// The search for a proof of what is wrong ends, however near the end of the span the primitives meet.
+// The search for a proof of a false statement ends, however near the end of the span the primitives meet.
 TEST(Certificate, TheSearchEndsForContactAtTheEndOfASpan) {
   const Query query{.kind = Kind::vertex_triangle, .x = {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0,  //
                                                          0.25, 0.25, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}};

@@ -1,4 +1,4 @@
-// No certificate that was changed proves something false.
+// A changed certificate never proves a false statement.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ namespace {
 using certificates::Statement;
 using nlohmann::json;
 
-/// Whether the oracle agrees with a statement about the beginning of the step; nothing for any other
-/// statement.
+/// Whether the oracle agrees with a statement about the beginning of the step; nothing for a statement about
+/// anything else.
 std::optional<bool> is_true(const Statement& statement) {
   if (statement.from != 0 || statement.to != mpq_class(statement.to.get_d())) return std::nullopt;
   const Kind kind = parse_kind(statement.kind, "kind");

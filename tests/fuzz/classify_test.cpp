@@ -1,4 +1,4 @@
-// Single queries on both sides of every border between classes, and the classes of every family's queries
+// Queries on both sides of every border between classes, and the classes of every family's queries
 // (fuzz/families/README.md).
 #include "fuzz/families/classify.hpp"
 
@@ -44,8 +44,8 @@ TEST(Classify, CoordinatesAreExtremeAbove1e30OrIfAllAreBelow1eMinus30) {
   EXPECT_TRUE(is_degenerate(scaled(query, 0)));
 }
 
-/// An edge of length 1 + 2^-60 above a second edge, which is 1e8 times as long, minus 2^-60 times `change`.
-/// Neither length is a double.
+/// An edge of length 1 + 2^-60 above a second edge. The length of the second edge is 1e8 times that of the
+/// first, minus 2^-60 times `change`. Neither length is a double.
 Query long_edge(double change) {
   const double tiny = 0x1p-60;
   const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);
@@ -106,7 +106,7 @@ TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, 1, above(border))));
 }
 
-/// An edge with this direction, which falls past an edge along x.
+/// An edge with this direction falls past an edge along x.
 Query falling_past(const Vector& direction) {
   const Vector a(0, 0, 0), b(1, 0, 0), c(0.25, 2, 1);
   const Vector d = c + direction, down(0, 0, -2);
@@ -149,7 +149,7 @@ Query reached_at(double time, double later = 0) {
 TEST(Classify, ContactNearlyAtTheStartIsDegenerate) {
   EXPECT_TRUE(is_degenerate(reached_at(1e-6)));
   EXPECT_TRUE(is_degenerate(reached_at(1e-6, -0x1p-52)));
-  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // at a time that is no double
+  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // reached at a time that is no double
   EXPECT_TRUE(is_ordinary(reached_at(above(1e-6))));
 }
 
@@ -163,7 +163,7 @@ TEST(Classify, ContactNearlyAtTheEndIsDegenerate) {
 TEST(Classify, ContactNearlyOnAnEdgeOfTheTriangleIsDegenerate) {
   for (const double y : {1e-6, 0.0, -1e-7}) EXPECT_TRUE(is_degenerate(falling_vertex(0.25, y, 1, -1))) << y;
   EXPECT_TRUE(is_ordinary(falling_vertex(0.25, above(1e-6), 1, -1)));
-  EXPECT_TRUE(is_ordinary(falling_vertex(0.25, below(-1e-6), 1, -1)));  // misses
+  EXPECT_TRUE(is_ordinary(falling_vertex(0.25, below(-1e-6), 1, -1)));  // misses the triangle
 }
 
 TEST(Classify, ContactNearlyAtAnEndOfAnEdgeIsDegenerate) {
@@ -195,7 +195,7 @@ TEST(Classify, WithASeparationEdgesComeNearestInGeneralPositionToo) {
   for (const double h : {least, 1e-310, 1e-300, 1e-100, 0.125})
     EXPECT_TRUE(is_ordinary(with_separation(on_edge, h))) << h;
   for (const double h : {1e300, std::numeric_limits<double>::max()})
-    EXPECT_TRUE(is_degenerate(with_separation(on_edge, h))) << h;  // near from the beginning
+    EXPECT_TRUE(is_degenerate(with_separation(on_edge, h))) << h;  // within h from the beginning
 }
 
 TEST(Classify, TheFirstRuleThatHoldsIsNamed) {
@@ -248,7 +248,7 @@ TEST(Classify, DependsNeitherOnTheOrderOfVerticesNorOnThePowerOfTwoInTheUnit) {
 
 TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
   for (const Family& each : all_families()) {
-    // Distances of primitives at rest need no separation.
+    // Families at rest ask for distances, which need no separation.
     const bool is_at_rest =
         std::ranges::any_of(families_at_rest(), [&](const Family& rest) { return rest.name == each.name; });
     const Family family = is_at_rest ? each : as_asked(each);

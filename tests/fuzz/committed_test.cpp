@@ -32,7 +32,7 @@ TEST(CommittedStep, EndsWhereTheSolverPutsTheVertices) {
   const Query step = *committed_step(falling, 0.25, false);
   EXPECT_EQ(step.start(0), falling.start(0));
   EXPECT_EQ(step.end(0), (Vector3<double>(0.25, 0.25, 0.5)));
-  // Each operation is rounded: 1 + 0.1 (0.7 - 1), and not 1 - 0.03.
+  // Each operation is rounded, as in 1 + 0.1 (0.7 - 1), which differs from 1 - 0.03.
   Query query = falling;
   query.x[2] = 1;
   query.x[14] = 0.7;
@@ -56,13 +56,14 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
   EXPECT_EQ(end_of(*committed_step(falling, 0.5, false)), StepEnd::touches_at_end);
   EXPECT_EQ(end_of(*committed_step(falling, 0.75, false)), StepEnd::touches);
   Query near = falling;
-  near.separation = 0.5;  // the distance is below it from t = 0.25 on
+  near.separation = 0.5;  // the distance is below 0.5 from t = 0.25 on
   EXPECT_EQ(end_of(*committed_step(near, 0.125, false)), StepEnd::free);
   EXPECT_EQ(end_of(*committed_step(near, 0.25, false)), StepEnd::touches_at_end);
   EXPECT_EQ(end_of(*committed_step(near, 0.375, false)), StepEnd::touches);
 }
 
-/// A subject that reports every collision, at the largest double or float that is not after t*, less `early`.
+/// A subject that reports every collision. Its time is the largest double or float that is not after t*,
+/// minus `early`.
 std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;
@@ -123,7 +124,7 @@ TEST(Committed, NoneIfTheStepEndsWellBeforeContact) {
   const Counts counts = counts_of(false, 0.01, "uniform");
   EXPECT_EQ(counts.committed, 0);
   EXPECT_GT(counts.times_promised, 40);
-  // In float at 1,000 edges from the origin, even a hundredth of the step is not always enough.
+  // In float, far from the origin, even times that are early by a hundredth of the step lead to contact.
   EXPECT_GT(counts_of(true, 0.01, "distant@20").committed, 0);
 }
 

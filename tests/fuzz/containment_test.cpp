@@ -36,7 +36,7 @@ using testing::queries;
 
 struct Intrusion {
   std::string name;
-  Fault fault;  ///< the fault of the query at which the plug-in intrudes; none if that is harmless
+  Fault fault;  ///< the fault of the query at which the plug-in intrudes; none if the intrusion is harmless
 };
 
 void PrintTo(const Intrusion& each, std::ostream* out) { *out << each.name; }
@@ -63,7 +63,7 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
       faults += verdict.fault == Fault::none ? 0 : 1;
     }
     EXPECT_EQ(faults, GetParam().fault == Fault::none ? 0 : 1);
-    // A worker that broke its channel cannot say which query it was at.
+    // If the worker broke its channel, it is unknown which query it was at.
     if (GetParam().fault != Fault::protocol) {
       EXPECT_EQ(verdicts[chosen].fault, GetParam().fault);
     }
@@ -71,7 +71,7 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
   EXPECT_EQ(copied.processes(), 0);
 }
 
-/// How many open files, and mappings of memory shared with workers, nearmiss holds.
+/// The numbers of files, and of mappings of memory shared with workers, that nearmiss has open.
 std::array<std::size_t, 2> held() {
   std::array<std::size_t, 2> count{};
   for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator("/proc/self/fd")) ++count[0];
@@ -156,7 +156,7 @@ TEST_F(Marking, ClosingIsTheEndOfADetector) {
   EXPECT_EQ(copied.processes(), 0);
 }
 
-// If a part of /proc is hidden, as in containers, the system does not let anybody mount a new /proc.
+// If a part of /proc is hidden, as in containers, the system refuses to mount a new /proc.
 TEST(Isolation, DoesNotNeedAProcOfItsOwn) {
   const std::string hidden =
       "unshare -rmpf --mount-proc sh -c 'mount -t tmpfs none /proc/fs && exec unshare -rm \"$@\"' sh ";
@@ -177,7 +177,7 @@ std::vector<pid_t> tree_of(pid_t root) {
   return tree;
 }
 
-// The plug-in computes for an eighth of a second per query, and 4 s of wall-clock time may pass.
+// The plug-in computes for an eighth of a second per query, and may take 4 s of wall-clock time.
 TEST(Isolation, TimeInWhichEverythingIsSuspendedDoesNotCount) {
   std::array<int, 2> ready{};
   ASSERT_EQ(pipe(ready.data()), 0);

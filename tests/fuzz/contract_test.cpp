@@ -1,4 +1,4 @@
-// Tests which queries are put to a subject that has a contract.
+// Tests which queries a subject with a contract is asked.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::falling_vertex;
 
-/// A subject that misses everything, records what it is asked, and has this contract.
+/// A subject with this contract that misses everything and records what it is asked.
 std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& asked) {
   const auto note = [&](const Query& query) {
     asked.push_back(query);

@@ -39,8 +39,8 @@ TEST(Corpus, TheOracleAgreesWithEveryRecordedTruth) {
   }
 }
 
-// The queries that public test suites contain, with what they expect; one of them is wrong, which the case
-// contact/ee-unstated-separation explains.
+// Queries of public test suites, with the expected answers. One expectation is wrong; the case
+// contact/ee-unstated-separation explains it.
 TEST(Corpus, PublicSuitesExpectWhatTheOracleSaysExceptOnce) {
   const std::filesystem::path suites = NEARMISS_CORPUS "/../../../shared/suites";
   if (!std::filesystem::exists(suites)) GTEST_SKIP() << "found no folder ../shared/suites";
@@ -85,7 +85,7 @@ TEST(Corpus, EachDefectMissesItsOwnCase) {
   EXPECT_GE(missed.size(), 35U);
 }
 
-// For each candidate case of Algorithm 2, there is a query that no other case reports.
+// For each KKT case of Algorithm 2, the corpus has a query that no other case reports.
 TEST(Corpus, EachVertexEdgeCaseAcceptsItsOwn) {
   const std::map<std::string, Stage> stages{
       {"case-1-end.case", Stage::ve_end},     {"case-2-minimum.case", Stage::ve_minimum},

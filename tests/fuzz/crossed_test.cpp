@@ -20,7 +20,7 @@ using testing::at_rest;
 
 constexpr std::uint64_t seed = 5;
 
-/// Whether queries with these levels touch exactly, by construction, at the time that the levels give.
+/// Whether primitives of queries with these levels touch exactly, by construction, at the time of the levels.
 bool touches(const Levels& levels) {
   return levels.when() != When::outside && levels.where() != Where::outside;
 }
@@ -66,7 +66,7 @@ TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
   });
 }
 
-/// How often F changes its sign between a time just before 0 and a time just after 1.
+/// The number of F's sign changes from just before t = 0 to just after t = 1.
 int sign_changes(const Query& query) {
   const auto at = [&](int vertex, double t) -> Vector3<double> {
     return query.start(vertex) + t * (query.end(vertex) - query.start(vertex));
@@ -84,7 +84,8 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // The roots at the contact, counted with multiplicity, and the simple roots in the step.
+  // By `roots`: the number of roots at the contact, counted with multiplicity, and of other, simple roots in
+  // the step.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

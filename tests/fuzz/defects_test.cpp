@@ -1,4 +1,4 @@
-// The library of defects, each of which is the real code with one change.
+// The library of defects. Each defect is the real code with one change.
 #include "fuzz/subjects/defects.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Defects, OfTimesChangeSomeAnswers) {
 }
 
 TEST(Defects, MultiplyTheirOwnTolerance) {
-  // A vertex that passes the triangle's corner at half the distance that VV accepts.
+  // A vertex that passes the triangle's corner at half the largest distance that VV accepts.
   Query query = testing::falling_vertex(0, 0, 0, 0);
   const Vector3<double> velocity(2, -1, 0);
   const auto pass = [&](double distance) {

@@ -1,4 +1,4 @@
-// Functions that give the distance of primitives at rest, judged exactly.
+// Exact judgement of functions that give the distance of primitives at rest.
 #include "fuzz/questions/distance.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ namespace {
 
 using testing::plugin;
 
-const Query above = at_rest(testing::falling_vertex(0.25, 0.25, 1, -1));  // the distance is 1, as the size
-const Query crossing = at_rest(testing::falling_edge(0.5, -1));           // 0.5, and the size is 2
+const Query above = at_rest(testing::falling_vertex(0.25, 0.25, 1, -1));  // distance 1, size 1
+const Query crossing = at_rest(testing::falling_edge(0.5, -1));           // distance 0.5, size 2
 
 DistanceError error(const Query& query, double distance) {
   return error_of(query, DistanceAnswer::given(distance, DistanceAnswer().weights));
@@ -54,7 +54,7 @@ TEST(DistanceError, OfTouchingPrimitivesIsRelativeToTheSizeOnly) {
   EXPECT_TRUE(error(touching, 1.01e-4).over_reported);
 }
 
-// With the same numbers in every unit, because nothing may depend on it.
+// The test repeats the same numbers in every unit, because the judgement must not depend on the unit.
 TEST(DistanceError, IsWrongBeyondOnePercentAndATenThousandthOfTheSizeInEveryUnit) {
   for (const double unit : {1.0, 0x1p-900, 0x1p+900}) {
     const Query query = testing::scaled(above, unit);
@@ -65,13 +65,13 @@ TEST(DistanceError, IsWrongBeyondOnePercentAndATenThousandthOfTheSizeInEveryUnit
     EXPECT_EQ(is_over_reported(query, 1.0099 * unit), false) << unit;
   }
   constexpr double most = std::numeric_limits<double>::max();
-  Query large{.kind = Kind::edge_edge};  // whose size overflows
+  Query large{.kind = Kind::edge_edge};  // its size overflows
   large.x = {-most, 0, 0, most, 0, 0, -most, 1, 0, most, 1, 0};
   EXPECT_TRUE(error(at_rest(large), most).over_reported);
   EXPECT_FALSE(error(at_rest(large), 1).over_reported);
 }
 
-// Among the smallest doubles, 1 % of a distance is less than any difference.
+// Among the smallest doubles, 1 % of a distance is less than the spacing of doubles.
 TEST(DistanceError, IsNoneForTheSmallestDistances) {
   for (const double d : {0x1p-1074, 0x1p-1073, 20 * 0x1p-1074, 60 * 0x1p-1074}) {
     Query query{.kind = Kind::vertex_vertex};
@@ -104,7 +104,7 @@ TEST(DistanceAnswer, IsAFaultIfItIsNoDistance) {
   EXPECT_EQ(DistanceAnswer::given(0, {}).fault, Fault::none);
 }
 
-/// What a campaign asks unless the user names families.
+/// The families that are asked by default.
 QuestionPlan usual(std::uint64_t cases) {
   QuestionPlan plan{.cases = cases, .jobs = 2};
   plan.kinds.insert(kinds.begin(), kinds.end());
@@ -114,7 +114,7 @@ QuestionPlan usual(std::uint64_t cases) {
 
 QuestionResults<DistanceQuestion> measured(const std::string& name, const QuestionPlan& plan) {
   Subjects subjects;
-  subjects.push_back(make_subject(name));  // in this process, which is faster
+  subjects.push_back(make_subject(name));  // faster than in a process of its own
   return QuestionTrial<DistanceQuestion>(subjects, plan, Stop::never()).run([](std::uint64_t) {});
 }
 
@@ -165,7 +165,7 @@ TEST(DistanceTrial, FindsEveryPlantedDefect) {
 TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
   QuestionPlan plan = usual(2000);
   plan.kinds = {Kind::vertex_vertex};
-  plan.jobs = 1;  // the answers depend on the number of calls of all threads
+  plan.jobs = 1;  // the answers depend on the number of earlier calls
   const auto results = measured(with_defect(27), plan);
   ASSERT_FALSE(results.findings.empty());
   for (const QuestionFinding& each : results.findings) {
@@ -175,7 +175,8 @@ TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
 }
 
 TEST(DistanceTrial, TellsAtWhichSizesAFunctionIsRight) {
-  // Edges shorter than 2^-10 count as points. Some edges are much shorter than the others of their size.
+  // This defect takes edges shorter than 2^-10 for points. Some edges are much shorter than the usual edges
+  // of a query of the same size.
   QuestionPlan plan = usual(15'000);
   plan.families = {find_family("rest-units")};
   plan.kinds = {Kind::vertex_triangle, Kind::edge_edge};
@@ -218,7 +219,7 @@ TEST(DistanceTrial, ASubjectThatGivesNoDistanceIsNotAsked) {
   const auto wang = make_subject("wang");
   EXPECT_FALSE(wang->gives_distance(Kind::edge_edge));
   EXPECT_EQ(wang->ask_distance(crossing).fault, Fault::not_asked);
-  EXPECT_TRUE(measured("wang", usual(100)).has_failed());  // nothing was asked
+  EXPECT_TRUE(measured("wang", usual(100)).has_failed());  // fails, because nothing was asked
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The time of the first contact or approach: its certified enclosure, and comparisons with other times.
+// The time of the first contact or approach: the certified enclosure of this time, and comparisons with other
+// times.
 #include "oracle/earliest_time.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +72,7 @@ TEST(EarliestTime, IsKnownWithoutExactArithmetic) {
   EXPECT_LT(time.known().hi - time.known().lo, 1e-12);
 }
 
-// Many of these queries have two contacts near each other.
+// Many queries of this test have two contacts at nearly the same time.
 TEST(EarliestTime, IsOfTheFirstOfTwoContacts) {
   std::size_t later = 0;
   for (std::uint64_t i = 0; i < 600; ++i) {

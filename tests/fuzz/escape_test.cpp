@@ -1,4 +1,5 @@
-// A plug-in that acts on the processes around it reaches none of them, with or without its own PID namespace.
+// A plug-in that tries to act on the processes around it reaches none of them, with or without its own PID
+// namespace.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/capability.h>
@@ -35,7 +36,7 @@ using testing::CopiedPlugin;
 using testing::plugin;
 using testing::queries;
 
-/// Whether the system lets this user have a PID namespace.
+/// Whether the system grants this user a PID namespace.
 bool grants_namespaces() {
   const pid_t child = fork();
   if (child == 0) {
@@ -47,13 +48,13 @@ bool grants_namespaces() {
   return status == 0;
 }
 
-/// The parameter says whether the plug-in may have a namespace.
+/// The parameter is whether the plug-in may have a PID namespace.
 class Containment : public ::testing::TestWithParam<bool> {
  protected:
   Containment() { setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1); }
 
   [[nodiscard]] static isolation::PluginLimits limits() { return {.own_namespace = GetParam()}; }
-  /// Whether the system refused what a plug-in tried.
+  /// Whether the system refuses what this plug-in tries.
   [[nodiscard]] static bool refuses(const std::string& name) {
     const auto subject = make_isolated_plugin(plugin(name), limits());
     const Verdict verdict = answers_of(*subject, queries())[chosen];
@@ -121,8 +122,8 @@ TEST_P(Containment, EndsAllProcessesWhenThisProcessIsKilled) {
     EXPECT_GT(copied.processes(), 0);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // The plug-in's processes notice the kill at once, but no process waits for their end. The test fails
-    // after a minute.
+    // The plug-in's processes end at once when nearmiss is killed, but nobody waits for their end. The test
+    // fails after a minute.
     constexpr int tries = 6000;
     for (int i = 0; i < tries && copied.processes() > 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -156,7 +157,7 @@ bool has_landlock() { return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1)
 
 TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
   if (!GetParam() && !has_landlock()) GTEST_SKIP() << "found no Landlock";
-  const pid_t victim = fork();  // without privileges, it is a process as any other of an ordinary user
+  const pid_t victim = fork();  // drops its privileges, to be like any other process of an ordinary user
   if (victim == 0) {
     __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
     std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> none{};
@@ -173,9 +174,9 @@ TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
   waitpid(victim, nullptr, 0);
 }
 
-// The end of the group is the end of all, also of those that start others faster than they can be found.
+// Ending the group ends all of its processes, even if they start others faster than nearmiss can find them.
 TEST_P(Containment, NoProcessLeavesTheGroupThatEndsWithThePlugin) {
-  EXPECT_EQ(refuses("escaping_leave"), !GetParam() || !grants_namespaces());  // a namespace ends with it, too
+  EXPECT_EQ(refuses("escaping_leave"), !GetParam() || !grants_namespaces());  // else, the namespace ends them
 }
 
 TEST_P(Containment, APluginHasNoPrivilegesExceptOnFilesAndReachesNoKeyrings) {
@@ -195,7 +196,7 @@ TEST_P(Containment, TheTerminalOfTheUserIsOutOfReach) {
   close(ours);
 }
 
-/// The number of System V segments that this process sees.
+/// The number of System V shared memory segments that this process sees.
 std::ptrdiff_t segments() {
   std::ifstream all("/proc/sysvipc/shm");
   return std::count(std::istreambuf_iterator<char>(all), {}, '\n');

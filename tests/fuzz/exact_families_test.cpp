@@ -1,5 +1,5 @@
-// The families of exact contact keep their promises: contact at the ends of the step, at times that are hard
-// to find, and in double and triple roots.
+// Families of exact contact keep their promises: contact at the ends of the step, at times that are hard to
+// find, and at double and triple roots.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ using testing::first_time;
 using testing::reversed;
 using testing::roots_before;
 
-/// The time of the last contact, for times that are multiples of 2^-52.
+/// The time of the last contact, which must be a multiple of 2^-52.
 double last_time(const Query& query) { return 1 - first_time(reversed(query)); }
 
 bool is_sixteenths(double time) { return 16 * time == std::floor(16 * time); }
@@ -71,13 +71,14 @@ TEST(TouchTwice, MostTouchAtTwoTimes) {
   });
 }
 
-// One query in four turns back before contact. In some queries, contact is outside of the primitives.
+// In one query of four, the primitives turn back before contact. In some queries, the contact is outside the
+// primitives.
 TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
   for (const char* family : {"even-roots@-16", "even-roots@-2"})
     expect_more(family, 40, [](const Query& query) { return testing::count_roots(query).distinct == 2; });
 }
 
-// One query in eight has an exact triple root, if its numbers are exact.
+// One query in eight has a triple root, which is exact if no number was rounded.
 TEST(TripleRoot, ThePrimitivesMeetInATripleRoot) {
   expect_more("triple-root@-16", 5, [](const Query& query) {
     const testing::RootCount roots = testing::count_roots(query);

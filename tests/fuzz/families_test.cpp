@@ -24,7 +24,8 @@ TEST(Random, IsPhilox4x64) {
   EXPECT_EQ(random.bits(), 0x7e68b68aec7ba23bU);
 }
 
-/// The number of queries to check: a fifth for near-separation and others that compute exact distances.
+/// The number of queries to check: the usual number, or a fifth for families that compute exact distances,
+/// such as near-separation.
 std::uint64_t count_of(const Family& family, std::uint64_t usual) {
   return family.has_separation && family.block_cases < 25 ? usual / 5 : usual;
 }
@@ -173,15 +174,15 @@ TEST(EveryFamily, IsFiniteAndOfBothKinds) {
       expect_finite_and_of_both_kinds(family);
 }
 
-// Only planted collisions may always collide. Any other family is useless if its queries hardly ever collide
-// or always collide.
+// Only families of planted collisions may always collide. Any other family is useless if its queries hardly
+// ever or always collide.
 TEST(EveryFamily, HasCollisionsAndMisses) {
   for (const Family& family : all_families()) {
     if (!is_of_meshes(family.kinds[0]) && !family.has_separation) continue;  // contact is a coincidence
     const std::uint64_t count = count_of(family, 400);
     std::uint64_t collisions[2] = {0, 0};
     for (std::uint64_t i = 0; i < 2 * count; ++i) collisions[i % 2] += collides(make_query(family, 4, i));
-    // About 3 in 1000 collide in this family, and none where the primitives rest apart.
+    // In uniform-slow, about 3 queries in 1000 collide; in the families at rest apart, none.
     const bool has_few =
         family.name == "uniform-slow" || (family.name.starts_with("rest") && family.name != "rest-touching");
     for (const std::uint64_t c : collisions) {
@@ -193,7 +194,7 @@ TEST(EveryFamily, HasCollisionsAndMisses) {
 
 // --- parameters -----------------------------------------------------------------------------------------
 
-/// A family whose queries contain the parameter that they were made from.
+/// A family whose queries contain the value of the parameter from which they were made.
 Family telling_family() {
   return with_parameter("telling", "", {"", -3, 5, false, [](Random& random, Kind kind, double x) {
                                           Query query{.kind = kind};

@@ -1,4 +1,4 @@
-// The first queries of a family, and how many of them have a property.
+// The first queries of a family, and counts of those with a property.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
   return name;
 }
 
-/// The number of queries of each family: NEARMISS_QUERIES of the environment, for long runs by hand, or the
-/// usual one.
+/// The number of queries of each family: the environment variable NEARMISS_QUERIES, for long runs by hand,
+/// otherwise the usual number.
 inline std::uint64_t query_count(std::uint64_t usual) {
   const char* const given = std::getenv("NEARMISS_QUERIES");
   return given == nullptr ? usual : std::stoull(given);
@@ -62,7 +62,7 @@ void expect_more(std::string_view name, int above, const Property& has_property)
   EXPECT_GT(count_of_400(name, has_property), above) << name;
 }
 
-/// Expects that 400 queries of a family have a property.
+/// Expects that all of 400 queries of a family have a property.
 template <class Property>
 void expect_all(std::string_view name, const Property& has_property) {
   EXPECT_EQ(count_of_400(name, has_property), 400) << name;
@@ -79,7 +79,7 @@ inline std::vector<Query> first_queries(std::string_view name, std::uint64_t cou
   return queries;
 }
 
-/// The primitives at rest, in their positions at a time. Positions are rounded except at t = 0 and t = 1.
+/// The primitives at rest at their positions at a time. Positions are rounded except at t = 0 and t = 1.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {
     const double place = (1 - time) * query.x[i] + time * query.x[12 + i];
@@ -94,7 +94,7 @@ inline Query reversed(Query query) {
   return query;
 }
 
-/// The earliest time at which the distance is at most h, which must be a double.
+/// The earliest time at which the distance is at most h. This time must be a double.
 inline double first_time(const Query& query) {
   const auto [lo, hi] = earliest_time(query)->enclosure();
   EXPECT_EQ(lo, hi);

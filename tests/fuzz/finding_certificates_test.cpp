@@ -1,4 +1,4 @@
-// Findings carry certificates of what the oracle says against the subject.
+// Findings have certificates that prove that the subject is wrong.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ using What = Finding::What;
 
 /// The vertex meets the triangle at t = 1/2, and passes it.
 const Query hit = falling_vertex(0.25, 0.25, 1, -1);
-/// The vertex comes as near as 2.
+/// The vertex falls, and stays at least 2 away.
 const Query apart = falling_vertex(0.25, 0.25, 4, 2);
 
 /// The certificate of a finding with this query.
@@ -56,7 +56,7 @@ TEST(FindingCertificate, OfALateTimeIsThatTheyMeetBeforeIt) {
   EXPECT_EQ(check(certificate(What::late, hit, 0.75)),
             statement_about(hit, "meets", {0, std::nextafter(0.75, 0)}, false));
   EXPECT_EQ(certificate(What::late, hit, 0.5), "");
-  const Query near = with_separation(hit, 0.5);  // nearer than that from t = 1/4 on
+  const Query near = with_separation(hit, 0.5);  // nearer than 0.5 from t = 1/4 on
   EXPECT_EQ(check(certificate(What::late, near, 0.375)),
             statement_about(near, "meets", {0, std::nextafter(0.375, 0)}, true));
   EXPECT_EQ(certificate(What::late, near, 0.25), "");
@@ -70,8 +70,8 @@ TEST(FindingCertificate, OfARefutedBoundIsThatTheyAreFartherApart) {
             statement_about(with_separation(apart, std::nextafter(1.5, 2)), "apart", {}, true));
 }
 
-/// A subject that takes separations, promises a time, and claims a bound of 0. It misses every third query,
-/// fails to answer every other third, and reports the others as collisions at t = 1.
+/// A subject that takes separations, promises a time, and claims a bound of 0. Of each three queries, it
+/// misses one, fails to answer one, and reports one as a collision at t = 1.
 Subjects often_wrong() {
   const auto answer = [](const Query& query) {
     const auto third = static_cast<int>(std::fmod(std::abs(query.x[0]) * 1e6, 3));
@@ -83,7 +83,7 @@ Subjects often_wrong() {
       "wrong", answer, Claims{.time_sort = TimeSort::lower_bound, .takes_separation = true}));
 }
 
-/// The kind of each failure, and the claim that its certificate proves, or "" for a fault. Expects that each
+/// The kind of each failure, with the claim that its certificate proves ("" for a fault). Expects that each
 /// certificate is about the shrunk query.
 std::set<std::pair<What, std::string>> claims_of(const std::vector<Finding>& findings) {
   std::set<std::pair<What, std::string>> claims;

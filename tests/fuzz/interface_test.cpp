@@ -1,4 +1,5 @@
-// What a plug-in can state through ccd/nearmiss_subject.h, in its own process and in this one.
+// Everything that a detector can state through ccd/nearmiss_subject.h, in its own process and in this
+// process.
 #include <gmock/gmock.h>
 
 #include <array>

@@ -48,7 +48,7 @@ bool is_chosen(const Query& query) {
 }
 
 /// Limits with little memory. The time limit is short only for plug-ins that are meant to exceed it, because
-/// others might exceed it on a busy machine.
+/// on a busy machine, others might exceed a short limit, too.
 isolation::PluginLimits limits_for(Fault fault) {
   const auto time = fault == Fault::time ? std::chrono::milliseconds(100) : std::chrono::seconds(60);
   return {.time = time, .bytes = std::uint64_t{64} << 20};
@@ -87,7 +87,7 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   }
 }
 
-// The plug-in sleeps at least this long, so the test does not depend on speed.
+// The plug-in sleeps at least as long as the test expects, so the test does not depend on speed.
 TEST(Isolation, WaitingForADeviceCounts) {
   const auto queries = first_queries("uniform", 20);
   std::vector<Verdict> verdicts(queries.size());
@@ -113,14 +113,14 @@ void use_one_processor() {
   sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
-/// Uses the processor for some milliseconds, so that the system prefers other processes afterwards.
+/// Uses the processor for some milliseconds, so that afterwards the system prefers other processes.
 void compute_for_some_time() {
   const auto start = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(5)) {
   }
 }
 
-// The plug-in computes at least this long, so the test does not depend on speed.
+// The plug-in computes at least as long as the test expects, so the test does not depend on speed.
 TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
   std::vector<std::uint64_t> nanoseconds;
   std::thread([&] {
@@ -136,13 +136,13 @@ TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
   EXPECT_THAT(nanoseconds, ::testing::Each(::testing::Ge(50 * 9'000U)));
 }
 
-// The plug-ins compute at least this long, so the tests do not depend on speed.
+// The plug-ins compute at least as long as the tests expect, so the tests do not depend on speed.
 TEST(Isolation, TheComputingTimeOfAChildCounts) {
   const auto subject = make_isolated_plugin(plugin("computes_in_a_child"));
   const auto queries = one_batch(50);
   std::vector<Verdict> verdicts(queries.size());
   std::thread([&] {
-    use_one_processor();                       // so that the plug-in's process computes little
+    use_one_processor();                       // so the child computes, and the plug-in's process little
     subject->decide_timed(queries, verdicts);  // starts the child
     for (int i = 0; i < 3; ++i)
       EXPECT_GE(subject->decide_timed(queries, verdicts).nanoseconds, 50 * 900'000U / 2);
@@ -174,7 +174,7 @@ TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {
   EXPECT_TRUE(subject->decide(one_batch(1).front()).hit);
 }
 
-// A process that dies at any moment leaves only answers that the plug-in gave.
+// A process may die at any moment; all answers that it leaves are the plug-in's.
 TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
   const auto subject = make_isolated_plugin(plugin("aborts_later"));
   const auto queries = one_batch(50);
@@ -233,7 +233,7 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
   EXPECT_GE(chosen, 2);
 }
 
-/// For a scope, this process can open no more files, and so can start no worker.
+/// Within a scope, this process can open no more files, and so can start no worker.
 class NoFiles {
  public:
   NoFiles() {
@@ -275,7 +275,7 @@ TEST(Isolation, AStopDoesNotWaitForAWorkerThatDoesNotStart) {
 }
 
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {
-  // Each of 12 queries takes an eighth of a second. Together they take longer than the limit.
+  // Each of 12 queries takes an eighth of a second. Together, they take longer than the limit for one query.
   const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::seconds(1)});
   for (const Verdict& verdict : answers_of(*subject, one_batch(12))) EXPECT_EQ(verdict.fault, Fault::none);
 }

@@ -1,4 +1,4 @@
-// The judge decides whether an answer is a failure, and of which sort.
+// The judge decides whether an answer is a failure, and which sort of failure.
 #include "fuzz/trial/judge.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ using testing::plugin;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A subject that reports everything and claims one bound. It refuses a vertex that starts at z = 0.
+/// A subject that reports everything and claims this bound. It refuses a query whose vertex starts at z = 0.
 MadeUpSubject alarmist(double bound) {
   const auto report = [](const Query& query) {
     if (query.x[2] == 0) throw Error("alarmist: refused");
@@ -76,7 +76,7 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
   EXPECT_EQ(Judge(claims).ask_unit(stops_above).bound, 0.5);
   const auto always = make_isolated_plugin(plugin("always"));
   EXPECT_EQ(Judge(*always).ask_unit(stops_above).bound, make_subject("wang")->distance_bound(stops_above));
-  EXPECT_EQ(Judge(*always).failure(stops_above), std::nullopt);  // nothing is claimed, nothing is refuted
+  EXPECT_EQ(Judge(*always).failure(stops_above), std::nullopt);  // claims no bound, so none can be refuted
   Truth truth(stops_above);
   EXPECT_TRUE(Judge(*always).judge(always->decide(stops_above), truth).measured_by_wang);
   EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth).measured_by_wang);
@@ -103,7 +103,7 @@ TEST(Judge, ATimeIsPromisedByASubjectThatGivesLowerBounds) {
     EXPECT_EQ(bound->late, time > 0.5) << time;
     EXPECT_EQ(bound->stuck, time == 0) << time;
     EXPECT_NEAR(bound->after - bound->early, time - 0.5, 1e-3) << time;
-    EXPECT_NEAR(bound->travelled, bound->early * 2 / 3, 1e-3) << time;  // it falls by 2, and B is 1 + 2
+    EXPECT_NEAR(bound->travelled, bound->early * 2 / 3, 1e-3) << time;  // falls by 2, and B is 1 + 2
   }
 }
 
@@ -136,7 +136,7 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
   EXPECT_LE(complexity(shrunk).numbers, 2);
 }
 
-// A query that fails in a trial fails in the same way when it is judged again, so it can be shrunk.
+// A query that fails in a trial fails in the same way when it is asked again, so it can be shrunk.
 TEST(BadBound, IsCountedShrunkAndJudgedAlike) {
   const Subjects subjects = testing::one(make_isolated_plugin(plugin("bound_nan")));
   std::vector<Query> queries;

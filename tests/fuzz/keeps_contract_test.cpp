@@ -45,14 +45,14 @@ TEST(Contract, OneRoot) {
   const auto keeps = [&](const Query& query) { return keeps_contract(query, contract); };
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 1, -1)));
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 2, 1)));
-  // The roots of F in each query:
+  // The comments give the roots of F.
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 1, 0)));      // at the end
   EXPECT_TRUE(keeps(falling_vertex(0.25, 0.25, 0, 1)));      // at the start
   EXPECT_FALSE(keeps(falling_vertex(0.25, 0.25, 0, 0)));     // always
   EXPECT_FALSE(keeps(two_factors(1, -1, 1, -3)));            // at 1/2 and 1/4
   EXPECT_FALSE(keeps(two_factors(1, -1, 1, -1)));            // at 1/2, twice
   EXPECT_FALSE(keeps(two_factors(0, 1, 0, 1)));              // at 0, twice
-  EXPECT_TRUE(keeps(two_factors(-1, -2, -1, -2)));           // twice, at -1
+  EXPECT_TRUE(keeps(two_factors(-1, -2, -1, -2)));           // at -1, twice
   EXPECT_FALSE(keeps(two_factors(1, -1, 0, 1)));             // at 1/2 and 0
   EXPECT_FALSE(keeps(two_factors(1, 0, 0, 1)));              // at both ends
   EXPECT_FALSE(keeps(two_factors(1, -1, 1, -1 - 0x1p-52)));  // at 1/2, and just before
@@ -96,7 +96,7 @@ TEST(Contract, Grid) {
 
 TEST(Contract, LengthsOfEdgesAndPaths) {
   const Query query = falling_vertex(0.25, 0.25, 0.5, 0.25);  // the edges are 1, 1 and √2 long
-  const double just_above = std::sqrt(2.0);                   // rounded up
+  const double just_above = std::sqrt(2.0);                   // √2, rounded up
   EXPECT_TRUE(keeps_contract(query, {.longest = just_above}));
   EXPECT_FALSE(keeps_contract(query, {.longest = std::nextafter(just_above, 0)}));
   EXPECT_TRUE(keeps_contract(query, {.shortest = 1}));
@@ -107,7 +107,7 @@ TEST(Contract, LengthsOfEdgesAndPaths) {
   Query edges{.kind = Kind::edge_edge};
   edges.set_start(1, {1, 0, 0});
   edges.set_end(1, {1, 0, 0});
-  EXPECT_FALSE(keeps_contract(edges, {.shortest = 1}));  // the other edge is a point
+  EXPECT_FALSE(keeps_contract(edges, {.shortest = 1}));  // one edge is a point
   EXPECT_TRUE(keeps_contract(edges, {.longest = 1}));
   const Query path = falling_vertex(0.25, 0.25, 1, -1);
   EXPECT_TRUE(keeps_contract(path, {.longest = 2}));

@@ -35,7 +35,7 @@ double error(const DoubleDouble& computed, const Rational& exact) {
   return static_cast<double>(relative) * 0x1p102;
 }
 
-/// Two double-doubles, which are often so near each other that their difference cancels.
+/// Two double-doubles that are often so near each other that their difference suffers cancellation.
 std::pair<DoubleDouble, DoubleDouble> operands(Random& random) {
   const auto draw = [&] {
     const double high = random.uniform(-1, 1);
@@ -61,7 +61,7 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
     sum = std::max(sum, error(a - b, exactly(a) - exactly(b)));
     product = std::max(product, error(a * b, exactly(a) * exactly(b)));
     quotient = std::max(quotient, error(a / b, exactly(a) / exactly(b)));
-    const DoubleDouble r = sqrt(abs(a));  // the root's error is half of its square's
+    const DoubleDouble r = sqrt(abs(a));  // the relative error of the root is half that of its square
     root = std::max(root, error(r * r, abs(exactly(a))) / 2);
   }
   EXPECT_LE(sum, 3.0 / 16 + 1e-9);
@@ -82,7 +82,7 @@ TEST(MpfrFloat, AreThoseOfTheScope) {
   EXPECT_EQ(MpfrFloat(1) + 0x1p-25, MpfrFloat(1));
   EXPECT_EQ(ilogb(MpfrFloat(-5)), 2);
   EXPECT_EQ(static_cast<double>(abs(MpfrFloat(-0.1))), 0x1.9999ap-4);
-  EXPECT_EQ(static_cast<double>(MpfrFloat(1) / 3), 0x1.55556p-2);  // to nearest, as all operations
+  EXPECT_EQ(static_cast<double>(MpfrFloat(1) / 3), 0x1.55556p-2);  // rounded to nearest, as all operations
   EXPECT_EQ(static_cast<double>(MpfrFloat(1) - 0x1.8p-20), 1 - 0x1p-19);
   EXPECT_EQ(static_cast<double>(MpfrFloat(3) * 0x1.55556p-2), 1);
   EXPECT_EQ(static_cast<double>(sqrt(MpfrFloat(2))), 0x1.6a09ep0);
@@ -167,7 +167,7 @@ TEST(Ladder, The53BitsOfDoubleAnswerAsDoubleDoes) {
 }
 
 TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
-  // The vertex is above the triangle by less than an ulp of float.
+  // The vertex ends above the triangle, by less than an ulp of float.
   const Query query = testing::falling_vertex(0.25, 0.25, 1, 0x1p-40);
   const Query moved = testing::moved(query, 1);
   ASSERT_FALSE(collides(moved));
@@ -188,7 +188,7 @@ TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
   EXPECT_EQ(oracle.collisions, 0);
 }
 
-// A coordinate that would round to 2^1024 becomes the largest number that the scalar has below it.
+// A coordinate that would round to 2^1024 becomes the largest smaller number of the scalar.
 TEST(Ladder, NarrowScalarsRoundTheLargestNumbersToFiniteOnes) {
   constexpr double largest = std::numeric_limits<double>::max();
   const Query query =

@@ -1,4 +1,4 @@
-// Subjects with the answers that a test makes up.
+// Subjects whose answers a test makes up.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct Claims {
   TimeSort time_sort = TimeSort::none;
   bool takes_separation = false;
   Contract contract = {};
-  bool rounds = false;  ///< whether it rounds coordinates to float
+  bool rounds = false;  ///< whether the subject rounds coordinates to float
 };
 
 class MadeUpSubject final : public Subject {
@@ -48,8 +48,8 @@ class MadeUpSubject final : public Subject {
   Claims claims_;
 };
 
-/// Passes queries on to another subject, and then calls `watch` with each batch and its answers, which it may
-/// change. The other subject must outlive this one.
+/// Passes queries on to another subject, then calls `watch` with each batch and its answers. `watch` may
+/// change the answers. The other subject must outlive this one.
 class WatchedSubject final : public ForwardingSubject {
  public:
   using Watch = std::function<void(std::span<const Query>, std::span<Verdict>)>;

@@ -1,4 +1,4 @@
-// Files of one mesh, a square, in all formats, with a fixture that reads them.
+// Files with the same mesh, a square, in all formats, and a fixture that reads them.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -96,7 +96,8 @@ class MeshFilesTest : public testing::TemporaryFolder {
     std::string old, by, message;
   };
 
-  /// Expects that each change of a good file, made by itself, is refused with its message.
+  /// Makes each change of a good file by itself, and expects that the file is refused with the change's
+  /// message.
   void expect_refused_with(const std::string& ending, const std::string& good,
                            std::initializer_list<Change> changes) const {
     for (const auto& [old, by, message] : changes) expect_refused(ending, replaced(good, old, by), message);

@@ -14,7 +14,8 @@
 
 namespace nearmiss {
 
-/// Small tetrahedra with integer coordinates. In turn, they rest, move as a whole, and change shape.
+/// Small tetrahedra with integer coordinates. The first tetrahedron rests, the second moves as a whole, the
+/// third changes its shape, and so on in turn.
 inline MovingMesh tetrahedra(std::uint64_t seed, int count = 30) {
   Random random(seed, 0, 0);
   Mesh mesh;
@@ -63,8 +64,8 @@ inline Scene scene_of(const MovingMesh& mesh) {
           .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
 }
 
-/// The fates of a plan's pairs, and the pairs that collide. The oracle decides those that the plan asks
-/// about.
+/// The fates of a plan's pairs, and the pairs that collide. The oracle decides the pairs about which the plan
+/// asks.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

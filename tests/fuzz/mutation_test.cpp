@@ -1,5 +1,5 @@
 // Mutations are pure functions, make finite numbers, and keep near collisions. Also tests the places at which
-// they restore contact, and libFuzzer's inputs.
+// mutations restore contact, and libFuzzer's inputs.
 #include "fuzz/families/mutation.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Mutated, KeepsToCollisions) {
   EXPECT_GE(collisions, chains * steps / 2);
 }
 
-// A provenance of a search or of libFuzzer names a seed, which must always give the same query.
+// The provenance of a finding by search or libFuzzer names a seed, which must always give the same query.
 TEST(Mutated, IsWhatItAlwaysWas) {
   testing::BitHash hash;
   testing::BitHash of_separations;
@@ -73,7 +73,7 @@ TEST(Mutated, IsWhatItAlwaysWas) {
 
 // --- places ---------------------------------------------------------------------------------------------
 
-/// The vector between the two points of a place, with more bits than a double.
+/// The vector between the two points of a place, in more bits than a double has.
 std::array<long double, 3> gap(const Query& query, const Place& place) {
   const long double alpha = place.alpha;
   const long double beta = place.beta;

@@ -1,4 +1,4 @@
-// Work in parallel whose results come in order.
+// Parallel work whose results come in order.
 #include "fuzz/parallel.hpp"
 
 #include <gtest/gtest.h>

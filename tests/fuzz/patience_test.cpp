@@ -1,4 +1,4 @@
-// Subjects that exceed their time limit again and again are set aside.
+// Subjects that exceed their time limit several times are set aside.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,7 +42,7 @@ CampaignPlan plan_of(int jobs) {
   return plan;
 }
 
-/// The statistics, without times, of a campaign of wang and of the subject `late`. A stop is requested when
+/// The statistics, without run times, of a campaign of wang and the subject `late`. Requests a stop when
 /// `late` has been asked `stop_after` queries.
 Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
   std::atomic<bool> requested{false};
@@ -78,7 +78,7 @@ TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(run(plan_of(4)), one);
 }
 
-/// The results, without times, of trials of the subject `late`.
+/// The results, without run times, of trials of the subject `late`.
 TrialResult results_of(int jobs, const std::function<void(Trials&)>& hold) {
   const Subjects subjects = one(late(is_late));
   TrialResult sum;
@@ -156,7 +156,7 @@ TEST(Patience, NotAskingIsNoFailure) {
       },
       Stop::never());
   EXPECT_EQ(seen, 4 * most_slow);
-  EXPECT_EQ(others, 0);  // its queries over the time limit are not shrunk
+  EXPECT_EQ(others, 0);  // queries over the time limit are not shrunk
 }
 
 TEST(Patience, OfASearchEndsToo) {
@@ -165,7 +165,7 @@ TEST(Patience, OfASearchEndsToo) {
   for (const Family& family : searches(*always_late)) {
     asked = 0;
     for (std::uint64_t i = 0; i < 10; ++i) make_query(family, 1, i);
-    // A search for times goes on until 20 queries have exceeded the time limit.
+    // A search for late or early times ends only when 20 queries have exceeded the time limit.
     EXPECT_EQ(asked,
               family.name.starts_with("search-late") || family.name.starts_with("search-early") ? 60 : 3);
   }

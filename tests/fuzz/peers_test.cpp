@@ -51,9 +51,9 @@ TEST(Peers, BulletDecidesVertexTriangleOnlyAndInFloatWhereItIsBuiltSo) {
   }
 }
 
-// Bullet looks for an axis along which the triangle is on one side of the vertex. If the axis is
-// perpendicular to the vertex's path, Bullet finds them separated when no corner has the vertex's coordinate,
-// whichever side each corner is on.
+// Bullet looks for an axis along which the triangle is on one side of the vertex. For an axis perpendicular
+// to the vertex's path, Bullet takes vertex and triangle for separated unless a corner has the vertex's
+// coordinate, even if corners are on both sides.
 TEST(Peers, BulletMissesAVertexThatFallsStraightDown) {
   const Query falls = testing::falling_vertex(0.25, 0.25, 1, -1);
   ASSERT_TRUE(collides(falls));

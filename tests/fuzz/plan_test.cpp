@@ -1,4 +1,4 @@
-// The pairs that a plan leaves out do not collide, or are decided by an exact test.
+// Pairs that a plan leaves out do not collide, or an exact test decides them.
 #include "fuzz/scenes/plan.hpp"
 
 #include <gtest/gtest.h>

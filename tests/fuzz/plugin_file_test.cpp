@@ -38,20 +38,20 @@ namespace fs = std::filesystem;
 
 class PluginFileTest : public testing::TemporaryFolder {
  protected:
-  /// Replaces p.so by a built plug-in, with a new inode.
+  /// Replaces the file p.so by a copy of a built plug-in, which gets a new inode.
   void replace(const std::string& name) const {
     fs::copy_file(plugin(name), file("new"));
     fs::rename(file("new"), file("p.so"));
   }
 
-  /// Overwrites the bytes of p.so.
+  /// Overwrites the bytes of p.so with those of a built plug-in.
   void overwrite(const std::string& name) const {
     fs::copy_file(plugin(name), file("p.so"), fs::copy_options::overwrite_existing);
   }
 
   [[nodiscard]] std::unique_ptr<Subject> make() const { return make_isolated_plugin(file("p.so").string()); }
 
-  /// Expects that the plug-in is not asked, because its file changed.
+  /// Expects that asking the plug-in throws PluginChanged, with these words.
   void expect_changed(const Subject& subject, const std::string& words) const {
     using ::testing::HasSubstr;
     using ::testing::ThrowsMessage;
@@ -90,7 +90,7 @@ TEST_F(PluginFileTest, ThatWasChangedIsNotAskedAgain) {
   expect_changed(*removed, "found no such file");
 }
 
-// The plug-in ends its process at each query, so that each query loads the file again.
+// The plug-in ends its process at each query, so each query loads the file again.
 TEST_F(PluginFileTest, ThatWasReplacedIsNotLoadedAfterACrash) {
   replace("bound_abort");
   const auto subject = make();
@@ -153,7 +153,7 @@ TEST_F(PluginFileTest, HasAtMostTwoGibibytes) {
 TEST_F(PluginFileTest, HasABuildIdUnlessItEndsTooSoon) {
   replace("always");
   const std::string elf = read("p.so"), id = gnu_build_id(elf);
-  EXPECT_EQ(id.size(), 40);  // of a SHA-1 digest
+  EXPECT_EQ(id.size(), 40);  // the length of a SHA-1 digest
   replace("never");
   EXPECT_NE(id, gnu_build_id(read("p.so")));
   for (std::size_t size = 0; size <= elf.size(); size += size < 2000 ? 1 : 100)

@@ -19,8 +19,8 @@ using testing::answers_of;
 
 class ProgramTest : public testing::TemporaryFolder {
  protected:
-  /// A program that reports every query at t = 0.5. For each request, it first runs the code `then`, which
-  /// can read the queries in `rows` and change `answers`. `lines` are added to its description.
+  /// A program that reports every query at t = 0.5. Before it answers a request, it runs the code `then`,
+  /// which can read the queries in `rows` and change `answers`. Its description also has `lines`.
   [[nodiscard]] std::string program(const std::string& then, const std::string& lines = "") const {
     return command("say('nearmiss 3\\nname p\\nkinds vt ee vv ve\\nbatch 64\\n" + lines + R"(\n')
 while header := sys.stdin.buffer.read(24):
@@ -34,7 +34,7 @@ while header := sys.stdin.buffer.read(24):
 )");
   }
 
-  /// A program in Python.
+  /// The command for a program in Python.
   [[nodiscard]] std::string command(const std::string& code) const {
     const std::string text =
         "import atexit, os, signal, struct, subprocess, sys, time\n"
@@ -43,7 +43,8 @@ while header := sys.stdin.buffer.read(24):
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
   }
 
-  /// Asks three queries. `then` acts at the last one, which must have this fault, code and text.
+  /// Asks three queries of a program. `then` acts at the last query, which must get this fault, code and
+  /// text.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto time = std::chrono::milliseconds(fault == Fault::time ? 40 : 200);
     const auto subject = make_any_subject(program(then), std::nullopt, {.time = time});
@@ -98,7 +99,7 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
 }
 
 TEST_F(ProgramTest, GivesDistances) {
-  // Of a vertex and an edge, the program gets two times the same nine numbers.
+  // For a vertex and an edge, the program gets the same nine numbers twice.
   const auto subject = make_any_subject(
       program("if question == 2: answers = [rows[0][8] if rows[0][:9] == rows[0][9:18] else -1, 0]",
               "distance ve\\n"));
@@ -125,7 +126,7 @@ TEST_F(ProgramTest, FiltersSteps) {
   }
 }
 
-// Row by row, the answer is whether the separation is the row's last number.
+// The answer to each query is whether the last number of its row is the separation.
 TEST_F(ProgramTest, GetsTheNumbersOfEachKindAndTheSeparation) {
   const std::string then =
       "if question == 1: answers = [rows[0][-1] + len(rows[0]), 0]\n"
@@ -160,7 +161,8 @@ TEST_F(ProgramTest, OfVersion2IsAskedForBoundsWithoutTheSeparation) {
   EXPECT_EQ(make_any_subject(text)->distance_bound(query), 0.5);
 }
 
-// It gives the last coordinate of each query as its time, and says how long that took.
+// The program gives the last coordinate of each query as the time of impact, and says how long its answers
+// took.
 TEST_F(ProgramTest, MayReadArraysAndSayItsTimeWithoutCopies) {
   const auto subject = make_any_subject(command(R"(
 say('nearmiss 4\nname p\nkinds vt vv\nbatch 5000\ntime estimate\nlayout arrays\nseconds yes\n\n')
@@ -200,7 +202,7 @@ TEST_F(ProgramTest, ThatTakesTooLongIsLate) {
   expect_fault("while rows[-1][0] == 1: pass", Fault::time);
 }
 
-// Otherwise, later questions would get the answers to earlier ones.
+// Otherwise, later questions would get the answers to earlier questions.
 TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
   const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";
   for (const std::string& name :

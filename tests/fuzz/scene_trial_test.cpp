@@ -75,7 +75,7 @@ TEST(SceneTrial, KeepsThePicturesOfTheStepsWithTheMostMisses) {
   for (std::size_t step = 0; step < 8; ++step) {
     Mesh mesh;
     std::vector<Eigen::Vector3d> end;
-    // So many vertices fall through a triangle as the number of the step, the last ones at its corners.
+    // In step n, n vertices fall through a triangle, the last ones at its corners.
     mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     mesh.triangles = {{0, 1, 2}};
     for (std::size_t i = 0; i < step; ++i) mesh.points.push_back({0.1 * static_cast<double>(i), 1, 1});
@@ -108,7 +108,7 @@ TEST(SceneTrial, ThePictureMarksWhatCollides) {
   EXPECT_EQ(numbers("dots"), (std::vector{0, 1}));
   const std::vector<int> points = numbers("points");
   ASSERT_EQ(points.size(), 6 * 5);
-  EXPECT_EQ(points[6], 8888);  // the far end has x = 8; the scale turns 9 into 9999
+  EXPECT_EQ(points[6], 8888);  // the far end has x = 8, and the picture scales 9 to 9999
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST_F(TwoFilesTest, MustHoldTheSamePrimitives) {
 
 class FolderTest : public testing::TemporaryFolder {
  protected:
-  /// A frame of one triangle, at a height.
+  /// Writes a frame with one triangle at a height.
   void write_frame(const std::string& name, double height) const {
     const std::string z = std::to_string(height);
     write("frames/" + name, "v 0 0 " + z + "\nv 1 0 " + z + "\nv 0 1 " + z + "\nf 1 2 3\n");
@@ -92,7 +92,7 @@ TEST_F(FolderTest, TwoFramesWithOneEndingAreNeeded) {
   expect_refused(": found 1.obj and 2.off, expected meshes with one ending");
 }
 
-/// Points 0 and 2 coincide in frame 0, and so do 1 and 4.
+/// A scene in which points 0 and 2 coincide in frame 0, and points 1 and 4, too.
 Scene with_seams(const std::vector<Vector3<double>>& later) {
   const Mesh mesh{
       {{0, 0, 0}, {1, 0, 0}, {-0.0, 0, -0.0}, {0, 1, 0}, {1, 0, 0}}, {{0, 1, 3}, {2, 4, 1}}, {{2, 3}}};

@@ -28,7 +28,7 @@ TEST(MissSearch, FindsDefects) {
   EXPECT_TRUE(finds_miss("defect:vv", 20));
   EXPECT_TRUE(finds_miss("defect:D2*0.1", 20));
   EXPECT_TRUE(finds_miss("defect:ve-zero", 20));
-  EXPECT_TRUE(finds_miss("basic", 20));  // which tells nothing of the tolerance that it needs
+  EXPECT_TRUE(finds_miss("basic", 20));  // has no needed_tolerance()
 }
 
 TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
@@ -49,7 +49,7 @@ TEST(Searches, GiveFiniteQueriesWithTheLargestSeparation) {
     EXPECT_TRUE(is_finite(search(family, 0))) << family.name;
 }
 
-/// A search continues from what it has found, so a difference of one bit leads to other queries.
+/// A search continues from its best point, so a difference of one bit would lead to other queries.
 TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
   testing::BitHash hash;
   for (const char* name : {"wang", "basic", "wang-tight:p24", "defect:vv"}) {
@@ -70,8 +70,8 @@ TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
   EXPECT_THROW(search(miss_search(subject), 0), Error);
 }
 
-/// Expects that one of the first searches finds a false positive at more than this part of the subject's
-/// claim, and that none refutes the claim.
+/// Expects that one of the first searches finds a false positive at more than `wanted` times the subject's
+/// claimed bound, and that no search refutes the bound.
 void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   double ratio = 0;
   for (std::uint64_t i = 0; i < searches && ratio <= wanted; ++i) {
@@ -83,7 +83,7 @@ void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   EXPECT_GT(ratio, wanted);
 }
 
-// In float the bound is 0.76 B, so that many planes of the culling nearly separate far false positives. For a
+// In float, the bound is 0.76 B, so many planes of the culling nearly separate far false positives. With a
 // fine scalar, the search must make primitives as small as the bound.
 TEST(FarSearch, ComesNearTheBoundPastPlaneCullingAndInFineScalars) {
   expect_far(*make_any_subject("wang:float"), 0.8, 40);

@@ -27,7 +27,7 @@ namespace {
 using testing::MadeUpSubject;
 using testing::WatchedSubject;
 
-/// Shrinks a query, while it `fails`.
+/// The query, shrunk as long as `fails` returns true.
 Query shrunk_while(const Query& query, const std::function<bool(const Query&)>& fails) {
   return nearmiss::shrunk(query, [&](std::span<const Query> queries) -> std::optional<std::size_t> {
     const auto first = std::find_if(queries.begin(), queries.end(), fails);
@@ -70,7 +70,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     EXPECT_FALSE(complexity(finding.query) < after);
     Finding again = finding;
     again.query = shrunk;
-    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // already the simplest
+    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // it is already the simplest
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
@@ -78,7 +78,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
       << std::hex << hash.value();  // the shrunk queries are still the same
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
-            4);  // most have few distinct numbers; all except the coplanar queries had about 20
+            4);  // most have few distinct numbers; before, all except coplanar queries had about 20
 }
 
 TEST(Shrink, KeepsOnlyWhatMatters) {
@@ -113,7 +113,7 @@ TEST(Shrink, ScalesTheSeparationWithTheCoordinates) {
   EXPECT_EQ(shrunk, expected);
 }
 
-// The subject gives t = 1/2 as the lower bound of the time of every query.
+// The subject gives t = 1/2 as a lower bound of the time for every query.
 TEST(Shrink, ALateTimeStaysLate) {
   const MadeUpSubject half("half", [](const Query&) { return Verdict::accepted(Stage::unspecified, 0.5); },
                            {.bound = std::numeric_limits<double>::infinity(),
@@ -185,7 +185,7 @@ TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
 
 TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   const auto basic = make_subject("basic");
-  std::vector<std::pair<std::size_t, bool>> calls;  // size of each call, and whether it took too long
+  std::vector<std::pair<std::size_t, bool>> calls;  // for each call, its size, and whether it took too long
   const auto hang_at_zero = [&](std::span<const Query> queries, std::span<Verdict> verdicts) {
     bool is_slow = false;
     for (std::size_t i = 0; i < queries.size(); ++i)
@@ -202,7 +202,7 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   for (Finding finding : missed_by_basic()) {
     shrinker.shrink(finding);
     EXPECT_TRUE(finding.is_shrunk);
-    searches += 2 + kinds_of_meshes.size();  // for any class, for its own, and for each kind in the list
+    searches += 2 + kinds_of_meshes.size();  // for any class, for its own, and for the list of each kind
   }
   const auto is_slow = [](const auto& call) { return call.second; };
   const auto first = std::find_if(calls.begin(), calls.end(), is_slow);

@@ -1,4 +1,4 @@
-// A campaign's findings are shrunk while it runs, the most telling ones first, and no query waits for this.
+// Findings are shrunk while their campaign runs, the most telling ones first, and no query waits for this.
 #include "fuzz/trial/shrinking.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::vector<Finding> missed(const Subjects& subjects) {
   return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
-/// All findings; those that shrinking keeps have been shrunk.
+/// All findings after shrinking, which shrinks only kept findings.
 std::vector<Finding> after_shrinking(const Subjects& subjects, std::vector<Finding> findings,
                                      const Stop& stop = Stop::never(), bool shrinks = true) {
   Shrinking shrinking(subjects, 2, stop, shrinks);
@@ -90,7 +90,7 @@ TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
   const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always at t = 1/2
   const Query early = falling_vertex(0.3, 0.3, 0.1, -1);
   Finding finding{Finding::What::late, "always", "f", early, "f:1:0", 0.4, contact_signature(early), early};
-  finding.time = 0.25;  // another time, to see that it is replaced
+  finding.time = 0.25;  // a wrong time, which must be replaced
   const Finding shrunk = after_shrinking(subjects, {finding}).front();
   EXPECT_NE(shrunk.shrunk, early);
   EXPECT_EQ(shrunk.time, 0.5);
@@ -103,13 +103,13 @@ TEST(Shrinking, ARefutedFindingHasTheBoundOfItsShrunkQuery) {
   Finding finding =
       hold_trial(subjects, testing::batch_of("f", {falling_vertex(0.3, 0.3, 3, 1)})).findings.at(0);
   EXPECT_EQ(finding.bound, 0.5);
-  finding.bound = 0.25;  // another bound, to see that it is replaced
+  finding.bound = 0.25;  // a wrong bound, which must be replaced
   const Finding shrunk = after_shrinking(subjects, {finding}).front();
   EXPECT_NE(shrunk.shrunk, finding.query);
   EXPECT_EQ(shrunk.bound, 0.5);
 }
 
-/// Answers timed queries, such as those of a campaign, at once. Answers other queries only when `timed`
+/// Answers timed queries, such as those of a campaign, immediately. Answers other queries only after `timed`
 /// queries have been timed.
 class Patient final : public ForwardingSubject {
  public:
@@ -137,8 +137,8 @@ class Patient final : public ForwardingSubject {
   mutable std::size_t left_;
 };
 
-/// Here, the shrinker waits until all queries are answered. If a query waited for the shrinker, too, this
-/// test would not end.
+/// Here, the shrinker waits until all queries are answered. If a query also waited for the shrinker, this
+/// test would never end.
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};

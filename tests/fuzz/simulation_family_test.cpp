@@ -1,4 +1,4 @@
-// Families of what simulations ask.
+// Families of the queries that simulations ask.
 #include "fuzz/simulation/simulation_family.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 
 using QueryCoordinates = std::array<double, 24>;
 
-/// The pairs that `exact` is asked about as the CCD of a simulation, by `nearmiss simulate`'s way of asking.
+/// The pairs about which a simulation asks `exact`, its CCD, when it asks as `nearmiss simulate` does.
 std::set<QueryCoordinates> pairs_asked(const std::string& scene) {
   const Subjects subjects = testing::subjects_named({"exact"});
   Trials trials(subjects, {}, 1, Stop::never(), false, [](TrialResult&&) {});
@@ -51,7 +51,7 @@ TEST(SimulationFamily, AsksWhatASimulationAsks) {
   EXPECT_GT(drawn.size(), 1500);
 }
 
-/// Findings name queries by family, seed and index, so these must stay the same.
+/// Findings name queries by family, seed and index, so these must always give the same query.
 TEST(SimulationFamily, QueriesStayTheSame) {
   const auto fingerprint = [](const char* name) {
     const Family family = find_any_family(name);

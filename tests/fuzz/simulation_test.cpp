@@ -24,13 +24,13 @@ using ::testing::SizeIs;
 
 constexpr double step_time = 0.005;
 
-/// Two points with a spring between them, of which the first is held if `held`.
+/// Two points with a spring between them. The first point is held if `held`.
 Cloth two_points(bool held, const Material& material) {
   const Mesh mesh{.points = {{0, 0, 0}, {0, 0, -1}}, .triangles = {}, .lines = {{0, 1}}};
   return Cloth(mesh, {held, false}, material, step_time);
 }
 
-/// Implicit integration only takes energy, however stiff the spring is and however long the step.
+/// Implicit integration never adds energy, however stiff the spring and however long the step is.
 TEST(Cloth, NoStiffnessMakesItUnstable) {
   for (const double stiffness : {1e-3, 1.0, 1e3, 1e9}) {
     const Cloth cloth = two_points(true, {.stiffness = stiffness, .gravity = 0});
@@ -63,7 +63,7 @@ TEST(ClosestWeights, GiveTheDistance) {
       Query query{.kind = kind};
       std::array<Vector3<double>, 4> x;
       for (int vertex = 0; vertex < 4; ++vertex) {
-        // Small integers give parallel and degenerate primitives, too.
+        // Small integers also give parallel and degenerate primitives.
         x[static_cast<std::size_t>(vertex)] = i % 2 == 0 ? random.vector(1) : random.integer_vector(2);
         query.set_start(vertex, x[static_cast<std::size_t>(vertex)]);
         query.set_end(vertex, x[static_cast<std::size_t>(vertex)]);
@@ -82,7 +82,7 @@ TEST(ClosestWeights, GiveTheDistance) {
     }
 }
 
-/// A vertex 0.005 above a triangle, which it passes in the step unless it is stopped.
+/// A vertex starts 0.005 above a triangle, and passes through it in the step unless it is stopped.
 struct Falling {
   PointVectors start{{0.2, 0.2, 0.005}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   PointVectors end{{0.25, 0.2, -0.005}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -107,7 +107,7 @@ TEST(Response, StopsAnApproach) {
 TEST(Response, RepelsWhatIsNearerThanTheThickness) {
   Falling falling;
   falling.end = falling.start;
-  const Material material{.edge = 0.1, .thickness = 0.1};  // 0.01 m
+  const Material material{.edge = 0.1, .thickness = 0.1};  // the thickness is 0.01 m
   const Response response({false, true, true, true}, material);
   response.repel(falling.pair, falling.start, falling.end);
   EXPECT_NEAR(falling.end[0][2], 0.005 + 0.1 * 0.005, 1e-12);
@@ -129,13 +129,13 @@ TEST(Response, AZoneIsRigid) {
   }
   EXPECT_LT(motion.norm(), 1e-12);
   EXPECT_NE(end[1], start[1]);
-  // With a held point, all points move as it does.
+  // If one point is held, all points move as it does.
   PointVectors pulled = end;
   Response({true, false, false, false}, {}).move_rigidly({0, 1, 2, 3}, start, pulled);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((pulled[i] - start[i] - (end[0] - start[0])).norm(), 1e-12);
 }
 
-/// A triangle, and an edge through the given points.
+/// The tangled pairs of a triangle and the edge pq.
 std::vector<Piercing> tangled_by(const Vector3<double>& p, const Vector3<double>& q) {
   Mesh mesh{.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, p, q}, .triangles = {{0, 1, 2}}, .lines = {{3, 4}}};
   PointVectors end = mesh.points;
@@ -194,7 +194,7 @@ TEST(Simulation, WithAnExactCcdNothingTangles) {
   EXPECT_GT(sum.rounds, 40);
 }
 
-/// Without a miss and with no pair left unresolved, nothing new can be tangled.
+/// If no pair is missed or left unresolved, no new tangle can occur.
 TEST(Simulation, OnlyMissesTangle) {
   std::uint64_t most_tangled = 0;
   for (const char* subject : {"basic", "fcl", "wang"}) {

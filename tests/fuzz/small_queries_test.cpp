@@ -1,4 +1,4 @@
-// The list of small queries, and the search for a failure in it.
+// The list of small queries, and the search for a failure in this list.
 #include "fuzz/trial/small_queries.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace nearmiss {
 namespace {
 
-/// Expects that a list is sorted, and that exact arithmetic gives the same answer to every query of a sample.
+/// Expects that a list is sorted, and that exact arithmetic agrees with the truths of a sample of it.
 void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t one_in) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i > 0) {
@@ -34,7 +34,7 @@ void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t 
 TEST(SmallQueries, AreSortedAndDecided) {
   for (const Kind kind : kinds_of_meshes) {
     const auto& list = small_queries(kind);
-    EXPECT_EQ(list.size(), kind == Kind::vertex_triangle ? 5995 : 5372);  // one of all symmetric copies
+    EXPECT_EQ(list.size(), kind == Kind::vertex_triangle ? 5995 : 5372);  // has one of all symmetric copies
     EXPECT_EQ(list.front().query, Query{.kind = kind});
     expect_sorted_and_decided(list, 61);
     for (const SmallQuery& each : list) {
@@ -56,11 +56,11 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
     for (const SmallQuery& each : list) ++seen[each.query.separation];
     ASSERT_EQ(seen.size(), 4);
     for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
-    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // queries with two right answers are left out
+    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // lacks queries with two right answers
   }
 }
 
-/// Reports nothing.
+/// A subject that reports no collision.
 const testing::MadeUpSubject blind("blind", [](const Query&) { return Verdict{}; });
 
 Finding missed(Kind kind) {

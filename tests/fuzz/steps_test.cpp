@@ -1,4 +1,4 @@
-// Filters of steps, judged exactly.
+// Exact judgement of filters of steps.
 #include "fuzz/questions/step.hpp"
 
 #include <gmock/gmock.h>
@@ -62,7 +62,7 @@ TEST(StepQuestion, AStepThatTouchesIsUnsafe) {
 }
 
 TEST(StepQuestion, AStepStaysAsFarAwayAsItClaims) {
-  EXPECT_FALSE(judged(falling, 0.25, 0.5).failure());  // 0.5 away at its end
+  EXPECT_FALSE(judged(falling, 0.25, 0.5).failure());  // the step ends 0.5 away
   const auto unsafe = judged(falling, 0.25, 0.625);
   EXPECT_EQ(unsafe.failure(), "unsafe");
   EXPECT_THAT(unsafe.text(), HasSubstr("nearer than the clearance 0.625 from t = 0.75"));
@@ -70,7 +70,7 @@ TEST(StepQuestion, AStepStaysAsFarAwayAsItClaims) {
 }
 
 TEST(StepQuestion, ThePartOfTheSafeMotionThatIsKeptIsMeasured) {
-  EXPECT_NEAR(judged(falling, 0.25).kept, 0.5, 1e-8);  // the time of contact is rounded
+  EXPECT_NEAR(judged(falling, 0.25).kept, 0.5, 1e-8);  // approximate, since the time of contact is rounded
   EXPECT_EQ(judged(falling, 0).kept, 0);
   EXPECT_EQ(judged(falling, 0.75).kept, 1);
   EXPECT_EQ(judged(free_falling, 0.25).kept, 0.25);
@@ -119,7 +119,7 @@ TEST(StepTrial, FindsEveryPlantedDefect) {
   const auto right = measured(0, 2000);
   for (int number = 1; number <= defects; ++number) {
     const auto results = measured(number, 2000);
-    if (number == stops_what_moves_away) {  // safe, but it costs time
+    if (number == stops_what_moves_away) {  // this defect is safe, but costs time
       EXPECT_FALSE(results.has_failed());
       EXPECT_GT(kept(results), kept(right));
       continue;

@@ -48,7 +48,7 @@ TEST(ExactSubject, AnswersEachOfManyQueries) {
   }
 }
 
-/// The vertex goes through the triangle and back: two roots, which parity cannot tell from none.
+/// The vertex goes through the triangle and back. Parity cannot distinguish these two roots from no root.
 TEST(ParitySubject, CannotSeeAnEvenNumberOfRoots) {
   const auto parity = make_any_subject("parity");
   const Query back = query_of(Kind::vertex_triangle,
@@ -58,7 +58,7 @@ TEST(ParitySubject, CannotSeeAnEvenNumberOfRoots) {
   EXPECT_TRUE(make_any_subject("exact")->decide(back).hit);
   EXPECT_FALSE(parity->decide(back).hit);
   EXPECT_FALSE(keeps_contract(back, parity->contract()));
-  const Query once = testing::falling_vertex(0.5, 0.5, 1, -1);  // on the border
+  const Query once = testing::falling_vertex(0.5, 0.5, 1, -1);  // contact on the border
   EXPECT_TRUE(parity->decide(once).hit);
   EXPECT_TRUE(keeps_contract(once, parity->contract()));
   EXPECT_EQ(parity->distance_bound(once), 0);

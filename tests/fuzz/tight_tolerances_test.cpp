@@ -26,7 +26,7 @@ CgalInterval enclosure(const T& x) {
   return {std::nextafter(near, -1e300), std::nextafter(near, 1e300)};
 }
 
-/// Enclosures of the tolerances as computed, each divided by its power of B.
+/// Enclosures of the computed tolerances, each divided by its power of B.
 template <class T>
 Tolerances<CgalInterval> enclosed(const T& B) {
   const Tolerances<T> tol = tight_tolerances(B);
@@ -45,7 +45,7 @@ Tolerances<CgalInterval> enclosed(const T& B) {
   return all;
 }
 
-/// The best E for the constraints: E² = 4 (R² - r²), with R² = S²/8 as in `constraints`.
+/// The largest E that the constraints allow: E² = 4 (R² - r²), with R² = S²/8 as in `constraints`.
 CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
                                 const RoundingErrors<CgalInterval>& errors) {
   const CgalInterval r = (tol.mu + errors.residual) / (tol.tau - errors.area);
@@ -54,7 +54,7 @@ CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
 
 void expect_constraints(const Tolerances<CgalInterval>& tol, const CgalInterval& eps, int exponent) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
-  // Any E may be chosen, so the test takes the lower end of the interval for the best one.
+  // Any E may be chosen, so the test takes the lower end of the interval of the largest E.
   const CgalInterval E = longest_short_edge(tol, errors).inf();
   for (const auto& each : constraints(tol, E, E, errors))
     EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
@@ -68,7 +68,8 @@ void expect_constraints_as_computed() {
     expect_constraints(enclosed(T(B)), CgalInterval(std::ldexp(1.0, exponent)), exponent);
 }
 
-// Checks each constraint to the last rounding, in interval arithmetic.
+// Checks each constraint rigorously, in interval arithmetic, including rounding errors of the computed
+// tolerances.
 TEST(TightTolerances, SatisfyTheConstraintsAsTheyAreComputed) {
   expect_constraints_as_computed<BinaryFloat<11>>();
   expect_constraints_as_computed<BinaryFloat<12>>();
@@ -90,7 +91,7 @@ TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
 }
 
 /// The constraints as functions of the logarithms of τ, η, S, λ², D², both E, ψ and μ, in units of powers of
-/// e; ρ is given.
+/// e. ρ is fixed.
 struct ToleranceProblem {
   double eps;
   double rho;
@@ -116,7 +117,8 @@ struct ToleranceProblem {
   }
 };
 
-/// The smallest D² that NLopt finds from a point that satisfies the constraints, far from our solution.
+/// The smallest D² that NLopt finds when it starts at a point that satisfies the constraints, far from our
+/// solution.
 double lowest_D2(int exponent) {
   const ToleranceConstants c = solve_tight(exponent);
   ToleranceProblem problem{std::ldexp(1.0, exponent), c.rho};

@@ -30,7 +30,7 @@ Extreme measure(const std::string& name, bool among_vertices = false) {
       plan,
       [&](const Extreme& extreme, bool) {
         last = extreme;
-        stop = true;  // after one wave
+        stop = true;  // stops after one wave
       },
       stop);
   return last;

@@ -16,7 +16,7 @@ namespace {
 
 using testing::MadeUpSubject;
 
-/// The oracle as a subject, whose verdict on a query is replaced by alter(query, verdict).
+/// The oracle as a subject, but with alter(query, verdict) in place of its verdict on a query.
 template <class Answer>
 MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
   const std::shared_ptr<Subject> exact = make_any_subject("exact");
@@ -28,7 +28,7 @@ MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
            .takes_separation = true}};
 }
 
-/// How far a collision's time is from 0.4 and the length of its last edge at t = 0 from 0.77.
+/// How far a collision is from time 0.4, and its last edge at t = 0 from length 0.77.
 double off(const Query& query, double time) {
   return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
 }
@@ -44,7 +44,7 @@ MadeUpSubject late_in_a_region() {
   });
 }
 
-/// A subject whose times are up to 1e-3 early, and in the region up to 0.2 earlier.
+/// A subject whose times are up to 1e-3 early, and in the region off < region up to 0.2 earlier still.
 MadeUpSubject early_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     const double inside = std::max(0.0, 1 - off(query, verdict.time) / region);
@@ -53,7 +53,7 @@ MadeUpSubject early_in_a_region() {
   });
 }
 
-/// The error time - t* of a reported time, and whether the time is late. There is none if the query is not a
+/// The error time - t* of a reported time, and whether the time is late. Absent unless the query is a
 /// reported collision.
 struct Error {
   double after;
@@ -167,7 +167,7 @@ TEST(TimeSearches, AreMadeForSubjectsThatGiveTimes) {
     EXPECT_THROW(names(*make_any_subject("exact"), none), nearmiss::Error) << none;
 }
 
-/// The subject misses collisions that do not come nearer than 0.999 h.
+/// The subject misses collisions whose smallest distance is at least 0.999 h.
 TEST(MissSearch, FindsMissesNextToTheSeparation) {
   const MadeUpSubject subject = altered([](const Query& query, const Verdict& verdict) {
     const bool near = query.separation > 0 && distance_exceeds(query, 0.999 * query.separation);
@@ -181,7 +181,7 @@ TEST(MissSearch, FindsMissesNextToTheSeparation) {
   EXPECT_GE(missed, 5);
 }
 
-/// The subject reports what comes within h + 1e-3, and claims only half of that margin as its bound.
+/// The subject reports pairs that come within h + 1e-3, but claims only half of this margin as its bound.
 TEST(FarSearch, RefutesBoundsBeyondTheSeparation) {
   const MadeUpSubject subject = altered(
       [](const Query& query, Verdict verdict) {

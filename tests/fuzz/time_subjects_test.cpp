@@ -31,14 +31,14 @@ std::vector<Counts> counts_of(const std::string& subject, const Family& family, 
     batch.provenance = [&](std::size_t i) { return family.name + ":3:" + std::to_string(indices[i]); };
     const TrialResult result = hold_trial(subjects, batch);
     for (const Finding& finding : result.findings)
-      if (finding.what != Finding::What::committed)  // no failure
+      if (finding.what != Finding::What::committed)  // a committed step is no failure
         ADD_FAILURE() << subject << ": " << name(finding.what) << ", " << finding.provenance;
     found.push_back(result.statistics.counts.at({subject, kind, family.name}));
   }
   return found;
 }
 
-/// The number of queries of a family, for each kind; fewer if they are slow.
+/// The number of queries per kind; fewer if the family is slow.
 std::uint64_t cases(const Family& family, std::uint64_t usual) {
   return family.block_cases < 25 ? usual / 10 : usual;
 }
@@ -70,8 +70,8 @@ TEST_P(TimesOfVertices, AreNeverLateAndTheSubjectsMissNothing) {
     }
 }
 
-/// Expects that wang-time decides as wang about the first queries of a family, those of meshes without
-/// separations.
+/// Expects that wang-time decides the first queries of a family as wang does. Skips queries of vertices, and
+/// with separations.
 void expect_same_decisions(const Subject& wang, const Family& family, std::uint64_t count) {
   const auto timed = make_any_subject("wang-time");
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -144,7 +144,7 @@ TEST(TimesOfSubjects, OnlyAdvanceAndTheExactOnesTakeASeparation) {
     }
 }
 
-// The time of basic is that of the root which it accepts.
+// The time that basic gives is the root of F that it accepts.
 TEST(TimesOfSubjects, BasicGivesTheTimeOfContact) {
   const auto basic = make_any_subject("basic");
   int hits = 0;

@@ -1,4 +1,4 @@
-// Trials, in which the oracle judges subjects.
+// Trials: the oracle judges subjects.
 #include "fuzz/trial/trial.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using testing::one;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A subject that gives the same answer to all queries. If its bound is infinite, it claims none.
+/// A subject that gives the same answer to all queries. With an infinite bound, it claims none.
 std::unique_ptr<Subject> told(std::string name, bool hit, double bound = infinity) {
   const Verdict verdict{hit, hit ? Stage::unspecified : Stage::none, 0};
   return std::make_unique<testing::MadeUpSubject>(
@@ -60,13 +60,13 @@ TEST(Trial, CertifiesRecordedTruthsOnDemand) {
   EXPECT_EQ(certified(false), 0);
   recorded.truths = {std::nullopt, false};
   EXPECT_EQ(certified(true), 1);
-  recorded.truths = {false, false};  // the first is wrong
+  recorded.truths = {false, false};  // the first one is wrong
   EXPECT_EQ(certified(true), 1);
 }
 
 TEST(Trial, ATieIsProvedUpToTheDoublesNextToIt) {
-  // At t = sqrt(17) / 8, the vertex is at a distance of exactly 9/4 from the line through x1 and x2, and
-  // farther at all other times.
+  // At t = sqrt(17) / 8, the vertex is exactly 9/4 away from the line through x1 and x2; at all other times,
+  // it is farther away.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  2.265625, 0, -8, 0,  0, 8, 0, 0, 0, -20, 0,  //
                         -1, 2.265625, 0, -8, -8, 0, 8, 8, 0, 0, -20, 0},
@@ -117,7 +117,7 @@ TEST(Trial, AMissingAnswerIsAFaultAndNoMiss) {
   const auto result =
       hold_trial(one(std::make_unique<testing::MadeUpSubject>("choosy", fail_at_third)), third);
   EXPECT_EQ(result.statistics.faults(), 1);
-  EXPECT_EQ(result.statistics.false_negatives(), 1);  // of query 0
+  EXPECT_EQ(result.statistics.false_negatives(), 1);  // query 0 is missed
   ASSERT_EQ(result.findings.size(), 2);
   EXPECT_EQ(result.findings[1].what, Finding::What::fault);
   EXPECT_EQ(result.findings[1].signature, "vt error -3");
@@ -138,7 +138,8 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
 }
 
-// Queries of other seeds have the same numbers, and are at the same places of batches.
+// Queries of another seed have the same numbers, and the same places in batches, so a sample chosen by number
+// would not do.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
   const Family family = find_family("uniform-slow");
   for (const std::size_t wrong : {0, 12}) {

@@ -24,7 +24,7 @@ inline Subjects subjects_named(std::initializer_list<const char*> names) {
   return subjects;
 }
 
-/// Queries of one kind, whose provenances are their numbers.
+/// A batch of queries of one kind. The provenance of a query is its number.
 inline Batch batch_of(std::string family, std::vector<Query> queries) {
   const Kind kind = queries.front().kind;
   return {.kind = kind,

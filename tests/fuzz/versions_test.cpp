@@ -107,7 +107,7 @@ TEST(Predecessors, AreTheFirstSubjectsWhosePluginsExportTheSameName) {
       ElementsAre(std::nullopt, std::optional(3UL), std::optional(0UL), std::nullopt, std::optional(0UL)));
 }
 
-/// Collisions whose first number, the x of x0 at t = 0, has these values.
+/// Collisions with the given values of their first number, the x of x0 at t = 0.
 Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_triangle) {
   std::vector<Query> queries;
   for (const double x : places)
@@ -117,7 +117,7 @@ Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_trian
   return testing::batch_of("f", queries);
 }
 
-// v1 reports x > 0, v2 reports x > 0.25 and x < -0.5; all are collisions.
+// v1 reports queries with x > 0; v2, with x > 0.25 or x < -0.5. All queries are collisions.
 TEST(Versions, AreComparedOnTheQueriesThatBothWereAsked) {
   const Subjects subjects = made_of({plugin("v1"), plugin("v2"), plugin("v3"), "wang"});
   const auto result = hold_trial(subjects, batch_at({1, 0.5, 0.125, -0.25, -0.25, -1}));

@@ -1,5 +1,4 @@
-// wang on two vertices, and on a vertex and an edge: it reports everything within h, and nothing beyond its
-// bound.
+// wang for vv and ve: it reports everything within h, and nothing beyond its bound.
 #include <CGAL/Interval_nt.h>
 #include <gtest/gtest.h>
 
@@ -48,11 +47,11 @@ TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
   }
 }
 
-/// A number that was computed, divided by a power of B.
+/// Encloses a computed number that was divided by a power of B.
 Interval enclosure(double x) { return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)}; }
 
-/// The constraints on the tests of two vertices, or of a vertex and an edge, for tolerances that were
-/// computed for B.
+/// Expects that tolerances that were computed for B satisfy the constraints for vv, or with `of_edge` those
+/// for ve.
 void expect_constraints(const Tolerances<double>& computed, double B, bool of_edge) {
   const Interval b(B);
   Tolerances<Interval> tol;
@@ -62,7 +61,7 @@ void expect_constraints(const Tolerances<double>& computed, double B, bool of_ed
   tol.psi = enclosure(computed.psi) / b / b;
   tol.lambda2 = enclosure(computed.lambda2) / b / b;
   tol.S = enclosure(computed.S) / b;
-  tol.mu = tol.tau = tol.eta = 1;  // they have no influence on these constraints
+  tol.mu = tol.tau = tol.eta = 1;  // these constraints do not depend on them
   const auto errors = full_errors(Interval(epsilon<double>()), tol.S, tol.rho);
   for (const auto& each : constraints(tol, Interval(1), Interval(1), errors))
     if (each.about == "VV" || (of_edge && each.about.starts_with("VE"))) {
@@ -70,7 +69,7 @@ void expect_constraints(const Tolerances<double>& computed, double B, bool of_ed
     }
 }
 
-/// Calls check(R) for many R from 0 to 4 B. Two primitives with a larger R are always within R.
+/// Calls check(R) for many R from 0 to 4 B. With a larger R, primitives are always within R of each other.
 template <class Check>
 void for_each_R(double B, const Check& check) {
   check(0);
@@ -88,7 +87,7 @@ void expect_constraints_of_rule() {
     });
 }
 
-// In interval arithmetic, as they are computed.
+// Checks the computed tolerances in interval arithmetic.
 TEST(TolerancesOfVertices, SatisfyTheConstraintsForEveryR) {
   const CGAL::Protect_FPU_rounding<true> upwards;
   expect_constraints_of_rule<PaperTolerances>();
@@ -134,7 +133,7 @@ TEST(TolerancesOfVertices, AGivenBReplacesThePairs) {
   EXPECT_REFUSED(make_subject("wang-plain@1e-9")->decide(query), "is smaller than a pair's own");
 }
 
-// In the smallest numbers, and with a B that the scalar does not have.
+// Tests bounds in the smallest numbers, and for a B that the scalar cannot represent.
 TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
   for (const char* name : {"wang:float", "wang-tight:float", "wang:p16", "wang-tight:dd"}) {
     const auto subject = make_any_subject(name);
@@ -173,7 +172,7 @@ TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
   }
   for (const char* name : {"wang", "wang-scalar", "wang-tight"}) {
     const auto subject = make_subject(name);
-    std::vector<Verdict> verdicts(queries.size(), Verdict::accepted(Stage::exact, 2));  // left from before
+    std::vector<Verdict> verdicts(queries.size(), Verdict::accepted(Stage::exact, 2));  // must be overwritten
     subject->decide(queries, verdicts);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const Verdict alone = subject->decide(queries[i]);
@@ -183,8 +182,8 @@ TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
   }
 }
 
-/// Which KKT cases of Algorithm 2 have a candidate at which a vertex is near an edge (case 5: an end of the
-/// edge).
+/// For each KKT case of Algorithm 2, whether the vertex is near the edge at one of its candidate times (case
+/// 5: an end of the edge).
 std::array<bool, 5> cases_that_accept(const Query& query) {
   const WithinQuery<double> pair(query);
   const Tolerances<double> tol = pair.tolerances(query.kind, PaperTolerances());
@@ -198,7 +197,7 @@ std::array<bool, 5> cases_that_accept(const Query& query) {
           vertex_vertex(pair.ve.x0i, tol) || vertex_vertex(pair.ve.x0j, tol)};
 }
 
-// Case 3 finds nothing that the others miss, as the proof in vertex_edge.hpp says.
+// Case 3 finds nothing that all other cases miss, as the proof in vertex_edge.hpp says.
 TEST(TheCasesOfAlgorithm2, FindSomeCollisionsAloneExceptTheThird) {
   std::array<int, 5> alone{};
   for (const Family& each : vertex_families()) {

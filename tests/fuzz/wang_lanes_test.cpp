@@ -1,5 +1,5 @@
-// wang in lanes gives the verdicts of wang for one query at a time, bit for bit. With more queries, such as
-// 10^8:
+// wang in lanes gives the same verdicts, bit for bit, as wang for one query at a time. To test more queries,
+// such as 10^8:
 //   NEARMISS_QUERIES=2300000 fuzz_tests --gtest_filter='*InLanes*'
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ Answer answer_of(const Decide& decide) {
   }
 }
 
-/// The answers with a given bound if every pair that no plane separates takes the way of a pair that needs
+/// The answers with a given bound if every pair that no plane separates is treated as a pair that needs
 /// another frame.
 std::vector<Answer> careful(std::span<const Query> queries, double given) {
   const auto decide = [&]<Kind kind>(const Query& query) {
@@ -78,8 +78,8 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
   return answers;
 }
 
-/// Bounds to give: the largest of the queries' own, and those of some queries, also just smaller and up to
-/// 2^60 times as large; and bounds at and beyond both ends of the range that needs no scaling.
+/// Bounds to give: the largest of the queries' own bounds, and the bounds of some queries; just smaller ones,
+/// and up to 2^60 times larger ones; and bounds at and beyond both ends of the range that needs no scaling.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;
@@ -137,7 +137,7 @@ TEST_P(InLanes, AGivenBoundChangesNoAnswer) {
       const auto scalar = make_subject("wang-scalar", given);
       for (std::size_t i = 0; i < queries.size(); ++i)
         expect_equal(i, answer_of([&] { return scalar->decide(queries[i]); }));
-      // The first query whose own bound is larger fails the batch.
+      // A query whose own bound is larger fails the batch; the first one gives the error.
       const auto refused =
           std::ranges::find_if(expected, [](const Answer& each) { return !each.error.empty(); });
       const auto answered = static_cast<std::size_t>(refused - expected.begin());
@@ -185,7 +185,7 @@ TEST(WangInLanes, LeavesCoordinatesThatAreNotFinite) {
   for (const double c : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever the value of number i
+      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever value number i gets
       queries.back().x[i] = c;
     }
     for (const Instructions instructions : all_instructions)

@@ -1,7 +1,7 @@
 /* Detectors that want up to 10^5 queries at once.
- *   rows, arrays, small-arrays: give a mean of a query's coordinates, without its integer part, as the time
- *     of impact. They read the coordinates in these layouts. The first one says that it computes forever, the
- *     second one that it does not know. The last one wants 7 queries at once.
+ *   rows, arrays, small-arrays: give the fractional part of a mean of a query's coordinates as the time of
+ *     impact. They read the coordinates in the layout of their names. `rows` says that its computing time is
+ *     infinite, `arrays` that it is unknown. `small-arrays` wants 7 queries at once.
  *   counts: answers every query with an error code: minus the number of queries in the call. Crashes if
  *     x[0] > 0.9.
  *   wearing: crashes at the 5000th query of its process, whatever the query is. */
@@ -14,7 +14,8 @@
 #define ANY_KIND \
   (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE + NEARMISS_VERTEX_VERTEX + NEARMISS_VERTEX_EDGE)
 
-/* The coordinates of two queries are `of_query` apart, those of one query `of_coordinate`. */
+/* In x, the same coordinate of two consecutive queries is `of_query` numbers apart, and two consecutive
+ * coordinates of a query are `of_coordinate` apart. */
 static void give_means(int kind, size_t n, const double* x, size_t of_query, size_t of_coordinate,
                        int* answer, double* toi) {
   const size_t size = kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;

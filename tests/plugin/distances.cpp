@@ -1,5 +1,5 @@
-// A plug-in that gives the distance of two primitives at rest, as many solvers compute it; and the mistakes that
-// such functions have, by the option defect=N. Defect 0 is none.
+// A plug-in that gives the distance of two primitives at rest, as many solvers compute it. The option
+// defect=N adds a mistake that such functions have; 0 adds none.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -28,7 +28,7 @@ V cross(V a, V b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * 
 double norm(V a) { return std::sqrt(dot(a, a)); }
 double clamped(double t) { return std::clamp(t, 0.0, 1.0); }
 
-/// What is wrong, by its number.
+/// The distance functions, with the defect of this number.
 class Distances {
  public:
   explicit Distances(const Settings& given) : defect_(static_cast<int>(given.defect)) {}
@@ -37,11 +37,11 @@ class Distances {
     const V d = a - b;
     while (is(26)) std::this_thread::sleep_for(std::chrono::seconds(1));  // never answers
     static std::atomic<int> calls = 0;
-    if (is(27)) return norm(d) * (1 + calls++ % 7);                   // answers otherwise when asked again
+    if (is(27)) return norm(d) * (1 + calls++ % 7);                   // another answer at each call
     if (is(1)) return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);  // another norm
     if (is(2)) return dot(d, d);                                      // no square root
     if (is(3)) return 1.02 * norm(d);                                 // rounded up
-    if (is(4)) return norm(d) + 1e-4;                                 // an absolute margin on the wrong side
+    if (is(4)) return norm(d) + 1e-4;                                 // an absolute margin
     return norm(d);
   }
 
@@ -50,17 +50,17 @@ class Distances {
     const double squared = dot(edge, edge);
     const double shortest = is(5) ? 1e-6 : 0;  // an absolute threshold for edges of no length
     if (!(squared > shortest) && !is(6)) return vv(p, a);
-    const double t = dot(p - a, edge) / squared;                   // with defect 6, 0 / 0
-    if (is(7)) return vv(p, t < 0.5 ? a : b);                      // only the ends
-    if (is(8)) return vv(p, a + std::clamp(t, 0.0, 0.99) * edge);  // not up to the end
-    if (is(9) && t > 1) return vv(p, a);                           // the other end
+    const double t = dot(p - a, edge) / squared;                   // 0 / 0 with defect 6
+    if (is(7)) return vv(p, t < 0.5 ? a : b);                      // considers only the ends
+    if (is(8)) return vv(p, a + std::clamp(t, 0.0, 0.99) * edge);  // stops before the end
+    if (is(9) && t > 1) return vv(p, a);                           // takes the wrong end
     return vv(p, a + clamped(t) * edge);
   }
 
   double vt(V p, V a, V b, V c) const {
     double best =
         std::min({ve(p, a, b), ve(p, b, c), is(10) ? HUGE_VAL : ve(p, c, a)});  // an edge is left out
-    if (is(11)) best = std::min({vv(p, a), vv(p, b), vv(p, c)});                // and all of them
+    if (is(11)) best = std::min({vv(p, a), vv(p, b), vv(p, c)});                // all edges are left out
     const V normal = cross(b - a, c - a);
     const double squared = dot(normal, normal);
     const double smallest = is(12) ? 1e-12 : 0;  // an absolute threshold for the area
@@ -68,7 +68,7 @@ class Distances {
     const double u = dot(cross(p - a, c - a), normal) / squared;
     const double v = dot(cross(b - a, p - a), normal) / squared;
     const double height = dot(p - a, normal);
-    if (is(13) && height < 0) return best;  // the inside counts on one side of the plane only
+    if (is(13) && height < 0) return best;  // finds the inside only from one side of the plane
     const double least = is(14) ? 0.01 : 0;
     const bool is_inside = u >= least && v >= least && u + v <= (is(15) ? 0.5 : 1);
     if (is_inside)
@@ -88,13 +88,13 @@ class Distances {
     if (is(17) || is(18)) {
       if (!has_lengths) return best;
       const double s = area > parallel ? clamped((b * f - c * e) / area) : 0;
-      return at(s, clamped((b * s + f) / e));  // and s is not corrected when t is clamped
+      return at(s, clamped((b * s + f) / e));  // does not correct s when t is clamped
     }
-    if (is(19)) {  // both are clamped, each by itself
+    if (is(19)) {  // clamps s and t independently
       if (!(area > 0)) return best;
       return at(clamped((b * f - c * e) / area), clamped((a * f - b * c) / area));
     }
-    if (is(20)) {  // s is clamped before t, and not corrected when t is
+    if (is(20)) {  // clamps s first, and does not correct it when t is clamped
       if (!(area > 0)) return best;
       const double s = clamped((b * f - c * e) / area);
       return at(s, clamped((b * s + f) / e));
@@ -109,7 +109,7 @@ class Distances {
       return at(s, t);
     }
     if (is(23))
-      best = std::min({vv(p, q), vv(p1, q), vv(p, q1), vv(p1, q1)});  // ends against insides are left out
+      best = std::min({vv(p, q), vv(p1, q), vv(p, q1), vv(p1, q1)});  // leaves out ends against insides
     if (!(area > 0)) return best;
     const double s = (is(24) ? -b * f - c * e : b * f - c * e) / area;  // a wrong sign
     const double t = (a * f - b * c) / area;

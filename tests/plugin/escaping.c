@@ -27,7 +27,7 @@
 
 static pid_t nearmiss(void) { return atoi(getenv("NEARMISS_PROCESS")); }
 
-/* Leaves a process behind that no longer descends from its supervisor's children. */
+/* Leaves a process behind that is no longer a descendant of the supervisor's children. */
 static void leave_one_behind(void) {
   if (fork() != 0) return;
   setsid();
@@ -96,7 +96,7 @@ static int may_trace(pid_t victim) {
 }
 static int attempt(void) { return !may_trace(nearmiss()) && !may_trace(getppid()); }
 #elif defined(PRIVILEGES)
-/* Of the capabilities, at most the first five may be left, which concern files. */
+/* Only the first five capabilities, which concern files, may be left. */
 static int attempt(void) {
   FILE* const status = fopen("/proc/self/status", "r");
   char line[256];

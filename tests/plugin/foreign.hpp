@@ -1,7 +1,7 @@
-// A library of somebody else, in miniature: a CCD with each of the signatures that ccd/nearmiss_functions.hpp
-// knows, and with several types of vectors. It compares the axis-aligned boxes of the two primitives, and
-// advances to the earliest time at which they may be as close as the separation. So it misses nothing, never
-// gives a time that is too late, and also reports pairs of which only the boxes meet, or that take 100 steps.
+// A foreign library in miniature: a CCD with each of the signatures that ccd/nearmiss_functions.hpp knows,
+// and with several types of vectors. It compares the axis-aligned boxes of the two primitives, and advances
+// to the earliest time at which the boxes may be as close as the separation. So it misses nothing, and never
+// gives a late time, but also reports pairs of which only the boxes meet, or that need 100 steps.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,8 @@
 
 namespace foreign {
 
-/// The first n points at t = 0, then at t = 1; the first `split` points are one primitive.
+/// Decides a pair. x has all vertices at t = 0, then at t = 1; the first `split` vertices are the first
+/// primitive.
 bool advance(const std::vector<std::array<double, 3>>& x, int split, double h, double& toi);
 
 template <class... V>
@@ -19,7 +20,7 @@ bool meet(int split, double h, double& toi, const V&... v) {
   return advance({{{v[0], v[1], v[2]}}...}, split, h, toi);
 }
 
-namespace ipc {  // overloads, default arguments, and Eigen's references, also of a dynamic size
+namespace ipc {  // overloads, default arguments, and Eigen's references, some of dynamic size
 
 using Point = const Eigen::Ref<const Eigen::Vector3d>&;
 using Any = const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>>&;
@@ -46,7 +47,7 @@ class Narrow {
 
 }  // namespace ipc
 
-namespace accd {  // templates, which get displacements, and take the end of the time step from toc
+namespace accd {  // templates that get displacements, and the end of the time step in toc
 
 template <class T>
 bool Point_Triangle_CCD(Eigen::Matrix<T, 3, 1> p, Eigen::Matrix<T, 3, 1> a, Eigen::Matrix<T, 3, 1> b,
@@ -127,7 +128,7 @@ inline bool vertex_vertex(Float3 a, Float3 b, Float3 a1, Float3 b1, double& toi)
 /// Declared, but never defined.
 bool forgotten(plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P);
 
-namespace distances {  // of primitives at rest; the second one squared, and overloaded
+namespace distances {  // of primitives at rest; the second function is squared, and overloaded
 
 inline double vertex_vertex(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
 inline double vertex_edge_squared(Eigen::Vector3d p, Eigen::Vector3d a, Eigen::Vector3d b, double scale = 1) {

@@ -1,5 +1,5 @@
-/* A subject that reports every query. At the first one with x > 0.9 it interferes with nearmiss in a way that
- * no plug-in should. */
+/* A subject that reports every query. At the first query with x > 0.9, it interferes with nearmiss in a way
+ * that no plug-in should. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>
@@ -26,7 +26,7 @@ static void intrude(void) {
 #elif defined(CLOSE)
   for (int file = 0; file < MOST_FILES; ++file) close(file);
 #elif defined(MOVE_ON)
-  /* It begins with the number of the query and of the calls. */
+  /* The memory begins with the number of the current query and the number of calls. */
   volatile uint32_t* const shared = shared_memory("nearmiss-worker");
   while (1) ++shared[1];
 #elif defined(FORK)

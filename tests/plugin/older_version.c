@@ -1,6 +1,6 @@
 /* A plug-in that was compiled with version 2 or 3 of the interface (VERSION): its structure ends earlier.
- * What stands behind it in memory would be wrong fields of later versions. Reports all queries; claims the
- * bound 0.125, in version 3 plus the separation. */
+ * The memory after the structure would be wrong values for fields of later versions. Reports all queries;
+ * claims the bound 0.125, in version 3 plus the separation. */
 #include <stddef.h>
 
 typedef struct {

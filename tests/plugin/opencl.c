@@ -1,17 +1,17 @@
-/* A CCD on any device that has OpenCL, for large batches. It divides the time step into 16 intervals, and for
- * each one it looks for a direction along which the primitives stay apart. The distance of two vertices along
- * a fixed direction is linear in time, so it suffices to look at the ends of the interval. If an interval has
- * no such direction, that is a collision, and no contact is earlier than the interval. So nothing is missed,
- * whatever is rounded: once the largest coordinate is scaled into [1/2, 1), a distance along d is wrong by
- * less than 13 * 2^-24 (|dx| + |dy| + |dz|), and 64 * 2^-24 of that is required. (In units of 2^-24, each of
- * two points is wrong by 2.1 at most; their difference adds 2, and three products and two sums add 6.)
- * Numbers below 2^-126, which a device may take for 0, matter far less, since neither d nor the largest
+/* A CCD on any device that has OpenCL, for large batches. It divides the time step into 16 intervals, and
+ * looks in each interval for a direction along which the primitives stay apart. The distance of two vertices
+ * along a fixed direction is linear in time, so it suffices to look at the ends of the interval. The first
+ * interval without such a direction is reported as a collision; no contact is earlier. Rounding causes no
+ * miss: once the largest coordinate is scaled into [1/2, 1), the error of a distance along d is less than
+ * 13 * 2^-24 s with s = |dx| + |dy| + |dz|, and the required distance is 64 * 2^-24 s. (In units of 2^-24, the
+ * error of each of two points is at most 2.1; their difference adds 2, and three products and two sums add
+ * 6.) Numbers below 2^-126, which a device may take for 0, matter far less, since neither d nor the largest
  * coordinate is tiny.
  *
  *     cc -shared -fPIC -I. -o opencl.so tests/plugin/opencl.c -lOpenCL
  *
- * With the option optimise=0, the device compiles the kernel as it stands: LLVM 18, which pocl has on Debian 13,
- * ends the process when it optimises it. */
+ * With the option optimise=0, the device compiles the kernel as it stands: LLVM 18, which pocl has on Debian
+ * 13, ends the process when it optimises it. */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <stdio.h>

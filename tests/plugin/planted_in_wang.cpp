@@ -1,7 +1,6 @@
-// The subject wang as a plug-in with planted defects. If the environment variable NEARMISS_PLANTED
-// is N, one answer in N is wrong, chosen by the bits of the coordinates. If it is 0 or not set, no answer is
-// wrong. If NEARMISS_SLOWED is a number above 1, each query of the family kilometres is decided that many
-// times on average, which makes this family slower.
+// The subject wang as a plug-in with planted defects. If the environment variable NEARMISS_PLANTED is N > 0,
+// one answer in N is wrong, chosen by the bits of the coordinates. If NEARMISS_SLOWED is a number above 1,
+// each query of the family kilometres is decided this many times on average, which slows this family down.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -65,7 +64,7 @@ int decide(const double* x) {
   do {
     hit = nearmiss::wang<kind, double, nearmiss::WangOptions{}>(query).hit;
     ++made;
-  } while (made < decisions(query));  // called in each iteration, so that its cost is multiplied, too
+  } while (made < decisions(query));  // called in each iteration, so that its own cost is also multiplied
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 

@@ -1,5 +1,5 @@
-/* A subject that reports every query, unless a comment below says otherwise. What its process does with a
- * query is chosen when it is compiled. */
+/* A subject that reports every query, unless a comment below says otherwise. Macros choose what its process
+ * does with a query. */
 #define _GNU_SOURCE
 #include <pthread.h>
 #include <sched.h>
@@ -51,7 +51,7 @@ static int compute(void) {
   return 1;
 }
 #if defined(IN_A_CHILD)
-/* A child computes. This process does not wait for it in the sense of the system: it yields the processor. */
+/* A child computes. This process never calls wait(2) for the child; it yields the processor. */
 struct shared {
   atomic_int asked, answered;
 };
@@ -75,7 +75,7 @@ static int answer(void) {
   return 1;
 }
 #elif defined(AHEAD)
-/* Decides all queries that it sees in the memory of the worker, at the first one that it has not seen yet. */
+/* When it is asked a new query, decides all queries that it sees in the worker's memory. */
 static const double* questions(void) { return shared_memory("nearmiss-questions"); }
 
 static int decided(const double* x) {
@@ -120,8 +120,9 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory when it is loaded: from malloc(3), from mmap(2), as static data, of which it writes
- * STATIC bytes, or in a child, in place of other addresses. Takes USED_MIB for each query. */
+/* Takes LOADED_MIB of memory when it is loaded, and USED_MIB for each query. Macros choose the memory of
+ * loading: from malloc(3); from mmap(2); static data, of which it writes STATIC bytes; or mapped in a child, in
+ * place of other addresses. */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);
@@ -160,8 +161,8 @@ static int answer(void) {
   return loaded != NULL;
 }
 #elif defined(RECOVERS)
-/* Asks for more memory than is allowed, and continues when that is refused. Its process crashes at the next
- * query. */
+/* Asks for more memory than is allowed, and continues when the system refuses it. Its process crashes at the
+ * next query. */
 #define NAME "recovers"
 static int answer(void) {
   static int calls = 0;

@@ -1,5 +1,5 @@
-/* Decides two vertices, and a vertex and an edge: reports a query whose numbers are 1, 2, 3 ... to the last
- * one of its row. Uses separations for a vertex and an edge only. Its bound is the row's last number and the
+/* Decides two vertices, and a vertex and an edge: reports a query whose row has the numbers 1, 2, 3 and
+ * so on. Uses separations only for a vertex and an edge. Its bound is the last coordinate of the row plus the
  * separation. */
 #include "ccd/nearmiss_subject.h"
 

@@ -1,5 +1,5 @@
-/* A subject that reports every query, but crashes at each one with x > 0.9. In its first process it makes the
- * file that NEARMISS_MARK names. In later ones, it cannot be loaded, or with RENAME it has another name. */
+/* A subject that reports every query, but crashes at each query with x > 0.9. Its first process makes the
+ * file that NEARMISS_MARK names. In later processes, it cannot be loaded, or has another name (RENAME). */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>

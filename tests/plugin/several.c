@@ -1,5 +1,4 @@
-/* Several detectors in one shared object. Each does one thing that the interface allows, or one that it
- * forbids. */
+/* Several detectors in one shared object. Each does one thing that the interface allows or forbids. */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-// A plug-in that filters steps: it cuts them where the planes through the closest points would be crossed, as planar
-// filters of solvers do; and the mistakes that such filters have, by the option defect=N. Defect 0 is none.
+// A plug-in that filters steps, as planar filters of solvers do: it ends steps at planes between the two
+// primitives. The option defect=N adds a mistake that such filters have; 0 adds none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +18,9 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"defect", &Settings::defect, 0, 100}}};
 
-/// The filter of one query. The boxes of the two primitives at t = 0 are apart along the axis on which their gap is
-/// largest. Each side may move up to a plane within this gap, 40 % of it away. If the boxes overlap, nothing moves.
+/// The filter of one query. The boxes of the two primitives at t = 0 are apart along the axis on which their
+/// gap is largest. Each primitive may move up to a plane in this gap, after 40 % of the gap. If the boxes
+/// overlap, nothing moves.
 class Filter {
  public:
   Filter(const Settings& given, const Question& q)
@@ -36,15 +37,15 @@ class Filter {
     if (!(gap > 0)) return is(1) ? let_all_move(y) : 0;  // overlapping boxes
     const double rounding = 1e-14 * (std::abs(above) + std::abs(below));
     if (!(gap > 1e3 * rounding)) return 0;
-    const double part = is(2) ? 0.6 : is(3) ? 0.5 : 0.4;  // planes that lie on the wrong side, or together
-    const double low = is(4) ? above - part * gap : below + part * gap;  // the wrong plane for one side
+    const double part = is(2) ? 0.6 : is(3) ? 0.5 : 0.4;  // planes in the wrong order, or identical
+    const double low = is(4) ? above - part * gap : below + part * gap;  // one primitive gets the wrong plane
     const double high = above - part * gap;
     for (std::size_t i = 0; i < n_; ++i) {
       const bool is_low = (i < first_) == is_first_below;
       const double x = q_.x[3 * i + axis];
       const double motion = q_.x[size + 3 * i + axis] - x;
       double room = is_low ? low - x : x - high;
-      if (is(10)) {  // the room of a primitive's first vertex, for all
+      if (is(10)) {  // gives all vertices the room of the first one
         const double first = q_.x[i < first_ ? axis : 3 * first_ + axis];
         room = is_low ? low - first : first - high;
       }
@@ -54,7 +55,7 @@ class Filter {
       if (is(6)) t = std::min(1.0, 1.25 * t);  // a relaxation that is larger than 1
       if (is(7) && i + 1 == n_) t = 1;         // the last vertex is left out
       if (is(8)) t = static_cast<double>(static_cast<float>(t) * 1.5F);
-      if (is(9) && towards < 0) t = 0;               // what moves away need not stop; safe, but it keeps less
+      if (is(9) && towards < 0) t = 0;               // stops vertices that move away: safe, but keeps less
       if (is(11) && std::abs(motion) < 1e-3) t = 1;  // an absolute threshold for rest
       if (is(12) && room < 1e-3) t = 1;              // an absolute threshold for the gap
       for (std::size_t k = 0; k < 3; ++k) {
@@ -63,10 +64,10 @@ class Filter {
       }
     }
     const double kept = (1 - 2 * part) * gap - 4 * rounding;
-    if (is(13)) return gap;         // claims the clearance of the start
+    if (is(13)) return gap;         // claims the clearance at the start
     if (is(14)) return 1.5 * kept;  // claims too much
     if (is(15)) return std::abs(kept) + 1e-3;
-    if (is(16)) return -kept;  // no clearance at all
+    if (is(16)) return -kept;  // a negative clearance
     return is(2) || is(3) || is(4) ? 0 : std::max(kept, 0.0);
   }
 

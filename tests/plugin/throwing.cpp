@@ -1,6 +1,6 @@
-// A subject that throws an exception for a query with x > 0.9, an exception without text for one with x =
-// 0.5, crashes for one with x = -2, or throws while it is loaded. Its answer to other queries is set when it
-// is compiled.
+// A subject that throws an exception for a query with x > 0.9, throws an exception without text for x = 0.5,
+// and crashes for x = -2; or a subject that throws while it is loaded. Macros choose between them, and the
+// answer to other queries.
 #include <csignal>
 #include <exception>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-"""Campaigns, and the checks that their results do not depend on how they were run."""
+"""Campaigns, and checks that their results do not depend on how they were run."""
 
 import json
 import pathlib
@@ -38,7 +38,7 @@ class Failure(Exception):
 
 
 def without(value, subject):
-    """A report without its times, and without everything about a subject."""
+    """A report without times, and without everything about one subject."""
     if isinstance(value, dict):
         return {
             key: without(each, subject)
@@ -55,7 +55,7 @@ def without(value, subject):
 
 
 def leaves(value):
-    """The paths of all values, with the values."""
+    """All values in a report, by their paths."""
     if isinstance(value, (dict, list)):
         pairs = value.items() if isinstance(value, dict) else enumerate(value)
         return {
@@ -76,7 +76,7 @@ class Campaign:
         self.left_out = CHOSEN_BY_CHANCE.get(plugin)
         self.options = ['--cases', str(self.size), '--seed', str(draw.randrange(1 << 32))]
         self.options += ['--subject', f'wang,basic,{machine.plugins / plugin}.so']
-        # If answers are compared, the limit is so long that a query does not exceed it even on a busy
+        # If reports are compared, the limit must be so long that no query exceeds it, even on a busy
         # machine.
         limit = '100ms' if plugin in CHOSEN_BY_CHANCE else '30s'
         self.options += ['--query-time', limit, '--query-memory', '32M', '--compare', '64']
@@ -99,7 +99,7 @@ class Campaign:
         return self.store.exists()
 
     def files(self, store=None):
-        """The files of a store that exist."""
+        """The existing files of a store."""
         store = store or self.store
         names = [f'{store.name}{end}' for end in ('', '-wal', '-shm', '-journal', '.lock')]
         return [store.with_name(name) for name in names if store.with_name(name).exists()]

@@ -1,5 +1,5 @@
-/* A clock that jumps, which LD_PRELOAD puts before that of libc: every call that asks for the time of day
- * gets a time that is up to NEARMISS_JUMP seconds before or after the true one. The clock that measures
+/* A clock that jumps, which LD_PRELOAD loads in place of that of libc. Every call that asks for the time of
+ * day gets a time up to NEARMISS_JUMP seconds before or after the true time. The clock that measures
  * durations is not changed. */
 #define _GNU_SOURCE
 #include <stdlib.h>

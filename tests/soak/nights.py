@@ -1,4 +1,4 @@
-"""Nights, which are runs of a campaign that end badly, and the machine that they run on."""
+"""Nights, which are runs of a campaign that end badly, and the machine on which they run."""
 
 import os
 import pathlib
@@ -67,7 +67,7 @@ class Machine:
                 if self.folder in (here := pathlib.Path(os.readlink(each / 'cwd')), *here.parents):
                     found.append(int(each.name))
             except OSError:
-                continue  # it has ended
+                continue  # the process has ended
         return found
 
     def wait_until_alone(self):
@@ -98,7 +98,7 @@ def catches(process, number):
 
 
 def last_save(store):
-    """The time of the last save; None before the first one."""
+    """The time of the last save; None before the first save."""
     try:
         return store.with_name(f'{store.name}-wal').stat().st_mtime_ns
     except FileNotFoundError:
@@ -106,7 +106,7 @@ def last_save(store):
 
 
 class Night:
-    """One run of a campaign, and how it ends. All choices are drawn from the seed and the night's number."""
+    """One run of a campaign, and how it ends. The seed and the night's number decide all choices."""
 
     def __init__(self, number, seed, seconds):
         self.draw = random.Random(f'{seed} night {number}')
@@ -114,7 +114,7 @@ class Night:
         self.after = self.draw.uniform(0.02, seconds)
         self.seconds = seconds
         self.saves_first = self.draw.random() < 0.5
-        self.room = self.draw.randrange(300_000)  # bytes, until the disk is full
+        self.room = self.draw.randrange(300_000)  # bytes that can be written until the disk is full
         self.jobs = self.draw.choice([1, 2, 3])
         self.jumps = self.draw.random() < 0.3
 
@@ -125,7 +125,7 @@ class Night:
         return text + (', a clock that jumps' if self.jumps else '')
 
     def run(self, campaign, machine):
-        """Runs the night. Returns the exit code, which is one of those that fit the night."""
+        """Runs the night. Returns the exit code; raises Failure if it does not fit the night."""
         if self.end == 'full disk':
             largest = max([file.stat().st_size for file in campaign.files()] + [0]) + self.room
             process = machine.start(
@@ -152,7 +152,7 @@ class Night:
 
     @staticmethod
     def wait(process, end, after):
-        """Waits, then sends the signal, if there is one. Returns the exit code."""
+        """Waits, then sends the signal, if any. Returns the exit code."""
         try:
             if end is not None:
                 try:

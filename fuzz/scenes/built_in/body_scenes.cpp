@@ -19,7 +19,7 @@ struct Pose {
   Vector3<double> place;
 };
 
-/// A scene of bodies that have the given shapes in turn.
+/// A scene of bodies; body i has shape i, and the list of shapes repeats.
 Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int count,
                       const std::function<Pose(int body, double frame)>& pose) {
   const auto shape = [shapes](int body) -> const Mesh& {
@@ -48,7 +48,7 @@ Rotation any_rotation(Random& random, double turns) {
   return {way / length(way), turns};
 }
 
-/// A cube, a ball and a slab, and the number of bodies in a scene of a given size.
+/// The shapes and the number of the bodies in a scene of a given size: cubes, balls and slabs.
 struct Pieces {
   Pieces(int size, int half_a_side)
       : half(half_a_side),
@@ -58,15 +58,15 @@ struct Pieces {
     count = nearest(size / (triangles / static_cast<double>(shapes.size())));
     while (row * row * row < count) ++row;
   }
-  /// The cell of a body in a cube of bodies, which is filled layer by layer.
+  /// The cell of a body in a cube of cells, which bodies fill layer by layer.
   [[nodiscard]] std::array<int, 3> cell(int body) const {
     return {body % row, body / row % row, body / row / row};
   }
 
-  int half;  ///< half the side of the cube
+  int half;  ///< half the side of a cube
   std::vector<Mesh> shapes;
   int count = 0;
-  int row = 1;  ///< bodies in a side of the cube
+  int row = 1;  ///< cells along a side of the cube of bodies
 };
 
 /// Bodies turn about their own axes, and swing to and fro so that they hit each other.
@@ -93,9 +93,9 @@ Vector3<double> on_grid(const Vector3<double>& p) {
   return {rounded(p[0]), rounded(p[1]), rounded(p[2])};
 }
 
-/// Layers of bodies pass each other, each in its own direction, and nothing turns. All coordinates are
-/// multiples of 2^-20, so all points of a layer move by exactly the same vector in a step, and every pair is
-/// in relative rest or translation.
+/// Layers of bodies pass each other. Each layer moves in its own direction, without rotation. All coordinates
+/// are multiples of 2^-20, so in a step all points of a layer move by exactly the same vector, and every pair
+/// is in relative rest or translation.
 Scene flying(int size) {
   const Pieces pieces(size, 1);
   std::vector<Mesh> shapes;

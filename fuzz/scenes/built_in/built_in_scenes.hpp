@@ -22,20 +22,22 @@ struct BuiltInScene {
   std::string description;
   int default_size = 0;
   int smallest = 0, largest = 0;
-  /// Makes the scene of a size in this range, without a name. The size is the approximate number of
+  /// Makes the scene in a size of this range, without a name. The size is the approximate number of
   /// triangles, or of lines or points if the scene consists of these.
   std::function<Scene(int size)> make;
-  /// Which points move as the frames say while physics moves all others, if the scene can be simulated.
+  /// The points that follow the frames in a simulation, while physics moves all other points; null if the
+  /// scene cannot be simulated.
   std::vector<bool> (*held)(const Mesh& mesh) = nullptr;
 };
 
-/// All built-in scenes, in the order in which they are listed.
+/// All built-in scenes, in the order of `nearmiss scene --help`.
 const std::vector<BuiltInScene>& built_in_scenes();
 
-/// The scene that a text names, as NAME or NAME@SIZE; null if there is none. The size is not checked.
+/// The scene in `among` that a text names, as NAME or NAME@SIZE; null if the text names none of them. The
+/// size is not checked.
 const BuiltInScene* find_scene(std::string_view text, std::span<const BuiltInScene> among);
 
-/// Makes a scene in its default size (NAME), or in another one (NAME@SIZE). The text becomes its name. Throws
+/// Makes a scene in its default size (NAME) or another size (NAME@SIZE). The text becomes its name. Throws
 /// Error if the size is not an integer or is out of range.
 Scene make_scene(const std::string& text, const BuiltInScene& scene);
 

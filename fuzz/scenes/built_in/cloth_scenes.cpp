@@ -18,7 +18,7 @@ enum : std::uint64_t { spikes_gaps = 101, spikes_waves, sheets_waves, points_pla
 
 constexpr int spike_sides = 12, spike_rings = 4;
 constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
-constexpr double pitch = 10;  // the distance between spikes: 200 triangles of cloth for each
+constexpr double pitch = 10;  // the distance between spikes, so that each has 200 triangles of cloth
 constexpr double tip = 5;     // the height of a spike
 
 /// The height of a spike, or of the cloth on it, at a distance from its axis: a cone with a round tip.
@@ -47,7 +47,7 @@ class SpikeField {
       gaps_.push_back(Random(0, spikes_gaps, static_cast<std::uint64_t>(i)).uniform(0.02, 0.35));
   }
 
-  /// The x coordinate of the spikes in a column, or the y coordinate of those in a row.
+  /// The x coordinate of column i of the spikes, and the y coordinate of row i.
   [[nodiscard]] double place(int i) const { return (i - middle_) * pitch; }
 
   /// The height at which the nearest spike holds up the cloth.
@@ -71,8 +71,8 @@ class SpikeField {
 
 /// A cloth falls on a square of spikes, by 0.2 in each step, from above the tips to half their height. Each
 /// spike holds up the cloth with a random gap; some gaps are too small, so collisions occur. A larger scene
-/// has more spikes of the same size and spacing, so the number of candidates for each primitive does not
-/// depend on the size.
+/// has more spikes of the same size and spacing, so the number of candidates per primitive does not depend on
+/// the scene's size.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
   const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));

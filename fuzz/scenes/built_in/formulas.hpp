@@ -1,6 +1,6 @@
-// The functions that compute built-in scenes. They only use operations whose rounding IEEE 754 prescribes, in
-// a fixed order, so that every machine and compiler gives the same bits. So they use neither a library's sine
-// nor Eigen's dot product.
+// The functions that compute built-in scenes. So that every machine and compiler gives the same bits, they
+// use only operations whose rounding IEEE 754 prescribes, in a fixed order; neither a library's sine nor
+// Eigen's dot product qualifies.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ struct CosSin {
   double cos = 1, sin = 0;
 };
 
-/// Cosine and sine of an angle of less than 2^40 turns, with errors below 4e-16; multiples of a quarter turn
-/// are exact. It uses the Taylor series around the nearest quarter turn, at most an eighth of a turn away,
-/// with a remainder below 5e-17.
+/// Cosine and sine of an angle of less than 2^40 turns, with errors below 4e-16; the results for multiples of
+/// a quarter turn are exact. Computed with the Taylor series around the nearest quarter turn, at most an
+/// eighth of a turn away, whose remainder is below 5e-17.
 CosSin cos_sin(double turns);
 
-/// The maximum of two numbers, smoothed: if they differ by less than `blend`, the result is larger by up to
-/// blend / 4.
+/// The smoothed maximum of two numbers. If they differ by less than `blend`, the result exceeds the maximum
+/// by up to blend / 4.
 double smooth_max(double a, double b, double blend);
 
 /// The nearest integer.
@@ -30,9 +30,9 @@ int nearest(double x);
 double dot(const Vector3<double>& a, const Vector3<double>& b);
 double length(const Vector3<double>& a);
 
-/// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. It is computed as a sum
-/// of columns. If x cos - y sin and x sin + y cos were computed side by side, g++ 12 would use fused
-/// operations where the processor has them, even with -ffp-contract=off.
+/// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. The product is computed
+/// as a sum of columns. For the rows, x cos - y sin and x sin + y cos, g++ 12 would use fused operations if
+/// the processor has them, even with -ffp-contract=off.
 class Rotation {
  public:
   Rotation() = default;
@@ -50,7 +50,7 @@ class Rotation {
 /// 1/20 of their length from frame to frame.
 class Waves {
  public:
-  /// Each stream and index gives different waves; `height` is the height of each of the three waves.
+  /// Waves of the given height each; each pair of stream and index gives different ones.
   Waves(std::uint64_t stream, std::uint64_t index, double height);
 
   [[nodiscard]] double at(double x, double y, double frame) const;

@@ -9,7 +9,7 @@ namespace nearmiss {
 
 using PointList = std::vector<Vector3<double>>;
 
-/// Adds the triangles of a surface whose points are in rows, from number `first` on. Each square has two
+/// Adds the triangles of a surface whose points, from number `first` on, are in rows. Each square has two
 /// triangles, with alternating diagonals. The rows of a closed surface are rings.
 void add_surface(Mesh& mesh, int first, int rows, int columns, bool closed = false);
 
@@ -23,12 +23,12 @@ void add_triangles(Mesh& mesh, const Mesh& part, int first);
 /// measured from the centre, in edges.
 PointList sheet_points(int squares, const std::function<Vector3<double>(double x, double y)>& place);
 
-/// The surface of a box around the origin with a by b by c edges of length 1, which has 4 (ab + bc + ca)
-/// triangles.
+/// The surface of a box around the origin. For edges = {a, b, c}, its sides have a, b and c edges of length
+/// 1, and it has 4 (ab + bc + ca) triangles.
 Mesh box(const std::array<int, 3>& edges);
 
-/// A sphere around the origin with 12 squares² triangles. It is the surface of a cube whose points are moved
-/// to the sphere.
+/// A sphere around the origin with 12 squares² triangles. Its points are those of the surface of a cube,
+/// moved to the sphere.
 Mesh ball(int squares);
 
 }  // namespace nearmiss

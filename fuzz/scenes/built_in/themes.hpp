@@ -1,4 +1,4 @@
-// The tables of built-in scenes, one file for each theme.
+// The tables of built-in scenes. Each theme has a file.
 #pragma once
 
 #include <vector>

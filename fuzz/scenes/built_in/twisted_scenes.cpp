@@ -15,9 +15,9 @@ enum : std::uint64_t { hair_places = 201, mat_waves };
 
 // --- knot -------------------------------------------------------------------------------------------------
 
-/// The centre line of an overhand knot, by arc length from its middle. It is a trefoil that is cut open at
-/// the outer end of a lobe and continued by straight ends. The smallest distance of its strands is 1.415, and
-/// its smallest radius of curvature is 1.1.
+/// The centre line of an overhand knot, by arc length from its middle. The line is a trefoil, cut open at the
+/// outer end of a lobe, with straight lines added to both cut ends. The smallest distance between its strands
+/// is 1.415, and its smallest radius of curvature is 1.1.
 class KnotLine {
  public:
   KnotLine() {
@@ -41,7 +41,7 @@ class KnotLine {
     const auto behind = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, along);
     const auto i = static_cast<std::size_t>(behind - lengths_.begin());
     const double part =
-        (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);  // outside [0, 1] at the ends
+        (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);  // outside [0, 1] on the straight ends
     return points_[i - 1] + part * (points_[i] - points_[i - 1]);
   }
 
@@ -50,8 +50,8 @@ class KnotLine {
   std::vector<double> lengths_;
 };
 
-/// The points of a tube around a line, in rings. The first points of the rings are aligned, so that from ring
-/// to ring they turn no more than the line does.
+/// The points of a tube around a line, in rings. From ring to ring, the first points turn no more than the
+/// line does, so that the tube is not twisted.
 PointList tube(const PointList& line, double radius, int sides) {
   PointList points;
   Vector3<double> normal(0.6, 0, 0.8);
@@ -66,9 +66,9 @@ PointList tube(const PointList& line, double radius, int sides) {
   return points;
 }
 
-/// The ends of a knotted tube are pulled. The knot shrinks as the tube slides through, while the tube keeps
-/// its length and radius. In the last frame its strands overlap by 0.3. A step moves the ends by about half
-/// an edge.
+/// The ends of a knotted tube are pulled. The knot shrinks as the tube slides through it; the tube keeps its
+/// length and radius. In the last frame, the tube's strands overlap by 0.3. A step moves the ends by about
+/// half an edge.
 Scene knot(int size) {
   constexpr int steps = 25;
   constexpr double radii_long = 52;  // length / radius of the tube
@@ -89,7 +89,7 @@ Scene knot(int size) {
 
 // --- hair -------------------------------------------------------------------------------------------------
 
-/// A bundle of curled hair is twisted by its ends and drawn together in the middle. n hairs have 4 sqrt(n)
+/// A bundle of curled hair, twisted by its ends and drawn together in the middle. n hairs have 4 sqrt(n)
 /// lines each; neighbouring hairs are about as far apart as a line is long.
 Scene hair(int size) {
   int hairs = 9;
@@ -127,8 +127,8 @@ Scene hair(int size) {
 // --- mat --------------------------------------------------------------------------------------------------
 
 /// A cross-section of the rolled mat, with a point for each column. It consists of two spirals from the
-/// middle, whose arms are pi / (2 tightness) apart. A point that was at distance s from the axis is then at
-/// s / sqrt(1 + tightness s), and the total length of the spirals is the width of the mat.
+/// middle, whose arms are pi / (2 tightness) apart. Rolling moves a point from distance s to distance s /
+/// sqrt(1 + tightness s) from the axis, and the total length of the spirals is the width of the mat.
 PointList rolled(int squares, double tightness) {
   constexpr int substeps = 16;
   constexpr double turns_of_a_radian = 0.15915494309189535;
@@ -155,9 +155,9 @@ PointList rolled(int squares, double tightness) {
   return section;
 }
 
-/// A mat that is three times as long as wide is twisted about its long axis by its ends. At the same time it
-/// rolls up and waves slightly. A step moves the outermost points by about an edge, so a mat that is many
-/// edges wide is nearly rolled up in the first frame.
+/// A mat, three times as long as wide, is twisted about its long axis by its ends while it rolls up and waves
+/// slightly. A step moves the outermost points by about an edge, so a mat that is many edges wide must be
+/// nearly rolled up from the first frame on.
 Scene mat(int size) {
   constexpr int steps = 39;
   constexpr double tightest = 4;

@@ -1,4 +1,4 @@
-// The oracle as the subject `exact`, with the filter for many queries, as in a campaign.
+// The oracle as the CCD `exact`. It uses the filter for many queries, as a campaign does.
 #include <span>
 
 #include "fuzz/studies/environments/on_trial.hpp"

@@ -1,4 +1,4 @@
-// The functions of a CCD that the plug-ins of this folder call.
+// The functions of a CCD that the plug-ins in this folder call.
 #pragma once
 
 #include "ccd/query/query.hpp"

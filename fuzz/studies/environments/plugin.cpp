@@ -1,6 +1,6 @@
-// One of our own CCDs behind the plug-in interface, in one mode of the processor. ROUNDING is the rounding
-// mode; with FLUSH, subnormal results and operands become zero. Each call sets the mode and then restores
-// that of the caller.
+// One of our own CCDs behind the plug-in interface, in one mode of the processor. The macro ROUNDING is the
+// rounding mode; with the macro FLUSH, subnormal results and operands become zero. Each call sets the mode,
+// and restores the caller's mode at its end.
 #include <algorithm>
 #include <cfenv>
 #include <exception>

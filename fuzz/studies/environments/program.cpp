@@ -1,4 +1,5 @@
-// Makes a program (fuzz/subjects/PROGRAMS.md) of a plug-in for another processor, so that an emulator can run it.
+// Turns a plug-in for another processor into a program (fuzz/subjects/PROGRAMS.md), so that an emulator can
+// run it.
 #include <array>
 #include <cstddef>
 #include <cstdio>

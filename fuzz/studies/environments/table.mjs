@@ -1,5 +1,5 @@
-// Makes the table of environments of a report: table.mjs ENVIRONMENTS.tsv REPORT.json TABLE.json Each line of
-// the first file has the name of a plug-in, and its CCD, compiler, flags and mode.
+// Makes the table of environments of a report: table.mjs ENVIRONMENTS.tsv REPORT.json TABLE.json. Each line
+// of the first file has the name of a plug-in, and its CCD, compiler, flags and mode.
 import { readFileSync, writeFileSync } from "node:fs";
 
 const [environments, report, table] = process.argv.slice(2);

@@ -1,4 +1,5 @@
-// The failure-proof CCD, used as a header-only library without the guard of the built-in subjects.
+// The failure-proof CCD, used as a header-only library: without the guard of arithmetic that built-in
+// subjects have.
 #include "ccd/wang/wang.hpp"
 
 #include "ccd/subjects/subject.hpp"

@@ -20,12 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The time of the children that a process has waited for, and of theirs.
+/// The computing time of the ended children that a process has waited for, including that of their own such
+/// children.
 Duration time_of_ended_children(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::istringstream fields(text.substr(text.rfind(')') + 1));  // behind the name, which may contain anything
-  constexpr int before = 13;                                    // from `state` to `stime` of proc(5)
+  std::istringstream fields(text.substr(text.rfind(')') + 1));  // after the name, which may contain ')'
+  constexpr int before = 13;                                    // fields from `state` to `stime`: proc(5)
   std::string skipped;
   for (int i = 0; i < before; ++i) fields >> skipped;
   double user = 0, system = 0;
@@ -43,7 +44,7 @@ void add_children(pid_t process, std::vector<pid_t>& found) {
 
 /// A process and all its descendants.
 std::vector<pid_t> processes_of_tree(pid_t root) {
-  constexpr std::size_t most = 1024;  // processes may start faster than this loop finds them
+  constexpr std::size_t most = 1024;  // a limit, since processes may start faster than this loop finds them
   std::vector<pid_t> processes{root};
   for (std::size_t i = 0; i < processes.size() && processes.size() < most; ++i)
     add_children(processes[i], processes);

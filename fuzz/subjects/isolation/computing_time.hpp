@@ -1,4 +1,4 @@
-// How long a process and its descendants have computed, and how much memory they have.
+// The computing time and the memory of a process and its descendants.
 #pragma once
 
 #include <sys/types.h>
@@ -15,8 +15,8 @@ Duration computing_time(pid_t process);
 
 /// Computing times of several processes.
 struct ComputingTime {
-  Duration running{};  ///< of processes that are there
-  Duration ended{};    ///< of those that have ended and that their parents have waited for, to a clock tick
+  Duration running{};  ///< of processes that exist
+  Duration ended{};    ///< of ended processes for which their parents have waited, to a clock tick
 
   [[nodiscard]] Duration sum() const { return running + ended; }
 };
@@ -24,11 +24,11 @@ struct ComputingTime {
 /// The length of a clock tick, by which a sum of `ended` may be too small.
 Duration clock_tick();
 
-/// Adds up a process and all its descendants. Descendants are found only if the system has the file
-/// /proc/PID/task/TID/children (proc(5)), as the kernels of distributions do.
+/// The computing time of a process and all its descendants. Descendants are found only if the system has the
+/// file /proc/PID/task/TID/children (proc(5)), as the kernels of distributions do.
 ComputingTime computing_time_of_tree(pid_t root);
 
-/// The largest data (Memory::data) in bytes of a process and its descendants, which are found in the same way.
+/// The largest Memory::data, in bytes, among a process and its descendants, which are found in the same way.
 std::uint64_t largest_data_of_tree(pid_t root);
 
 }  // namespace nearmiss::isolation

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// Keeps what exceptions said, and why a plug-in could not be loaded, under numbers that fit into a verdict.
-/// Many threads use it at once.
+/// Keeps the messages of exceptions, and the reasons why a plug-in could not be loaded, under numbers that
+/// fit into a verdict. Many threads may use it at once.
 class FaultTexts {
  public:
   /// The number of a text. Texts beyond the first thousand share the last number.

@@ -15,7 +15,7 @@
 
 namespace nearmiss::isolation {
 
-/// Throws NoWorker with the system's reason if something failed.
+/// Throws NoWorker with the system's reason unless `fine`.
 inline void check(bool fine, const char* what) {
   if (!fine) throw NoWorker(fmt::format("no worker process: {}: {}", what, std::strerror(errno)));
 }
@@ -42,12 +42,13 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Memory that a process can share with another one. Nobody can change its size. The system gives memory to
-/// the parts that are used.
+/// Memory that a process can share with another process. No process can change its size. The system provides
+/// memory only for the parts that are used.
 class SharedMemory {
  public:
   SharedMemory() = default;
-  /// `others_may_write`: whether other processes can write to it. Throws NoWorker.
+  /// With `others_may_write`, other processes can write to the memory. Throws NoWorker if the system refuses
+  /// it.
   SharedMemory(const char* name, std::size_t bytes, bool others_may_write)
       : file_(memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING)), bytes_(bytes) {
     check(file_.number() >= 0 && ftruncate(file_.number(), static_cast<off_t>(bytes)) == 0, "memory");
@@ -73,7 +74,8 @@ class SharedMemory {
     return static_cast<Content*>(start_);
   }
 
-  /// Gets memory for the first bytes, so that their use cannot fail later. Returns whether there is enough.
+  /// Makes the system provide memory for the first `bytes`, so that their use cannot fail later. Returns
+  /// whether the system has enough.
   [[nodiscard]] bool reserve(std::size_t bytes) const {
     return fallocate(file_.number(), 0, 0, static_cast<off_t>(bytes)) == 0;
   }

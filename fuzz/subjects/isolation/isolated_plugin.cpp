@@ -109,16 +109,16 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
  private:
-  /// What a worker has done in its last call: it answered the first queries. If there is a failure, it is
-  /// that of the next query.
+  /// What a worker has done in its last call: it answered the first `count` queries, and failed on the next
+  /// one if `failure` is set.
   struct Done {
-    const WorkerProcess* worker;  ///< null if there is none, and nothing is done
+    const WorkerProcess* worker;  ///< null if no worker could be started
     std::size_t first;            ///< index of the call's first query among all queries
     std::uint32_t count;          ///< number of queries that were answered
     const std::optional<WorkerFailure>& failure;
   };
 
-  /// Asks a question about one query. `given` makes the answer of what the worker gave.
+  /// Asks a question about one query. given(worker) reads the answer from the worker.
   template <class Answer, class Given>
   Answer ask(Request request, const Query& query, const Given& given) const {
     Answer answer;
@@ -152,8 +152,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch: queries of one kind, as many as a worker gets at once. The plug-in can
-  /// decide all or none of them.
+  /// The size of the next batch: as many queries of one kind as a worker gets at once, such that the plug-in
+  /// can decide either all or none of them.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -163,7 +163,7 @@ class IsolatedPlugin final : public DescribedSubject {
     return count;
   }
 
-  /// Has workers perform the request for all queries, batch by batch, and passes on what they have done.
+  /// Makes workers perform the request for all queries, batch by batch, and passes on what each has done.
   template <class Take>
   void perform(Request request, std::span<const Query> queries, const Take& take_done) const {
     in_parts(queries.size(), [&](std::size_t first, std::size_t last) {
@@ -182,12 +182,13 @@ class IsolatedPlugin final : public DescribedSubject {
     give_back(std::move(worker));
   }
 
-  /// Has a worker perform the request for one batch. A worker that cannot be used any more is replaced by a
-  /// new one, which continues after the query that failed. A call that fails as a whole is repeated in parts,
-  /// and a part that fails in smaller ones, at last query by query, to find the query that is to blame. If no
-  /// part of a part fails, its last query is to blame: a failure that depends on earlier queries, such as a
-  /// crash at every 1000th query, is a fault, too. (If only the call as a whole was late, no query is to
-  /// blame, because the queries together may take that long.) `late` counts the queries over the time limit.
+  /// Makes a worker perform the request for one batch. If a worker cannot be used any more, a new worker
+  /// replaces it and continues after the query that failed. If a call fails as a whole, it is repeated in
+  /// parts, a failing part in smaller parts, and at last query by query, to find the query that is to blame.
+  /// If a part fails, but none of its own parts does, the last query of the part is to blame, since a failure
+  /// that depends on earlier queries, such as a crash at every 1000th query, is also a fault. (If the call
+  /// was only late as a whole, no query is to blame, because the queries together may take that long.) `late`
+  /// counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -195,7 +196,7 @@ class IsolatedPlugin final : public DescribedSubject {
     const bool is_decided = request != Request::distances && request != Request::steps;
     const bool is_asked = !is_decided || can_decide(batch.front());
     const auto size = static_cast<std::uint32_t>(batch.size());
-    std::vector<Repeated> repeated;  // each call is a part of the one before
+    std::vector<Repeated> repeated;  // each call is a part of the call before it
     for (std::uint32_t first = 0; first < size;) {
       if (!is_asked || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
@@ -213,7 +214,7 @@ class IsolatedPlugin final : public DescribedSubject {
       const std::uint32_t last = first + std::min(end_of_call - first, part);
       std::optional<WorkerFailure> failure = worker->perform(request, batch.subspan(first, last - first));
       if (failure) failure->query += first;
-      code_->expect_unchanged(*limits_.stop);  // a running process, too, may see what is written to its file
+      code_->expect_unchanged(*limits_.stop);  // a write to the file can also change running processes
       if (repeated.empty()) adapt(last - first, *worker, failure);
       if (failure && failure->of_call) {
         repeated.push_back(
@@ -239,7 +240,7 @@ class IsolatedPlugin final : public DescribedSubject {
   /// A call that failed as a whole, and is repeated in parts.
   struct Repeated {
     std::uint32_t end, part;
-    std::optional<WorkerFailure> failure;  ///< until a query is to blame for it
+    std::optional<WorkerFailure> failure;  ///< set until a query is blamed for it
   };
 
   /// The size of the parts in which a call of this size is repeated.
@@ -249,7 +250,7 @@ class IsolatedPlugin final : public DescribedSubject {
     return size <= few ? 1 : size / parts;
   }
 
-  /// Adapts the number of queries that later calls have.
+  /// Adapts the number of queries in later calls.
   void adapt(std::uint32_t count, const WorkerProcess& worker,
              const std::optional<WorkerFailure>& failure) const {
     constexpr std::uint32_t fewer = 8;
@@ -272,8 +273,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return start_worker();
   }
 
-  /// Starts a worker; null if the plug-in cannot be loaded, or no longer describes itself as it did the first
-  /// time. After some failures in a row, no worker is started any more.
+  /// Starts a worker; returns null if the plug-in cannot be loaded, or describes itself differently than the
+  /// first time. After some consecutive failures, starts no more workers.
   std::unique_ptr<WorkerProcess> start_worker() const {
     constexpr int most_failed = 3;
     if (failed_starts_ >= most_failed) return nullptr;
@@ -323,7 +324,7 @@ class IsolatedPlugin final : public DescribedSubject {
   PluginLimits limits_;
   mutable std::atomic<std::uint32_t> in_a_call_ = static_cast<std::uint32_t>(isolation::capacity_for(info()));
   mutable FaultTexts texts_;
-  mutable std::atomic<int> failed_starts_ = 0;  // in a row
+  mutable std::atomic<int> failed_starts_ = 0;  // consecutive ones
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;                                    // at the last failed start
   mutable std::map<std::pair<Fault, std::int32_t>, std::string> errors_;  // of the last fault with this code

@@ -15,23 +15,22 @@ namespace nearmiss {
 /// The plug-in of a name (ccd/subjects/plugin.hpp), with one worker process for each thread that asks at the
 /// same time. A failure becomes the verdict's fault, and the next query gets a new process, except after an
 /// exception. The plug-in's output is discarded. Throws Error if the plug-in cannot be loaded, or has several
-/// detectors and the name does not say which.
+/// detectors and the name chooses none.
 ///
-/// All answers come from the same bytes. If a file is changed, calls throw isolation::PluginChanged, and the
-/// answers of the call that was under way are not used. If the system starts no worker for ten seconds, they
-/// throw isolation::NoWorker.
+/// All answers come from the same bytes: if a file is changed, calls throw isolation::PluginChanged, and the
+/// answers of the current call are not used. If the system starts no worker for ten seconds, calls throw
+/// isolation::NoWorker.
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 
-/// As make_isolated_plugin, but makes all detectors of a shared object if the name does not say which.
+/// Like make_isolated_plugin, but makes all detectors of a shared object if the name chooses none.
 std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
                                                             const isolation::PluginLimits& limits = {});
 
 /// Identifies the code of a plug-in.
 struct PluginIdentity {
-  std::string
-      path;  ///< path or command, with its options, as given, and the detector if the file has several
-  std::string version;   ///< the plug-in's own; "" if it gives none
+  std::string path;      ///< path or command with options, as given, and the detector if the file has several
+  std::string version;   ///< that the plug-in states; "" if it states none
   std::string sha256;    ///< of the file, in hexadecimal
   std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none
 };
@@ -39,7 +38,7 @@ struct PluginIdentity {
 /// The identity of a subject's code, if make_isolated_plugin made the subject.
 std::optional<PluginIdentity> plugin_identity(const Subject& subject);
 
-/// What a subject says about itself, if make_isolated_plugin made it; null otherwise.
+/// A subject's description of itself, if make_isolated_plugin made the subject; null otherwise.
 const DetectorInfo* plugin_info(const Subject& subject);
 
 }  // namespace nearmiss

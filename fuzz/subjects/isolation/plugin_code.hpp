@@ -11,26 +11,26 @@
 
 namespace nearmiss::isolation {
 
-/// The files that the command of a program names, the program's first. A command may begin with
-/// "cd FOLDER && exec".
+/// The files that a command names; that of the program comes first. A command may begin with "cd FOLDER &&
+/// exec".
 std::vector<std::string> files_of_program(std::string_view command);
 
-/// The files of a plug-in, as they were when this object was made: the shared object, or all files that the
-/// command of a program names, the program included. Files that these load are not included. Many threads use
-/// it at once.
+/// The files of a plug-in, as they were when this object was made: the shared object, or all files that a
+/// command names, including the program. Files that these files load are not included. Many threads may use a
+/// PluginCode at once.
 class PluginCode {
  public:
-  /// Reads the files. Throws Error if that fails.
+  /// Reads the files. Throws Error if a file cannot be read.
   explicit PluginCode(std::string name);
 
   /// The plug-in's name on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// The SHA-256 digest of the file, in hexadecimal; of the digests of the files, if there are several.
+  /// The SHA-256 digest of the file, in hexadecimal; if there are several files, that of their digests.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
   /// The GNU build id of a shared object, in hexadecimal; "" if it has none.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
-  /// Throws PluginChanged and Stopped as PluginFile does.
+  /// Calls PluginFile::expect_unchanged for each file.
   void expect_unchanged(const Stop& stop) const;
 
  private:

@@ -22,12 +22,12 @@ constexpr off_t most_bytes = off_t{1} << 31;
 
 bool is_same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
 
-/// The bytes [offset, offset + size); fewer at the end of the file.
+/// The bytes [offset, offset + size), or fewer if the file ends earlier.
 std::string_view part(std::string_view bytes, std::size_t offset, std::size_t size) {
   return offset > bytes.size() ? std::string_view() : bytes.substr(offset, size);
 }
 
-/// A structure at an offset; zeros if the file ends before the structure does.
+/// The structure at an offset; all zeros if the file ends within it.
 template <class Structure>
 Structure at(std::string_view bytes, std::size_t offset) {
   Structure structure{};
@@ -83,7 +83,8 @@ PluginFile::Snapshot PluginFile::snapshot_of(const Stamp& stamp) const {
   constexpr std::chrono::seconds coarsest_tick(2);  // on FAT
   const auto now = std::chrono::steady_clock::now();
   const auto first_seen = stamp == last_.stamp ? last_.first_seen : now;
-  // The clock of the file system may be ahead of ours, so it is enough, too, to have waited for a tick.
+  // The stamp is not recent any more as soon as either comparison fails. If the file system's clock is ahead
+  // of ours, the first one holds for longer.
   const bool is_recent =
       std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick.count() && now <= first_seen + coarsest_tick;
   return {stamp, first_seen, is_recent};

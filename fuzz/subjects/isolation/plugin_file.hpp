@@ -14,27 +14,27 @@
 
 namespace nearmiss::isolation {
 
-/// The file of a plug-in was changed while its answers were collected.
+/// Thrown if a plug-in's file was changed while its answers were collected.
 class PluginChanged : public TrialError {
  public:
   using TrialError::TrialError;
 };
 
 /// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not
-/// included. Many threads use it at once.
+/// included. Many threads may use a PluginFile at once.
 class PluginFile {
  public:
-  /// Reads the file. Throws Error if that fails.
+  /// Reads the file. Throws Error if it cannot be read.
   explicit PluginFile(std::string path);
 
   [[nodiscard]] const std::string& path() const { return path_; }
-  /// The SHA-256 digest of its bytes, in hexadecimal.
+  /// The SHA-256 digest of the file's bytes, in hexadecimal.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
-  /// Its GNU build id, in hexadecimal; "" if it has none.
+  /// The file's GNU build id, in hexadecimal; "" if it has none.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
-  /// Throws PluginChanged unless the path still leads to a file with the same bytes. The file is read again
-  /// only if its times, its size or its inode have changed; otherwise this takes about a microsecond. Throws
+  /// Throws PluginChanged unless the path still leads to a file with the same bytes. Reads the file again
+  /// only if its stamp has changed or was recent; otherwise, the check takes about a microsecond. Throws
   /// Stopped if `stop` is due meanwhile.
   void expect_unchanged(const Stop& stop) const;
 
@@ -50,10 +50,10 @@ class PluginFile {
   };
   /// The state of the file at one reading of its bytes.
   struct Snapshot {
-    Stamp stamp;                                       ///< of the file before it was read
-    std::chrono::steady_clock::time_point first_seen;  ///< of the stamp
-    /// Whether the file could be written again without a change of its stamp, because the clock of the file
-    /// system may not have ticked since.
+    Stamp stamp;                                       ///< of the file, taken before it was read
+    std::chrono::steady_clock::time_point first_seen;  ///< when the stamp was seen first
+    /// Whether the file could be written again without a change of its stamp, because the file system's clock
+    /// may not have ticked since the stamp.
     bool is_recent;
   };
 
@@ -64,7 +64,7 @@ class PluginFile {
 
   std::string path_, sha256_, build_id_;
   mutable std::mutex mutex_;
-  mutable Snapshot last_{};  ///< when the bytes were last read
+  mutable Snapshot last_{};  ///< of the last reading
 };
 
 /// The GNU build id of an ELF file, in hexadecimal; "" if it has none.

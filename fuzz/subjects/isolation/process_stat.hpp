@@ -13,8 +13,8 @@ namespace nearmiss::isolation {
 
 /// The memory of a process in bytes.
 struct Memory {
-  std::uint64_t addresses = 0;  ///< its address space
-  std::uint64_t data = 0;       ///< what it can write to, and shares with nobody, without its stack
+  std::uint64_t addresses = 0;  ///< the size of the address space
+  std::uint64_t data = 0;       ///< private writable memory without the stack
 };
 
 /// The memory of the process with this folder in /proc; nothing if there is no such process.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
 
-/// The number behind a name in a file, or at the start of the file if the name is "".
+/// The number after a name in a file; if the name is "", the number at the start of the file.
 std::optional<std::uint64_t> number_in(const std::filesystem::path& file, const std::string& name = "") {
   std::ifstream in(file);
   std::uint64_t number = 0;
@@ -24,11 +24,11 @@ std::optional<std::uint64_t> number_in(const std::filesystem::path& file, const 
   return in >> number ? std::optional(number) : std::nullopt;
 }
 
-/// The memory that a control group has left. Pages of files that are not in use count as free.
+/// The memory that a control group has left. Cached pages of files that are not in use count as free.
 std::uint64_t left_in(const std::filesystem::path& group) {
   const auto most = number_in(group / "memory.max");
   const auto used = number_in(group / "memory.current");
-  if (!most || !used) return unknown;  // "max" is no limit
+  if (!most || !used) return unknown;  // "max" means no limit
   const std::uint64_t of_files = number_in(group / "memory.stat", "inactive_file").value_or(0);
   return *most - std::min(*most, *used - std::min(*used, of_files));
 }
@@ -43,7 +43,7 @@ std::uint64_t memory_left(const std::filesystem::path& root) {
   const std::string version_2 = "0::/";
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with(version_2)) continue;
-    // A group may be limited itself, or together with others.
+    // A group may have a limit of its own, or share the limit of a group around it.
     std::filesystem::path within = line.substr(version_2.size());
     for (left = std::min(left, left_in(root / "sys/fs/cgroup")); !within.empty();
          within = within.parent_path())

@@ -1,4 +1,4 @@
-// Whether there is memory for a large batch.
+// Checks that memory is left for a large batch.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace nearmiss::isolation {
 
-/// The memory in bytes that the machine has left, or that a control group (cgroups(7)) of this process has
-/// left if that is less. It is read from the files below `root`.
+/// The memory, in bytes, that the machine has left, or that a control group (cgroups(7)) of this process has
+/// left if this is less. Reads files below `root`.
 std::uint64_t memory_left(const std::filesystem::path& root = "/");
 
-/// Throws a TrialError unless that much memory is left. `what` needs it.
+/// Throws a TrialError unless this many bytes are left. The message says that `what` needs them.
 void expect_memory(const std::string& what, std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

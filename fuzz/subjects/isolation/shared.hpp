@@ -18,13 +18,13 @@ inline constexpr int answers_memory = 5;
 /// The number of queries for which a worker always has memory. Some detectors want more at once.
 inline constexpr std::size_t least_capacity = 2048;
 
-/// A reply to a call whose answers cannot be used, because the plug-in breaks the protocol.
+/// The reply to a call if the plug-in breaks the protocol, so that its answers cannot be used.
 inline constexpr std::uint64_t no_reply = ~std::uint64_t{0};
 
 /// What a worker does with the queries of a batch.
 enum class Request : std::uint8_t {
   load,   ///< loads the plug-in; comes first
-  share,  ///< takes the memory of batches (BatchMemory), whose files come with the call; comes second
+  share,  ///< maps the memory of batches (BatchMemory), whose files come with the call; comes second
   decide,
   decide_timed,  ///< decides, and measures the time of all queries together
   time_each,     ///< measures the time of each query
@@ -33,13 +33,13 @@ enum class Request : std::uint8_t {
   steps,         ///< filters the first query's step
 };
 
-/// A message that requests something about a batch of queries of one kind. The number distinguishes its
-/// answers from those of earlier calls.
+/// A message that requests something about a batch of queries of one kind. The number distinguishes the
+/// call's answers from those of earlier calls.
 struct Call {
   std::uint64_t number;
   Request request;
   Kind kind = {};
-  std::uint32_t queries = 0;  ///< `share` gives the most queries that a batch may have
+  std::uint32_t queries = 0;  ///< with `share`, the most queries that a batch may have
 };
 
 /// A message about the plug-in's process. The first one comes from that process before it loads the plug-in,
@@ -53,9 +53,9 @@ struct Status {
   std::array<char, 2048> errors{};
 };
 
-/// Where the questions and answers of a batch of n queries lie in two blocks of shared memory: without gaps,
-/// so that a small batch uses only the start of blocks that have room for a large one. Nearmiss writes the
-/// questions, which the worker can only read. The worker writes the answers, and so can the plug-in.
+/// The layout of the questions and answers of a batch of n queries in two blocks of shared memory. The layout
+/// has no gaps, so a small batch uses only the start of blocks that have room for a large one. nearmiss
+/// writes the questions; the worker can only read them. The worker writes the answers; so can the plug-in.
 struct BatchMemory {
   double* questions;
   std::byte* answers;
@@ -68,7 +68,7 @@ struct BatchMemory {
   [[nodiscard]] double* x() const { return questions; }
   [[nodiscard]] double* separations() const { return questions + 24 * n; }
 
-  /// For each query, the call that it was answered in.
+  /// For each query, the number of the call that answered it.
   [[nodiscard]] std::uint64_t* calls() const { return at<std::uint64_t>(0); }
   /// The times that were measured by time_each.
   [[nodiscard]] std::uint64_t* nanoseconds() const { return at<std::uint64_t>(1); }
@@ -77,25 +77,26 @@ struct BatchMemory {
   /// The plug-in's return values.
   [[nodiscard]] int* values() const { return at<int>(5); }
 
-  /// The same for the answers of the empty detector, which nobody must take for those of the plug-in.
+  /// Like calls(), but for the empty detector, whose answers must not be mistaken for those of the plug-in.
   [[nodiscard]] std::uint64_t* calls_of_empty() const { return at<std::uint64_t>(3); }
   [[nodiscard]] double* numbers_of_empty() const { return at<double>(4); }
   [[nodiscard]] int* values_of_empty() const { return values() + n; }
 
  private:
-  /// A column of numbers of eight bytes, or the first one behind them.
+  /// The start of a column: each column before it has n numbers of eight bytes.
   template <class T>
   [[nodiscard]] T* at(std::size_t column) const {
     return reinterpret_cast<T*>(answers + column * n * sizeof(std::uint64_t));
   }
 };
 
-/// DetectorInfo and Contract (ccd/) as plain numbers, which can be read whatever the plug-in wrote.
+/// DetectorInfo and Contract (ccd/) as plain numbers and characters, which are safe to read whatever the
+/// plug-in wrote.
 struct PluginDescription {
   std::array<char, 4096> name{};  ///< of the detector, with its options
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
-      names{};  ///< of all detectors in the shared object, a line each
+      names{};  ///< of all detectors in the shared object, one per line
   std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, distance_kinds = 0,
                step_kinds = 0, in_arrays = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
@@ -103,14 +104,14 @@ struct PluginDescription {
   std::uint64_t batch = 0;
 };
 
-/// Written by the worker. The plug-in runs in the same process, and can write anything here.
+/// Memory that the worker writes. The plug-in, which runs in the same process, can write anything here.
 struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
   std::array<double, 12> more{};                 ///< weights of the closest points, or the filtered step
   std::uint64_t nanoseconds = 0;                 ///< measured by decide_timed
-  std::uint64_t kernel_nanoseconds = 0;          ///< as the plug-in says; 0 if it does not
+  std::uint64_t kernel_nanoseconds = 0;          ///< as the plug-in states; 0 if it does not
   std::array<char, 256> exception{};             ///< what() of an exception that the plug-in did not catch
   std::atomic<std::uint64_t> threw{0};  ///< the last call that an exception ended, at the query `current`
   // Written after loading, before any request:

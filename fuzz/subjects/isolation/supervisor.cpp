@@ -26,14 +26,15 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Starts a program with some descriptors under given numbers. The program has a session of its own, which no
-/// terminal interrupts, and the default reaction to every signal.
+/// Starts a program, and gives it some descriptors under given numbers. The program gets a session of its
+/// own, which no terminal interrupts, and the default reaction to every signal.
 class Spawn {
  public:
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
-    // Signals that our parent blocks or ignores would change what the plug-in does, or hide how it ended.
+    // If our parent blocks or ignores a signal, the plug-in would inherit that, and behave differently or
+    // hide how it ended.
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);
@@ -50,7 +51,7 @@ class Spawn {
   }
 
   void pass(int descriptor, int number) {
-    // A number above those that are passed, so that none overwrites another one.
+    // Above all numbers to be given, so that no copy overwrites a descriptor that is still needed.
     constexpr int above = 16;
     passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
     check(passed_.back().number() >= 0, "descriptor");
@@ -100,7 +101,8 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files, c
   const std::string program = path_beside("nearmiss-worker");
   arguments.insert(arguments.begin(), {"nearmiss-worker", NEARMISS_WORKER_CODE});
   {
-    Spawn spawn;  // has copies of the descriptors; only those of the worker may stay open
+    Spawn spawn;  // owns copies of the descriptors, and closes them at the end: only those of the worker may
+                  // stay open
     spawn.pass(files.replies, reply_socket);
     spawn.pass(status.theirs.number(), status_socket);
     spawn.pass(files.answers, answers_memory);
@@ -137,10 +139,10 @@ bool Supervisor::learns_process(const Stop& stop) {
   if (recvmsg(status_.number(), &message, MSG_DONTWAIT) != sizeof first) return false;
   const cmsghdr* const attached = CMSG_FIRSTHDR(&message);
   if (attached == nullptr || attached->cmsg_type != SCM_CREDENTIALS) return false;
-  ucred sender{};  // with the number of the process in this process's namespace
+  ucred sender{};  // has the number of the process in this process's namespace
   std::memcpy(&sender, CMSG_DATA(attached), sizeof sender);
   process_ = sender.pid;
-  // Without a namespace, the plug-in could otherwise write to the memory of nearmiss through /proc.
+  // Otherwise, a plug-in without a namespace could write to the memory of nearmiss through /proc.
   if (first.is_in_namespace == 0) prctl(PR_SET_DUMPABLE, 0);
   return process_ > 0;
 }
@@ -148,7 +150,7 @@ bool Supervisor::learns_process(const Stop& stop) {
 Supervisor::~Supervisor() {
   if (worker_ <= 0) return;
   dismiss();
-  if (process_ <= 0) kill(worker_, SIGKILL);  // it has not begun, and may never notice the dismissal
+  if (process_ <= 0) kill(worker_, SIGKILL);  // the worker has not begun, and may never notice the dismissal
   constexpr int tries = 2000;
   for (int i = 0; i < tries; ++i) {
     if (waitpid(worker_, nullptr, WNOHANG) != 0) return;

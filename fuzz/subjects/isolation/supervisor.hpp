@@ -1,4 +1,4 @@
-// The supervisor of a plug-in's process, and its guard, as nearmiss sees them.
+// nearmiss's side of the supervisor and the guard of a plug-in's process.
 #pragma once
 
 #include <sys/types.h>
@@ -16,14 +16,14 @@ namespace nearmiss::isolation {
 struct SocketPair {
   Descriptor ours, theirs;
 
-  /// Throws NoWorker.
+  /// Throws NoWorker if the system refuses sockets.
   SocketPair();
 };
 
-/// Waits until there is something to read. A signal to nearmiss does not end the wait.
+/// Waits, at most this time, until something can be read. A signal to nearmiss does not end the wait.
 bool is_ready(int file, std::chrono::milliseconds time);
 
-/// Starts nearmiss-worker, and ends it with all that it started.
+/// Starts nearmiss-worker, and ends it with all processes that it started.
 class Supervisor {
  public:
   /// Descriptors that the worker gets.
@@ -36,8 +36,8 @@ class Supervisor {
   Supervisor& operator=(const Supervisor&) = delete;
   ~Supervisor();
 
-  /// Returns when the plug-in's process exists. That process then waits for a request to load the plug-in.
-  /// Throws NoWorker, and Stopped if `stop` is due meanwhile.
+  /// Starts the worker. Returns when the plug-in's process exists and waits for a request to load the
+  /// plug-in. Throws NoWorker if the system starts no worker, and Stopped if `stop` is due meanwhile.
   void start(std::vector<std::string> arguments, const Files& files, const Stop& stop);
   /// Begins to end all processes. The destructor waits until they have ended.
   void dismiss() { status_.close(); }
@@ -46,11 +46,11 @@ class Supervisor {
   [[nodiscard]] pid_t process() const { return process_; }
   /// The process from which all processes of the worker descend.
   [[nodiscard]] pid_t worker() const { return worker_; }
-  /// The socket on which the supervisor sends a `Status` that says how the process ended.
+  /// The socket on which the supervisor sends a `Status` when the plug-in's process has ended.
   [[nodiscard]] int socket() const { return status_.number(); }
 
  private:
-  /// Receives the first message.
+  /// Receives the first message, which names the plug-in's process; false if none comes.
   [[nodiscard]] bool learns_process(const Stop& stop);
   /// Waits for the first message; false if none comes.
   [[nodiscard]] bool hears_from_worker(const Stop& stop) const;

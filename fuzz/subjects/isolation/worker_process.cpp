@@ -51,16 +51,16 @@ std::string lines_of(const Status& ended) {
 // to reply, with empty caches on a busy machine. In 1,500 calls on two busy cores, the median was 20
 // microseconds and the longest 1,500.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
-constexpr double most_asked_twice = 2;  // some queries are decided before the time counts, and then again
+constexpr double most_asked_twice = 2;  // the plug-in may decide queries once to warm up, and once timed
 
 constexpr std::uint64_t mebibyte = 1 << 20;
 
-/// A batch as messages call it.
+/// The name of a batch in messages.
 std::string name_of_batch(const DetectorInfo& info, std::size_t queries) {
   return fmt::format("{}: a batch of {} queries", info.name, queries);
 }
 
-/// Throws Error if a description has a fault.
+/// Throws Error if `fault` names a fault of a description.
 void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
@@ -69,7 +69,7 @@ void expect_no(const std::string& fault) {
 double calls_per_query(Request request) {
   switch (request) {
     case Request::decide_timed:
-      return 2;  // once to warm up, once timed
+      return 2;  // to warm up, and timed
     case Request::time_each:
       return 3;
     default:
@@ -136,7 +136,7 @@ WorkerProcess::Elapsed WorkerProcess::Elapsed::with_waiting(Duration computing) 
   return {computing, patience * computing};
 }
 
-/// Measures times from its construction on.
+/// Measures the times that have passed since its construction.
 class WorkerProcess::Watch {
  public:
   explicit Watch(const WorkerProcess& worker) : worker_(worker) {}
@@ -165,7 +165,7 @@ void WorkerProcess::look_at_others() {
   const Duration before = others_.sum();
   others_ = computing_time_of_tree(supervisor_.worker());
   others_.running -= own_computing();
-  constexpr Duration of_supervisor = std::chrono::milliseconds(1);  // much more than it needs during a call
+  constexpr Duration of_supervisor = std::chrono::milliseconds(1);  // much more than it needs in a call
   others_compute_ |= others_.sum() - before > of_supervisor;
 }
 
@@ -174,10 +174,10 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged(*limits_.stop);  // a change of the file may be the reason
+    file.expect_unchanged(*limits_.stop);  // the file may have changed, which would be the reason
     throw;
   }
-  file.expect_unchanged(*limits_.stop);  // otherwise it might have loaded other bytes
+  file.expect_unchanged(*limits_.stop);  // otherwise, the worker might have loaded other bytes
 }
 
 void WorkerProcess::dismiss() {
@@ -203,8 +203,8 @@ void WorkerProcess::start(const std::string& plugin) {
 std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervisor_.worker()); }
 
 void WorkerProcess::load(const std::string& plugin) {
-  // The system's limit does not count data that is mapped in place of something else, as static data is. The
-  // worker itself may need a little more than now.
+  // Checked here, because the system's limit does not count data that is mapped in place of something else,
+  // as static data is. The worker itself may need a little more than now.
   constexpr std::uint64_t of_worker = 1 << 20;
   most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
@@ -232,7 +232,7 @@ void WorkerProcess::load(const std::string& plugin) {
   }
   share();
   look_at_others();
-  others_compute_ = false;  // what they computed until now does not count
+  others_compute_ = false;  // what other processes computed during loading does not count
 }
 
 void WorkerProcess::share() {
@@ -251,7 +251,7 @@ void WorkerProcess::reserve(std::size_t queries) {
   if (queries <= reserved_) return;
   const std::string what = name_of_batch(info_, queries);
   const std::uint64_t bytes = memory_of_batch(info_, queries, limits_);
-  static std::mutex one_by_one;  // so that all workers together do not get more than is left
+  static std::mutex one_by_one;  // so that workers do not reserve the same memory at the same time
   const std::lock_guard lock(one_by_one);
   expect_memory(what, bytes);
   if (!questions_of_batch_.reserve(queries * BatchMemory::bytes_of_question) ||
@@ -289,7 +289,7 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::span<c
   for (std::uint32_t i = 0; i < n && end == End::done; ++i)
     if (!answers(i)) end = End::broken;
   if (end == End::done) {
-    const bool is_first = call.number == 1;  // which may prepare what the plug-in needs
+    const bool is_first = call.number == 1;  // the first call may prepare what the plug-in needs
     least_ = is_first ? Duration{} : (elapsed_.certain - of_call_itself) / most_asked_twice;
     return std::nullopt;
   }
@@ -336,12 +336,12 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   constexpr int most_looking = 10;  // at most a tenth of the time: there may be hundreds of processes
   constexpr std::uint64_t calls_between_looks = 16;
   const bool looks =
-      others_compute_ || (call.number + 1) % calls_between_looks == 0;  // not while the plug-in is loaded
+      others_compute_ || (call.number + 1) % calls_between_looks == 0;  // false while the plug-in is loaded
   if (others_compute_) look_at_others();
   auto next_look = steady_clock::now();
-  const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
+  const Watch watch(*this);  // before the call: the worker may be done before this process runs again
   std::uint32_t calls = answers_->calls;
-  // If the worker is dead or does not read, no reply comes.
+  // Failure to send is ignored here: if the worker is dead or does not read, no reply comes.
   send_call(call);
   std::optional<Watch> query_watch(watch);
   auto turn = steady_clock::now();
@@ -350,7 +350,8 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
     limits_.stop->check(Stop::grace);
     const auto now = steady_clock::now();
-    // If nearmiss could not look for longer, the plug-in may have been suspended, too.
+    // If nearmiss did not run for a longer time, it was suspended, and the plug-in may have been suspended,
+    // too.
     if (!spoke) suspended_ += std::max(Duration{}, Duration(now - turn) - longest_turn);
     turn = now;
     if (spoke ? looks : now >= next_look) {
@@ -396,7 +397,7 @@ std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
   if (poll(&replies, 1, 0) > 0) {
     const End end = read_reply(call);
     if (end != End::dead) return end;
-    // A process that dies closes its socket, and its supervisor reports that right after.
+    // A process that dies closes its socket, and right after, its supervisor reports the end.
     return ends_within(milliseconds(1000)) ? End::dead : End::broken;
   }
   return ends_within(milliseconds(0)) ? std::optional(End::dead) : std::nullopt;
@@ -416,7 +417,7 @@ WorkerProcess::End WorkerProcess::read_reply(std::uint64_t call) const {
 bool WorkerProcess::ends_within(milliseconds time) {
   if (!is_ready(supervisor_.socket(), time)) return false;
   Status told{};
-  // If there is no message, the supervisor ended, too.
+  // Without a message, the supervisor has ended, too.
   if (recv(supervisor_.socket(), &told, sizeof told, MSG_DONTWAIT) == sizeof told) ended_ = told;
   return true;
 }

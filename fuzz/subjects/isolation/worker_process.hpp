@@ -1,4 +1,4 @@
-// One worker process, as nearmiss sees it. It trusts nothing that the worker writes.
+// nearmiss's side of one worker process. It trusts nothing that the worker writes.
 #pragma once
 
 #include <algorithm>
@@ -23,27 +23,27 @@ namespace nearmiss::isolation {
 
 /// The limits of a plug-in.
 struct PluginLimits {
-  /// Limit for the computing time of all threads and processes of the plug-in for a query. Ten times as much
-  /// wall-clock time may pass.
+  /// The limit for a query: computing time of all threads and processes of the plug-in together. Ten times as
+  /// much wall-clock time may pass.
   Duration time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
-  Duration loading{30};                          ///< the time that may pass while it is loaded
-  Duration leaving{0.1};                         ///< the time that may pass while it is closed
-  /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
+  Duration loading{30};                          ///< the time that loading may take
+  Duration leaving{0.1};                         ///< the time that closing may take
+  /// After this number of queries over the time limit, the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
-  const Stop* stop = &Stop::never();  ///< ends all waiting with Stopped
+  const Stop* stop = &Stop::never();  ///< when it is due, all waiting ends with Stopped
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
   bool own_namespace = true;
 };
 
-/// The most queries that a worker gets at once: as many as the detector wants, and at least least_capacity.
+/// The most queries that a worker gets at once: as many as the detector wants, but at least least_capacity.
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
-/// The memory in bytes that a worker shares with nearmiss for a batch of this size, or of its capacity if
-/// that is less. Throws a TrialError if it exceeds the limit of a plug-in.
+/// The bytes of memory that a worker shares with nearmiss for a batch of this size, or of the worker's
+/// capacity if this is less. Throws a TrialError if they exceed the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
-/// A call with several queries may take this many times the limit of a query.
+/// A call with several queries may take this many times the limit of one query.
 inline constexpr double call_limit = 10;
 
 /// Why a query has no answer.
@@ -57,50 +57,51 @@ struct WorkerFailure {
   bool goes_on = false;     ///< the worker can be used for other queries
 };
 
-/// Checks a worker's description of its plug-in, which was given these options, and returns it with printable
-/// texts. Throws Error if no detector can have such a description.
+/// Checks a worker's description of its plug-in, and returns it with printable texts. `options` are those
+/// that the plug-in was given. Throws Error if no detector can have such a description.
 DetectorInfo info_of(const PluginDescription& about, const std::string& options);
-/// The names of all detectors in the shared object. Throws Error.
+/// The names of all detectors in the shared object. Throws Error for an invalid name, or too many names.
 std::vector<std::string> names_of(const PluginDescription& about);
 
-/// A running worker. It cannot be used after a call failed, unless the failure says so.
+/// A running worker. After a failed call, it cannot be used any more, unless WorkerFailure::goes_on is true.
 class WorkerProcess {
  public:
-  /// Throws Error if the plug-in cannot be used, NoWorker, PluginChanged, and Stopped.
+  /// Throws Error if the plug-in cannot be used, NoWorker if no process can be started, PluginChanged if the
+  /// file was changed, and Stopped if the stop is due.
   WorkerProcess(const PluginCode& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
   ~WorkerProcess();
 
-  /// Begins to end the worker; its destructor waits for the end. To end several workers at the same time,
-  /// call this for all of them first. A worker that waits for a call closes the detector and leaves by
-  /// itself, if it can do that in time.
+  /// Begins to end the worker; the destructor waits for the end. To end several workers at the same time,
+  /// call this for all of them first. A worker that waits for a call closes its detector and exits by itself,
+  /// if it can do so in time.
   void dismiss();
 
-  /// What the plug-in says about itself; all text is printable.
+  /// The plug-in's description of itself; all text is printable.
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
   /// The names of all detectors in a shared object.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
-  /// Has the worker perform a request for a batch of queries of one kind, at most capacity_for(info()).
-  /// Returns why one failed; nothing if all succeeded. Throws Stopped, and TrialError if there is no memory
-  /// for the batch.
+  /// Makes the worker perform a request for a batch of queries of one kind, at most capacity_for(info()).
+  /// Returns the failure of a query; nothing if all succeeded. Throws Stopped if the stop is due, and
+  /// TrialError if there is no memory for the batch.
   std::optional<WorkerFailure> perform(Request request, std::span<const Query> queries);
 
   /// The plug-in's return value for a query of the batch, and the time of impact or the bound.
   [[nodiscard]] int value(std::uint32_t i) const { return batch_.values()[i]; }
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
-  /// The numbers that belong to the answer to a question about one query.
+  /// Further numbers of the answer to a question about one query: weights, or positions.
   [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
-  /// Times in ns that the worker measured in the last call: of the call, or of a query. They are limited to
-  /// the time that the call took. The time of a call is also at least half of the computing time of all
-  /// threads and processes of the plug-in (less what the worker itself may compute); half, because the
+  /// Times in ns that the worker measured in the last call: of the whole call, or of query i. They are
+  /// limited to the time that the call took. The time of the call is also at least half of the computing time
+  /// of all threads and processes of the plug-in (less what the worker itself may compute): half, because the
   /// plug-in may have decided each query twice. The first call has no such lower limit.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});
   }
-  /// The part of measured() without copies to a device; 0 if the plug-in does not say it.
+  /// The part of measured() without copies to a device; 0 if the plug-in does not give it.
   [[nodiscard]] std::uint64_t measured_kernels() const {
     return std::min(answers_->kernel_nanoseconds, measured());
   }
@@ -108,18 +109,18 @@ class WorkerProcess {
   [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
 
  private:
-  /// How a call ended: it is done; the plug-in threw an exception; the process died; a query or the whole
-  /// call took too long; loading took too much memory; or the worker closed its socket, or wrote something to
-  /// it that is no reply.
+  /// How a call ended, in the order of the values: it is done; the plug-in threw an exception; the process
+  /// died; a query took too long; the whole call took too long; loading took too much memory; the worker
+  /// closed its socket, or wrote something to it that is no reply.
   enum class End : std::uint8_t { done, threw, dead, query_late, call_late, too_large, broken };
 
-  /// The worker's computing time, and the time that passed.
+  /// The worker's computing time, and the wall-clock time.
   struct Elapsed {
     Duration computing{};
-    Duration passed{};   ///< without the time during which nearmiss was suspended
+    Duration passed{};   ///< excludes the time in which nearmiss was suspended
     Duration certain{};  ///< the part of the computing time that certainly belongs to this call
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
-    /// The limit for work that may compute for this long, and wait for a device or a processor besides.
+    /// The limit for work that may compute for this long, and may also wait for a device or a processor.
     static Elapsed with_waiting(Duration computing);
   };
   class Watch;
@@ -128,25 +129,25 @@ class WorkerProcess {
   void load(const std::string& plugin);
   /// Shares the memory of batches.
   void share();
-  /// Gets memory for a batch of this size. Throws TrialError.
+  /// Reserves memory for a batch of this size. Throws TrialError if the system has too little.
   void reserve(std::size_t queries);
   /// Writes a batch to the shared memory.
   void give(std::span<const Query> queries);
   /// The computing time of the plug-in's process.
   [[nodiscard]] Duration own_computing() const;
-  /// Brings others_ and others_compute_ up to date. That takes longer than a call of a fast plug-in. So it is
-  /// done seldom, or for each call if the plug-in has processes that compute.
+  /// Updates others_ and others_compute_. This takes longer than a call of a fast plug-in, so it is done
+  /// seldom; if the plug-in has processes that compute, in each call.
   void look_at_others();
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
-  /// Like `ask`, but without updating is_waiting_.
+  /// Does what `ask` does, except updating is_waiting_.
   End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
-  /// Sends a call, with the files of the shared memory if it shares them.
+  /// Sends a call; with Request::share, also the files of the shared memory.
   void send_call(const Call& call) const;
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
-  /// The largest data of a process of the plug-in, in bytes.
+  /// The largest Memory::data of a process of the plug-in, in bytes.
   [[nodiscard]] std::uint64_t data() const;
   /// Whether the supervisor reports within this time that the process has ended.
   bool ends_within(std::chrono::milliseconds time);
@@ -158,19 +159,19 @@ class WorkerProcess {
   SharedAnswers* answers_ = new (header_.as<void>()) SharedAnswers;
   SharedMemory questions_of_batch_, answers_of_batch_;
   BatchMemory batch_{};                    ///< of the last call
-  std::size_t reserved_ = least_capacity;  ///< queries for whose batch there is memory
+  std::size_t reserved_ = least_capacity;  ///< the number of queries for which memory is reserved
   Descriptor replies_;
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
-  std::uint64_t most_data_ = 0;  ///< while the plug-in is loaded, if memory is limited
+  std::uint64_t most_data_ = 0;  ///< limit of data() while the plug-in is loaded, if memory is limited
   bool is_waiting_ = false;      ///< for a call
-  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
+  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set when it is dismissed
   Elapsed elapsed_;                                                 ///< of the last call
   ComputingTime others_;         ///< of all processes of the worker except the plug-in's
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
   Duration suspended_{};         ///< during all calls so far
-  Duration least_{};             ///< the least time that the last call can have taken
+  Duration least_{};             ///< the least possible time of the last call
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

@@ -7,8 +7,8 @@ namespace nearmiss::ladder {
 
 namespace {
 
-/// Gives the MPFR numbers of this thread as many bits as ε implies. Also makes the processor's arithmetic
-/// plain, for conversions from and to double.
+/// Within a scope, MPFR numbers of this thread have as many bits as ε implies, and the processor's arithmetic
+/// is plain, for conversions from and to double.
 struct MpfrArithmetic {
   explicit MpfrArithmetic(int epsilon_exponent) : precision(1 - epsilon_exponent) {}
   PlainArithmetic guard;

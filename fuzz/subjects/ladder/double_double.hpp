@@ -17,8 +17,8 @@ namespace nearmiss {
 ///                                 2017; Algorithm 10 there)
 ///   quotient, root   at most 16u² in tests against rational numbers; no proof is published
 /// so ε = 16u² = 2^-102. Debian's libqd is built with another sum, whose relative error is unbounded for
-/// operands of opposite signs. The paper's model would not hold with it, so this class calls the accurate sum
-/// and quotient by name.
+/// operands of opposite signs. That sum would violate the paper's model of arithmetic, so this class calls
+/// libqd's accurate sum and quotient by name.
 class DoubleDouble {
  public:
   DoubleDouble(double value = 0) : value_(value) {}
@@ -55,13 +55,13 @@ class DoubleDouble {
   friend DoubleDouble ldexp(const DoubleDouble& a, int exponent) {
     return DoubleDouble(dd_real(std::ldexp(a.value_.x[0], exponent), std::ldexp(a.value_.x[1], exponent)));
   }
-  /// The ilogb of the higher part, which is too large by one at most.
+  /// The ilogb of the higher part; it exceeds that of the sum by at most one.
   friend int ilogb(const DoubleDouble& a) { return std::ilogb(a.value_.x[0]); }
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 
  private:
-  /// Beyond about 2^996, intermediate results of libqd may overflow although the result does not. The result
-  /// in double is then used.
+  /// libqd's result, or the result in double if libqd's is not finite: beyond about 2^996, intermediate
+  /// results of libqd may overflow although the result does not.
   static DoubleDouble or_double(const dd_real& result, double in_double) {
     return std::isfinite(result.x[0]) && std::isfinite(result.x[1]) ? DoubleDouble(result)
                                                                     : DoubleDouble(in_double);

@@ -10,14 +10,15 @@
 
 namespace nearmiss {
 
-/// A number without heap memory, whose number of bits is set by the thread's PrecisionScope. Every operation,
-/// including the square root, rounds to nearest, so its relative error is at most u = 2^-bits = ε/2.
-/// Exponents never reach the limits of MPFR here.
+/// A number without heap memory. The thread's PrecisionScope sets the number of its bits. Every operation,
+/// including the square root, rounds to nearest, so its relative error is at most u = 2^-bits = ε/2. The
+/// algorithms of ccd/ never reach the limits of MPFR's exponents.
 class MpfrFloat {
  public:
   static constexpr int most = 256;
 
-  /// Sets the number of bits of this thread's numbers for a scope. Numbers exist only within such a scope.
+  /// Sets the number of bits of this thread's numbers within a scope. Numbers may exist only within such a
+  /// scope.
   class PrecisionScope {
    public:
     explicit PrecisionScope(int bits) : before_(precision_) { precision_ = bits; }

@@ -6,8 +6,8 @@
 
 namespace nearmiss::ladder {
 
-/// A base class for std::numeric_limits<T>, for a T whose range is at least that of double. It gives the
-/// limits of double; the derived class replaces epsilon.
+/// A base class for std::numeric_limits<T>, if the range of T is at least that of double. It gives the limits
+/// of double; the derived class replaces epsilon.
 template <class T>
 struct LimitsOfDouble : std::numeric_limits<double> {
   static T min() { return std::numeric_limits<double>::min(); }
@@ -15,7 +15,7 @@ struct LimitsOfDouble : std::numeric_limits<double> {
   static T infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
-/// A base class for Eigen::NumTraits<T>, for a real T with a constructor and these estimated costs.
+/// A base class for Eigen::NumTraits<T>, if T is a real type with a constructor and these estimated costs.
 template <class T, int read_cost, int add_cost, int multiplication_cost>
 struct RealTraits : Eigen::GenericNumTraits<T> {
   enum {

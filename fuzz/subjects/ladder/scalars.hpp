@@ -23,11 +23,11 @@ struct Scalar {
                                    std::optional<double> given_bound);
 };
 
-/// The scalar with this number of bits: "p40".
+/// The scalar with this number of bits, such as "p40".
 Scalar bits_scalar(int bits);
 
-/// double, with double-double for normals and weights: "dd-normals". It is no rung of the ladder, because its ε
-/// is that of double.
+/// The scalar "dd-normals": double, with double-double for normals and weights. It is no rung of the ladder,
+/// because its ε is that of double.
 Scalar double_with_wide_normals();
 
 }  // namespace ladder
@@ -35,11 +35,12 @@ Scalar double_with_wide_normals();
 inline constexpr SubjectInfo dd_normals_info{
     "wang:dd-normals", "wang-scalar with normals and barycentric weights in double-double, all but exact"};
 
-/// The scalars with a name, by ascending precision. "p16" to "p256" exist, too.
+/// The scalars with a name of their own, by ascending precision. bits_scalar() makes "p16" to "p256".
 std::vector<ladder::Scalar> named_scalars();
 
-/// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". `given_bound` is as
-/// for make_subject. Returns null if neither the algorithm nor the scalar is known. Throws Error if one is not.
+/// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". `given_bound` means the
+/// same as for make_subject. Returns null if both the algorithm and the scalar are unknown. Throws Error if
+/// only one of them is.
 std::unique_ptr<Subject> try_make_scaled(std::string_view name, std::optional<double> given_bound);
 
 }  // namespace nearmiss

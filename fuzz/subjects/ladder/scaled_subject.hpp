@@ -41,15 +41,15 @@ struct EitherTolerances {
   }
 };
 
-/// Sets plain arithmetic within a scope, for scalars that the processor computes itself.
+/// Makes the processor's arithmetic plain within a scope, for scalars that the processor computes itself.
 struct MachineArithmetic {
   explicit MachineArithmetic(int /*epsilon_exponent*/) {}
   PlainArithmetic guard;
 };
 
-/// basic, wang or wang-tight with all arithmetic in T. Each call runs within an Arithmetic(exponent of ε). If
-/// T has fewer digits than a double, the subject rounds coordinates to T, and decides the rounded query. wang and
-/// wang-tight compute normals and weights in Wide.
+/// basic, wang or wang-tight with all arithmetic in T. Each call constructs an Arithmetic(exponent of ε) as
+/// its scope. If T has fewer digits than a double, the subject rounds coordinates to T, and decides the
+/// rounded query. wang and wang-tight compute normals and weights in Wide.
 template <class T, class Arithmetic, class Wide>
 class Scaled final : public Subject {
  public:
@@ -82,7 +82,8 @@ class Scaled final : public Subject {
           within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
       return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
     }
-    // Rounded up, with a margin for B in a scalar of few digits: B <= B* (1 + 40ε), where B* is exact.
+    // Rounded up, with a margin because T may have few digits: the computed B is at most B* (1 + 40ε), where
+    // B* is exact.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -145,9 +146,9 @@ class Scaled final : public Subject {
     return given_ ? std::optional(std::ldexp(*given_, seen.exponent)) : std::nullopt;
   }
 
-  /// The query with coordinates and separation rounded to T. For float, which has a smaller range than
-  /// double, they are first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes the number
-  /// of T just below.
+  /// The query with coordinates and separation rounded to T. For float, whose range is smaller than that of
+  /// double, they are first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes the next
+  /// smaller number of T.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;

@@ -2,7 +2,7 @@
 // ipc-toolkit. Its authors say there that rounding errors can make it miss collisions.
 // From github.com/ipc-sim/ipc-toolkit, b40e9c07. Licence: MIT.
 // Question: contact, or a separation; the time is a lower bound. Contract: none.
-// $IPC_TOOLKIT is where it is installed:
+// $IPC_TOOLKIT is the folder in which ipc-toolkit is installed:
 //
 //   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/additive.cpp --
 //       -I$IPC_TOOLKIT/include $IPC_TOOLKIT/lib/libipc_toolkit.a

@@ -1,13 +1,13 @@
-// ARCSim's CCD (Narain, Samii and O'Brien, "Adaptive anisotropic remeshing for cloth simulation", 2012,
-// and later versions), collision_test() in src/collision.cpp. It solves the cubic numerically, and
-// accepts a root at which the primitives are closer than 1e-6. It gets nodes with two positions, as from
-// find_face_impacts().
+// ARCSim's CCD (Narain, Samii and O'Brien, "Adaptive anisotropic remeshing for cloth simulation", 2012, and
+// later versions), collision_test() in src/collision.cpp. It solves the cubic numerically, and accepts a root
+// at which the primitives are closer than 1e-6. This adapter passes nodes with two positions, as
+// find_face_impacts() does.
 // From github.com/zhou13/arcsim, 28960d2. Licence: research, no fee.
 // Question: contact; the time is an estimate.
-// Contract: apart at t = 0. ARCSim starts each step from positions without collisions, and
-// collision_test() leaves out pairs that are nearly coplanar then ("initially coplanar").
-// $ARCSIM is the repository. The source file is included, because it alone has the type Impact, and the
-// linker drops most of it:
+// Contract: apart at t = 0. ARCSim starts each step from positions without collisions, and collision_test()
+// leaves out pairs that are nearly coplanar at t = 0 ("initially coplanar").
+// $ARCSIM is the repository. This adapter includes ARCSim's source file, because only that file has the type
+// Impact. The linker drops most of its code:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/arcsim.cpp -- -fopenmp -ffunction-sections
 //       -fdata-sections -Wl,--gc-sections -fvisibility=hidden -I$ARCSIM/src

@@ -1,9 +1,9 @@
 // Bernstein sign classification (Tang, Tong, Wang and Manocha, "Fast and exact continuous collision detection
-// with Bernstein sign classification", 2014), over root parity's arithmetic.
+// with Bernstein sign classification", 2014), with the arithmetic of root parity.
 // From github.com/Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, 8db61b2c.
-// Licence: research, no fee (LICENSE.BSC.txt). Question: contact. Contract: none, but it throws an exception
-// for a cubic with an inflection point in the time step, which the authors say they do not handle exactly:
-// such a query has no answer.
+// Licence: research, no fee (LICENSE.BSC.txt).
+// Question: contact. Contract: none. It throws an exception, so a query has no answer, if the cubic has an
+// inflection point in the time step. The authors say that they do not handle this case exactly.
 // $BSC is the repository, with its code compiled into libbsc.a (g++ needs -frounding-math for it):
 //
 //   tools/subject fuzz/subjects/peers/bsc.cpp -- -I$BSC $BSC/libbsc.a

@@ -1,6 +1,7 @@
 // Bullet: the continuous collision detection of its soft bodies, which only tests vertices against triangles.
-// Compiled twice: with Bullet's single and with its double precision (BT_USE_DOUBLE_PRECISION).
-// From Debian's libbullet-dev 3.24, with which it is built. Licence: zlib. Question: contact. Contract: none.
+// Compiled twice: with Bullet in single precision, and in double precision (BT_USE_DOUBLE_PRECISION).
+// Built with Debian's libbullet-dev 3.24. Licence: zlib.
+// Question: contact. Contract: none.
 //
 //   tools/subject --pkg-config bullet fuzz/subjects/peers/bullet.cpp
 #include <BulletSoftBody/btSoftBodyInternals.h>
@@ -17,9 +18,8 @@ constexpr btScalar dt = 1;  // our unit of time is the time step
 /// The normal of a triangle, not normalised.
 btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }
 
-/// Bullet's world fills a vertex and a face in this way before it calls bernsteinCCD: it knows velocities,
-/// from which it predicts the end of the time step. So the end of our step reaches it with the rounding error
-/// of a subtraction.
+/// Fills a vertex and a face as Bullet's world does before it calls bernsteinCCD. Bullet predicts the end of
+/// the time step from velocities, so it sees the end of our step with the rounding error of a subtraction.
 Answer decide(const Question& q) {
   std::array<btSoftBody::Node, 4> nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -1,13 +1,14 @@
 // Additive CCD in the code of its authors (Li, Kaufman and Jiang, "Codimensional incremental potential
-// contact", 2021), Library/Math/Distance/CCD.h, which other solvers have copied. It is asked as
-// Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h asks it: first whether the boxes of the two
-// motions come within the thickness, then with eta = 0.1. The largest step that it allows is the time.
+// contact", 2021), Library/Math/Distance/CCD.h, which other solvers have copied. This adapter calls it as
+// Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h does: first asks whether the boxes of the two
+// motions come within the thickness, then calls the CCD with eta = 0.1. The largest step that the CCD allows
+// is the time.
 // From github.com/ipc-sim/Codim-IPC, 9c6cbe3. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its thickness; the time is a lower bound. It gets
-// displacements, which are rounded; the solver computes the ends from them. The option eta is the share
-// of the distance that remains.
-// Contract: farther apart at t = 0 than the thickness. The solver keeps that invariant, and the code
-// divides by the distance.
+// Question: contact, or a separation, which is its thickness; the time is a lower bound. The code takes
+// displacements, which are rounded; the solver computes the ends from them. The option eta is the share of
+// the distance that remains.
+// Contract: farther apart at t = 0 than the thickness. The solver ensures this, and the code divides by the
+// distance.
 // $CODIM_IPC is the repository, whose headers contain the whole code, and include pybind11:
 //
 //   tools/subject --pkg-config 'eigen3 python3-embed' fuzz/subjects/peers/codim-ipc.cpp --
@@ -34,7 +35,7 @@ constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"eta", &Settings:
 /// A vertex, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Asks about the boxes, then whether n vertices collide.
+/// Tests the boxes; if they meet, whether the n vertices collide.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

@@ -1,13 +1,13 @@
-// CTCD, Etienne Vouga's library, which asks whether primitives come within a thickness eta, with a
-// numerical solver for polynomials of degree up to 6. It is asked as src/CTCDNarrowPhase.cpp asks it: for
-// a vertex and a triangle, also about the vertex and each edge and corner; for two edges, also about each
-// end and the other edge, and each two ends. Its header says: "WARNING: Does not work correctly if two
-// edges are parallel at the time of intersection -- vertexEdgeCTCD should catch this case". The narrow
-// phase uses no times, and none is passed on.
+// CTCD, Etienne Vouga's library, which asks whether primitives come within a thickness eta, with a numerical
+// solver for polynomials of degree up to 6. This adapter asks what src/CTCDNarrowPhase.cpp asks: for a vertex
+// and a triangle, also about the vertex with each edge and corner; for two edges, also about each end with
+// the other edge, and about each two ends. CTCD's header says: "WARNING: Does not work correctly if two edges
+// are parallel at the time of intersection -- vertexEdgeCTCD should catch this case". The narrow phase uses
+// no times, so the adapter passes none on.
 // From github.com/evouga/collisiondetection, e5fe5c9. Licence: none stated.
-// Question: a separation, which is its eta, but at least the option eta=1e-6, which stands for contact,
-// as in example/testCTCD.cpp: with an eta of 0, it finds no collision.
-// Contract: farther apart at t = 0 than eta. Its velocity filter refuses a start that is closer
+// Question: a separation, which becomes CTCD's eta. eta is at least the value of the option eta=1e-6, also
+// for contact, as in example/testCTCD.cpp: with an eta of 0, CTCD finds no collision.
+// Contract: farther apart at t = 0 than eta. CTCD's velocity filter refuses a start that is closer
 // (STARTING_STATE_INTERSECTS in VelocityFilter.h).
 // $CTCD is the repository:
 //

@@ -1,15 +1,15 @@
 // El Topo's CCD, common/ccd_wrapper.h, in one of its two versions: `eltopo` solves the cubic numerically,
-// which is its default (Brochu and Bridson, "Robust topological operations for dynamic explicit
-// surfaces", 2009); `eltopo-root-parity` is root parity (Brochu, Edwards and Bridson, 2012), if
-// common/ccd_defs.h defines USE_ROOT_PARITY_CCD instead. It is asked as eltopo3d/collisionpipeline.cpp
-// asks it: indices ascend, and the function also finds the place of contact. It gives no time.
+// which is its default (Brochu and Bridson, "Robust topological operations for dynamic explicit surfaces",
+// 2009); `eltopo-root-parity` is root parity (Brochu, Edwards and Bridson, 2012), if common/ccd_defs.h
+// defines USE_ROOT_PARITY_CCD instead. This adapter calls El Topo as eltopo3d/collisionpipeline.cpp does:
+// indices ascend, and the function also finds the place of contact. El Topo gives no time.
 // From github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
 // Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
-// Contract: apart at t = 0, because El Topo starts from a surface without intersections, and keeps it so.
-// For root parity, at most one root, too.
-// $ELTOPO is the repository, with its code compiled into libeltopo.a. Its root parity rounds upwards,
-// which the compiler must know (g++ needs -frounding-math). The command for that version also has
-// -o build/release/peers/eltopo-root-parity.so:
+// Contract: apart at t = 0, because El Topo starts from a surface without intersections, and keeps it so. For
+// root parity, also at most one root.
+// $ELTOPO is the repository, with its code compiled into libeltopo.a. Root parity rounds upwards, which the
+// compiler must know (g++ needs -frounding-math). The command for that version also has -o
+// build/release/peers/eltopo-root-parity.so:
 //
 //   tools/subject fuzz/subjects/peers/eltopo.cpp -- -I$ELTOPO/common $ELTOPO/libeltopo.a
 #include <ccd_defs.h>

@@ -1,7 +1,7 @@
 // FCL, the Flexible Collision Library: the continuous collision detection of its deformable meshes, with each
 // of its two solvers.
-// From Debian's libfcl-dev 0.7.0, with which it is built. Licence: BSD. Question: contact; the time is
-// that of the first root that its solver happens to find. Contract: none.
+// Built with Debian's libfcl-dev 0.7.0. Licence: BSD.
+// Question: contact; the time is the root that the solver happens to find first. Contract: none.
 //
 //   tools/subject --pkg-config fcl fuzz/subjects/peers/fcl.cpp -- -std=c++17
 #include <fcl/config.h>
@@ -19,7 +19,7 @@ template <bool uses_newton>
 Answer decide(const Question& q) {
   double time = 0;
   fcl::Vector3d where;
-  // FCL wants the triangle first, and the vertex last.
+  // FCL takes the triangle first, and the vertex last.
   const bool collides =
       q.kind == NEARMISS_VERTEX_TRIANGLE
           ? Intersect::intersect_VF(q.start(1), q.start(2), q.start(3), q.start(0), q.end(1), q.end(2),

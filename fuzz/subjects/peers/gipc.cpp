@@ -1,14 +1,14 @@
 // GIPC's additive CCD (Huang and others, "GIPC: fast and stable Gauss-Newton optimization of IPC barrier
-// energy", 2024), GPU_IPC/ACCD.cu. It is CUDA code, and is compiled for the host. On a GPU, the compiler
-// fuses multiplications with additions, which may change the last bits. It is asked as
-// _reduct_min_selfTimeStep_to_double() in GIPC.cu asks it, with eta = 0.2 and thickness 0. It answers how
-// far the step may go: less than 1 counts as a collision not before that time. After 50,000 iterations,
-// it takes the time that it has reached.
+// energy", 2024), GPU_IPC/ACCD.cu. It is CUDA code, here compiled for the host. On a GPU, the compiler fuses
+// multiplications with additions, which may change the last bits. This adapter calls the code as
+// _reduct_min_selfTimeStep_to_double() in GIPC.cu does, with eta = 0.2 and thickness 0. The code answers how
+// far the step may go; an answer below 1 counts as a collision not before that time. After 50,000 iterations,
+// the code answers with the time that it has reached.
 // From github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
-// Question: contact; the time is a lower bound. It gets displacements, which are rounded; the solver
+// Question: contact; the time is a lower bound. The code takes displacements, which are rounded; the solver
 // computes the ends from them. The option eta is the share of the distance that remains.
-// Contract: apart at t = 0. The solver keeps that invariant, and the code divides by the distance.
-// $GPU_IPC is the repository, and $CUDA is where CUDA's headers are installed. No GPU is needed:
+// Contract: apart at t = 0. The solver ensures this, and the code divides by the distance.
+// $GPU_IPC is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/gipc.cpp -- -I$GPU_IPC/GPU_IPC -I$CUDA/include
 //       -x c++ $GPU_IPC/GPU_IPC/ACCD.cu $GPU_IPC/GPU_IPC/gpu_eigen_libs.cu

@@ -6,14 +6,15 @@
 //   ipc-inexact          InexactCCD, the original method of IPC, off by default: CTCD with a
 //                        minimum distance of 0.2 d0
 //
-// If the time is below 1e-6, both ask again with the separation only. They answer with 0.8 of the time.
-// The minimum distance makes room for the barrier: it makes near misses collisions, by design.
-// From github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD from
-// github.com/evouga/collisiondetection, e5fe5c9. Licence: MIT; CTCD states none.
-// Question: contact, or a separation; the time is a lower bound. Contract: none. Primitives that touch at
-// t = 0 collide at time 0 (check_initial_distance.hpp).
-// $IPC_TOOLKIT is where it is installed. Without IPC_TOOLKIT_WITH_INEXACT_CCD, ipc-inexact and evouga_ccd
-// are left out:
+// If the time is below 1e-6, both ask again with only the separation as the minimum distance. They answer
+// with 0.8 of the time. The minimum distance makes room for the barrier; by design, it turns some near misses
+// into collisions.
+// From github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD from github.com/evouga/collisiondetection,
+// e5fe5c9. Licence: MIT; CTCD states none.
+// Question: contact, or a separation; the time is a lower bound. Contract: none. Primitives that touch at t =
+// 0 collide at time 0 (check_initial_distance.hpp).
+// $IPC_TOOLKIT is the folder in which ipc-toolkit is installed. Without IPC_TOOLKIT_WITH_INEXACT_CCD,
+// ipc-inexact and evouga_ccd are left out:
 //
 //   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/ipc-toolkit.cpp --
 //       -I$IPC_TOOLKIT/include $IPC_TOOLKIT/lib/lib{ipc_toolkit,tight_inclusion,evouga_ccd}.a

@@ -1,17 +1,16 @@
-// libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h. It is CUDA code for the host as well,
-// and is compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may
-// change the last bits. It is asked as filter_toi() in lbvh_simplex_trajectory_filter.cu asks it: first
-// whether the boxes of the two motions come within d_hat + thickness, then with eta = 0.1 and at most
-// 1000 iterations. If these run out, it takes the time that it has reached for a collision. It also looks
-// for contact until t = 1.1: a time after 1 does not shorten the step, and counts as no collision.
-// From github.com/spiriMirror/libuipc, 619a5412, with github.com/MuGdxy/muda, 6c752f9c.
-// Licence: Apache 2.0.
-// Question: contact, or a separation, which is its thickness; the time is a lower bound. It gets
-// displacements, which are rounded. Option d-hat=0.01: its default for contact, the boxes' margin.
-// Contract: farther apart at t = 0 than the thickness. The solver keeps that invariant, and the code
-// divides by the distance.
-// $LIBUIPC and $MUDA are the repositories, and $CUDA is where CUDA's headers are installed. No GPU is
-// needed:
+// libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h. It is CUDA code for both device and host,
+// here compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may change
+// the last bits. This adapter calls the code as filter_toi() in lbvh_simplex_trajectory_filter.cu does: first
+// asks whether the boxes of the two motions come within d_hat + thickness, then calls the CCD with eta = 0.1
+// and at most 1000 iterations. If the iterations run out, the CCD reports a collision at the time that it has
+// reached. It looks for contact until t = 1.1; a time after 1 does not shorten the step, and counts as no
+// collision.
+// From github.com/spiriMirror/libuipc, 619a5412, with github.com/MuGdxy/muda, 6c752f9c. Licence: Apache 2.0.
+// Question: contact, or a separation, which is its thickness; the time is a lower bound. The code takes
+// displacements, which are rounded. The option d-hat=0.01 is the margin of the boxes, with libuipc's default.
+// Contract: farther apart at t = 0 than the thickness. The solver ensures this, and the code divides by the
+// distance.
+// $LIBUIPC and $MUDA are the repositories, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/libuipc.cpp -- -std=c++20
 //       -I$LIBUIPC/src/backends/cuda -I$LIBUIPC/include -I$MUDA/src -I$CUDA/include -I$CUDA/include/cccl
@@ -39,11 +38,11 @@ constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"d-hat", &Setting
 /// A vertex, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Asks about the boxes, then whether n vertices collide.
+/// Tests the boxes; if they meet, whether the n vertices collide.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {
-    double toi = 1.1;  // stands for "none"
+    double toi = 1.1;  // the value if there is no contact
     const bool collides = nearmiss::plugin::with_displacements<n>(q, [&](const auto&... v) {
       return boxes(vector(v)..., set.d_hat + q.separation) &&
              test(vector(v)..., 0.1, q.separation, 1000, toi);

@@ -1,11 +1,12 @@
 // The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric
 // modeling", 2011, in the implementation of the Tight-Inclusion authors). It looks for the times at which the
 // distance is equal to a separation, and accepts those at which the squared distance is at most h² + h / 10.
-// With h = 0, that leaves no room for rounding, and it finds hardly any collision, so it is always asked with
-// a separation h > 0. It does not notice if the distance is below h already at t = 0.
+// With h = 0, this leaves no room for rounding, and it finds hardly any collision, so this adapter always
+// passes a separation h > 0. The root finder does not notice if the distance is already below h at t = 0.
 // From github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence: MIT.
-// Question: a separation, 1e-8 if asked for contact; the time is an estimate. Contract: more than 1e-8 apart
-// at t = 0. $MSRF is the repository, with its code compiled into libmsrf.a:
+// Question: a separation, 1e-8 if asked for contact; the time is an estimate.
+// Contract: more than 1e-8 apart at t = 0.
+// $MSRF is the repository, with its code compiled into libmsrf.a:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/msrf.cpp -- -I$MSRF/src $MSRF/libmsrf.a
 #include <minimum_separation_root_finder.hpp>
@@ -17,8 +18,8 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// The separation that stands for contact: what its authors use in their benchmark when they want collisions
-/// at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
+/// The separation that stands for contact: the one with which its authors ask for collisions at distance 0 in
+/// their benchmark (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
 constexpr double contact = 1e-8;
 
 Answer decide(const Question& q) {

@@ -1,16 +1,16 @@
 // MuJoCo's conservative advancement of deformables, mjc_advance() in
-// src/engine/engine_collision_continuous.c. It answers how far the step may go, alpha: the whole step, or
-// less, so that no gap shrinks by more than 80 %. It promises that the advanced configuration has no
-// intersection. Therefore alpha < 1 counts as a collision not before alpha, and a false positive says only
-// that a gap shrinks by 80 %. It gets one pair of a flex vertex and a flex triangle, or of two flex
-// edges, whose vertices are all free, as in its own test.
+// src/engine/engine_collision_continuous.c. It answers with alpha, the part of the step that may be taken:
+// the whole step, or less, so that no gap shrinks by more than 80 %. It promises that the advanced
+// configuration has no intersection. Therefore alpha < 1 counts as a collision not before alpha; a false
+// positive says only that a gap shrinks by 80 %. As in MuJoCo's own test, the adapter passes one pair of a
+// flex vertex and a flex triangle, or of two flex edges, and all vertices are free.
 // From github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
-// Question: contact, as above; the time is a lower bound. With same-flex=1, both primitives belong to one
-// flex, and their mean motion does not count.
-// Contract: apart at t = 0. It leaves out pairs whose gap is 0 ("the contact solver owns it"), and its
-// header promises a positive gap at rest.
-// $MUJOCO is the repository, with src/engine/engine_{collision_continuous,util_blas,util_errmem}.c
-// compiled into libmujoco.a:
+// Question: contact; the time is a lower bound. With same-flex=1, both primitives belong to one flex, and
+// their mean motion does not count.
+// Contract: apart at t = 0. mjc_advance() leaves out pairs whose gap is 0 ("the contact solver owns it"), and
+// its header promises a positive gap at rest.
+// $MUJOCO is the repository, with src/engine/engine_{collision_continuous,util_blas,util_errmem}.c compiled
+// into libmujoco.a:
 //
 //   tools/subject fuzz/subjects/peers/mujoco.cpp -- -I$MUJOCO/include -I$MUJOCO/src $MUJOCO/libmujoco.a
 #include <engine/engine_collision_continuous.h>
@@ -34,7 +34,7 @@ Answer decide(const Settings& set, const Question& q) {
   const int other = set.same_flex != 0 ? 0 : 1;
   const std::array<int, 4> flex{0, is_vertex_triangle ? other : 0, other, other};
   const std::array<int, 4> free_vertices{0, 1, 2, 3};
-  const std::array<mjtNum, 4> radii{};  // flexes are compared at their middle surfaces
+  const std::array<mjtNum, 4> radii{};  // zero: gaps are measured between middle surfaces
   const std::array<mjtNum, 24> x = displaced(q);
 
   std::array<mjtNum, 3> normal;
@@ -48,7 +48,7 @@ Answer decide(const Settings& set, const Question& q) {
   return Answer::of(!(alpha >= 1), alpha);
 }
 
-/// The gap of the pair, of which the advancement is as wide as it is right. Without radii, it is the distance.
+/// The gap of the pair; without radii, the distance. The advancement is only as right as this gap.
 double gap(mjcFlexPairType type, const double* a, const double* b, const double* c, const double* d) {
   const mjcFlexPair pair{type, {0, 1, 2, 3}, -1};
   std::array<mjtNum, 12> x;

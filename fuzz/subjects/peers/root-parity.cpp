@@ -2,9 +2,9 @@
 // 2012).
 // From github.com/bohanwang/libpgo, third-party/CCD/ExactCCD, 88dfe845. Licence: public domain.
 // Question: whether the number of contacts is odd, counted with multiplicity: a double root counts twice.
-// Contract: at most one root, a simple one, because the question then agrees with ours.
-// $ROOT_PARITY is that folder, with its code compiled into librootparity.a. Its interval arithmetic rounds
-// upwards, which the compiler must know: g++ needs -frounding-math for it.
+// Contract: at most one root, and that a simple one, because only then does this question agree with ours.
+// $ROOT_PARITY is that folder, with its code compiled into librootparity.a. The interval arithmetic rounds
+// upwards, which the compiler must know: g++ needs -frounding-math.
 //
 //   tools/subject fuzz/subjects/peers/root-parity.cpp -- -I$ROOT_PARITY $ROOT_PARITY/librootparity.a
 #include <exactCCDWrapper.h>
@@ -18,9 +18,9 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// An answer must depend only on the query, but the rays that replace an unlucky one come from rand().
-/// Therefore every query starts from the same seed. The smallest state that the C library offers makes that
-/// cheap.
+/// Restarts rand() from the same seed for every query, because an answer must depend only on the query, and
+/// rays that replace an unlucky ray come from rand(). Uses the smallest state that the C library offers, to
+/// be fast.
 void restart_random_numbers() {
   static std::array<char, 8> smallest;
   static const bool is_set = initstate(1, smallest.data(), smallest.size()) != nullptr;

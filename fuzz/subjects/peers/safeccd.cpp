@@ -1,14 +1,15 @@
 // The code that Wang published with his 2014 paper "Defending continuous collision detection against errors",
-// through the wrapper of the repository that has it, which computes each pair's own bound B.
+// called through the wrapper in libpgo, which computes a bound B for each pair.
 // From github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
-// Question: contact; the time is an estimate. Contract: apart at t = 0, and a range of sizes (below).
+// Question: contact; the time is an estimate.
+// Contract: apart at t = 0, and a range of sizes (below).
 // $SAFECCD is that folder, with its code compiled into libsafeccd.a:
 //
 //   tools/subject fuzz/subjects/peers/safeccd.cpp -- -I$SAFECCD $SAFECCD/libsafeccd.a
 //
-// Contact at t = 0 is left to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and case 1 of
-// Vertex_Edge_CCD test the end of the step, and nothing tests its beginning. That is why B "must stay the
-// same over the whole animation process".
+// The code leaves contact at t = 0 to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and
+// case 1 of Vertex_Edge_CCD test the end of the step, and nothing tests its beginning. This is why B "must
+// stay the same over the whole animation process".
 #include <safeCCDWrapper.h>
 
 #include "ccd/nearmiss_functions.hpp"
@@ -24,7 +25,7 @@ struct Wrapper : SafeCCDWrapper {
 };
 
 Answer decide(const Question& q) {
-  double t = 0, r = 0, s = 0;  // the code uses the weights r and s even if nobody needs them
+  double t = 0, r = 0, s = 0;  // must exist: the code writes the weights r and s
   const auto test =
       q.kind == NEARMISS_VERTEX_TRIANGLE ? SafeCCDWrapper::VertexTriangleCCD : SafeCCDWrapper::EdgeEdgeCCD;
   const bool collides =
@@ -32,7 +33,7 @@ Answer decide(const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// 41 B ε^¼ with ε^¼ = 2^-13: the paper's claim, and half of `gap` in the code. The code says that `gap` is
+/// 41 B ε^¼ with ε^¼ = 2^-13: the paper's claim, and half of `gap` in the code, where `gap` is said to be
 /// twice the largest distance of a false positive.
 double distance_bound(void* /*state*/, int kind, const double* x) {
   const Question q{kind, x, 0};
@@ -43,9 +44,9 @@ double distance_bound(void* /*state*/, int kind, const double* x) {
 
 }  // namespace
 
-// Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or
-// vanish. If all coordinates are multiples of about 1e-50, B is at least 1e-50, too, unless all points of the
-// pair coincide at all times.
+// The code's tests multiply up to six unscaled lengths: beyond 1e±50, the products overflow or vanish. If all
+// coordinates are multiples of about 1e-50, B is also at least 1e-50, unless all points of the pair coincide
+// at all times.
 NEARMISS_SUBJECT(detector("safeccd", "1.0",
                           "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B")
                      .vertex_triangle(decide)

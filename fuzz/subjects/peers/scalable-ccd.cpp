@@ -1,24 +1,25 @@
 // Scalable-CCD (Belgrod, Wang, Ferguson, Zhao, Attene, Panozzo and Schneider, "Time of impact dataset for
-// continuous collision detection and a scalable conservative algorithm", 2023), Tight-Inclusion for a GPU,
-// in one of its two versions: `scalable-ccd` computes in double, its default; `scalable-ccd-float` in
-// float, without SCALABLE_CCD_USE_DOUBLE. Its kernels are compiled for the host, and run in one thread. On a
-// GPU, they are compiled with --use_fast_math, which may change the last bits, and test the domains of one
-// level at the same time. There it depends on the GPU how many of these a domain counts when it compares
-// with the limit of iterations; here it counts none, so that the limit drops as few domains as possible.
-// It is asked as partial_ipc_ccd_strategy() in cuda/ipc_ccd_strategy.cu asks it. If the time is below 1e-6,
-// that function asks again, without a separation and without a limit on iterations, and answers with 0.8 of
-// the time. If the iterations run out, the kernel drops the domains that are left, and the answer is no
-// collision unless one was found before. If the queue exceeds 2^24 domains, the answer is "cannot tell"
-// here; the original enlarges its queue, and asks again, until the GPU's memory is full.
+// continuous collision detection and a scalable conservative algorithm", 2023), Tight-Inclusion for a GPU, in
+// one of its two versions: `scalable-ccd` computes in double, its default; `scalable-ccd-float` in float,
+// without SCALABLE_CCD_USE_DOUBLE. Its kernels are compiled for the host, and run in one thread. On a GPU,
+// they are compiled with --use_fast_math, which may change the last bits, and test the domains of one level
+// at the same time. When a domain compares the number of tested domains with the limit of iterations, it
+// depends on the GPU how many domains of its own level it counts; here it counts none, so that the limit
+// drops as few domains as possible. This adapter does what partial_ipc_ccd_strategy() in
+// cuda/ipc_ccd_strategy.cu does. If the time is below 1e-6, that function asks again, without a separation
+// and without a limit on iterations, and answers with 0.8 of the time. If the iterations run out, the kernel
+// drops the remaining domains, and the answer is no collision unless a collision was found before. If the
+// queue exceeds 2^24 domains, the answer here is "cannot tell"; the original enlarges its queue and asks
+// again, until the GPU's memory is full.
 // From github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its min_distance; the time is a lower bound. The options are
-// what ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7 (-1: no limit).
+// Question: contact, or a separation, which is its min_distance; the time is a lower bound. The options have
+// the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7 (-1: no limit).
 // Contract: none.
-// $SCALABLE_CCD is the repository, and $CUDA is where CUDA's headers are installed. No GPU is needed.
+// $SCALABLE_CCD is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed.
 // $EXCERPT is a folder with two files that you make: root_finder_kernels.cuh is an excerpt of
 // cuda/narrow_phase/root_finder.cu, from `namespace scalable_ccd::cuda {` to the end of ccd_kernel(), with
-// the namespace closed: all but the host's code, which launches the kernels. scalable_ccd/config.hpp is
-// empty, in place of the one that CMake makes. The command for the version in float leaves out
+// the namespace closed; this omits only the host's code, which launches the kernels. scalable_ccd/config.hpp
+// is empty, and replaces the one that CMake makes. The command for the version in float leaves out
 // -DSCALABLE_CCD_USE_DOUBLE, and has -o build/release/peers/scalable-ccd-float.so:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/scalable-ccd.cpp -- -std=c++20
@@ -36,7 +37,7 @@
 
 #include <scalable_ccd/cuda/scalar.cuh>
 
-// What the compiler for CUDA provides on a GPU, for kernels that run one after another, in one thread.
+// Replacements for what CUDA provides on a GPU. Here kernels run one after another, in one thread.
 namespace host {
 uint3 thread{0, 0, 0};
 constexpr uint3 block{0, 0, 0};
@@ -56,8 +57,8 @@ long long __double_as_longlong(double x) { return std::bit_cast<long long>(x); }
 double __longlong_as_double(long long bits) { return std::bit_cast<double>(bits); }
 // NOLINTEND(bugprone-reserved-identifier)
 
-/// Replaces *at by change(*at), and returns what was there. Copies bytes, because *at may be a float or
-/// double whose bits the caller takes for an integer.
+/// Replaces *at by change(*at), and returns the old value. Copies bytes, because callers access the bits of a
+/// float or double as an integer.
 template <class Number, class Change>
 Number replaced(Number* at, const Change& change) {
   Number before;
@@ -90,7 +91,7 @@ auto max(A a, B b) {
 }
 
 #include <scalable_ccd/cuda/narrow_phase/interval.cuh>
-// These headers and the excerpt use the one above without including it, and CUDA's names.
+// These headers and the excerpt use the header above without including it, and CUDA's names.
 #include <scalable_ccd/cuda/narrow_phase/ccd_buffer.cuh>
 #include <scalable_ccd/cuda/narrow_phase/ccd_config.cuh>
 #include <scalable_ccd/cuda/narrow_phase/ccd_data.cuh>
@@ -114,10 +115,10 @@ struct Settings {
 constexpr std::array<nearmiss::Option<Settings>, 2> settings{
     {{"tolerance", &Settings::tolerance, 1e-300, 1e300}, {"iterations", &Settings::iterations, -1, 2e9}}};
 
-/// How many domains the queue holds: more than 1e7 iterations can put there.
+/// The number of domains that the queue holds, which is more than 1e7 iterations can add.
 constexpr unsigned capacity = 1U << 24;
 
-/// The memory of the queue, which is 0.9 GB, but is only taken as far as it is used.
+/// The memory of the queue: 0.9 GB, of which the system provides only the parts that are used.
 cuda::CCDDomain* storage() {
   static const std::unique_ptr<cuda::CCDDomain[]> domains(new cuda::CCDDomain[capacity]);
   return domains.get();
@@ -130,7 +131,8 @@ void launch(unsigned n, const Kernel& kernel) {
   host::thread.x = 0;
 }
 
-/// What ccd() in root_finder.cu does for one query. Lowers `toi`, and says whether the queue was too small.
+/// Does what ccd() in root_finder.cu does, for one query: lowers `toi`, and returns whether the queue was too
+/// small.
 template <bool is_vf>
 bool overflows(cuda::CCDData data, double iterations, double tolerance, bool allow_zero_toi, Scalar& toi) {
   cuda::CCDBuffer queue;
@@ -156,7 +158,7 @@ bool overflows(cuda::CCDData data, double iterations, double tolerance, bool all
   return queue.overflow_flag() != 0;
 }
 
-/// What partial_ipc_ccd_strategy() does for one query.
+/// Does what partial_ipc_ccd_strategy() does, for one query.
 template <bool is_vf>
 Answer decide(const Settings& set, const Question& q) {
   cuda::CCDData data{q.start(0), q.start(1), q.start(2), q.start(3), q.end(0), q.end(1), q.end(2), q.end(3)};

@@ -1,8 +1,9 @@
-// Bernstein sign classification with a tight bound of the rounding errors (Wang, Tang, Tong and Manocha,
+// Bernstein sign classification with a tight bound on rounding errors (Wang, Tang, Tong and Manocha,
 // "TightCCD: efficient and robust continuous collision detection using tight error bounds", 2015). If a sign
 // is uncertain, it reports a collision in most cases.
 // From github.com/Continuous-Collision-Detection/TightCCD, src, 366384ba. All rights reserved.
-// Question: contact. Contract: none. $TIGHT_CCD is the repository; its header contains the whole code:
+// Question: contact. Contract: none.
+// $TIGHT_CCD is the repository; its header contains the whole code:
 //
 //   tools/subject fuzz/subjects/peers/tight-bound.cpp -- -isystem $TIGHT_CCD/src
 #include <cassert>

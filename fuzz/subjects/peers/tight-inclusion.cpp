@@ -1,8 +1,9 @@
 // Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene and Panozzo, "A large-scale benchmark and an
 // inclusion-based algorithm for continuous collision detection", 2021).
 // From github.com/Continuous-Collision-Detection/Tight-Inclusion, ca9a8c24. Licence: MIT.
-// Question: contact, or a separation; the time is a lower bound; unknown if the iterations run out.
-// Contract: none. $TIGHT_INCLUSION is where it is installed:
+// Question: contact, or a separation; the time is a lower bound; unknown if the iterations run out. Contract:
+// none.
+// $TIGHT_INCLUSION is the folder in which it is installed:
 //
 //   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/tight-inclusion.cpp --
 //       -I$TIGHT_INCLUSION/include $TIGHT_INCLUSION/lib/libtight_inclusion.a
@@ -25,14 +26,14 @@ constexpr std::array<nearmiss::Option<Settings>, 2> settings{
 
 Answer decide(const Settings& set, const Question& q) {
   const ticcd::Array3 of_query =
-      ticcd::Array3::Constant(-1);  // rounding errors bounded for the query, not for a scene
+      ticcd::Array3::Constant(-1);  // -1: bound rounding errors for the query, not for a scene
   double toi = 0, reached = 0;
   const auto test = q.kind == NEARMISS_VERTEX_TRIANGLE ? ticcd::vertexFaceCCD : ticcd::edgeEdgeCCD;
   const bool collides = with_vertices(q, [&](const auto&... v) {
     return test(v..., of_query, q.separation, toi, set.tolerance, 1, static_cast<long>(set.iterations),
                 reached, ticcd::DEFAULT_NO_ZERO_TOI, ticcd::CCDRootFindingMethod::BREADTH_FIRST_SEARCH);
   });
-  // It ran out of iterations before the tolerance was reached, and says `true` without knowing.
+  // It ran out of iterations before it reached the tolerance; then it returns `true` without knowing.
   if (collides && reached > set.tolerance) return {NEARMISS_UNKNOWN, toi};
   return Answer::of(collides, toi);
 }

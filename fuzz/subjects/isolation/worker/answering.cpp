@@ -40,7 +40,7 @@ using namespace nearmiss::isolation;
 
 SharedAnswers* answers = nullptr;
 BatchMemory shared{};            // of the current batch
-std::uint32_t most_queries = 0;  // that a batch may have
+std::uint32_t most_queries = 0;  // the most queries that a batch may have
 
 template <std::size_t n>
 void copy(std::string_view text, std::array<char, n>& to) {
@@ -117,8 +117,8 @@ void begin(std::uint32_t i) {
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Notes that queries are answered by a call, or by none (0). This comes behind the answers, because the
-/// process may end at any moment.
+/// Notes that queries are answered by a call, or by none (0). Must come after the answers are written,
+/// because the process may end at any moment.
 void note(std::uint64_t* calls, std::uint32_t n, std::uint64_t call) {
   for (std::uint32_t i = 0; i < n; ++i) std::atomic_ref(calls[i]).store(call, std::memory_order_release);
 }
@@ -128,19 +128,19 @@ const double* coordinates(const Detector& detector, Kind kind, std::uint32_t fir
   const std::size_t size = coordinate_count(kind);
   if (!detector.info().in_arrays) return shared.x() + size * first;
   if (n == shared.n) return shared.x();
-  static std::array<double, 24 * least_capacity> part;  // a larger detector gets its batch as a whole
+  static std::array<double, 24 * least_capacity> part;  // a detector with larger batches gets them whole
   for (std::size_t k = 0; k < size; ++k) std::copy_n(shared.x() + shared.n * k + first, n, &part[n * k]);
   return part.data();
 }
 
-/// Where the answers of a detector go.
+/// Where a detector writes its answers.
 struct Answers {
   std::uint64_t* calls;
   double* numbers;
   int* values;
 };
 
-/// Asks a detector about batches that the plug-in's detector reads.
+/// Asks detectors about batches, which are laid out for the plug-in's detector.
 class Asking {
  public:
   Asking(const Detector& plugin, const Call& call)
@@ -148,7 +148,7 @@ class Asking {
         call_(call),
         step_(static_cast<std::uint32_t>(std::min<std::size_t>(plugin.info().batch, most_queries))) {}
 
-  /// Has the plug-in's detector decide the queries [first, last), up to `step` at once.
+  /// Makes the plug-in's detector decide the queries [first, last), up to `step` at once.
   void ask(std::uint32_t first, std::uint32_t last, std::uint32_t step) {
     ask(plugin_, {shared.calls(), shared.numbers(), shared.values()}, first, last, step);
   }
@@ -160,8 +160,8 @@ class Asking {
   }
 
   /// Asks the plug-in's detector about the whole batch, and measures the time of all threads, since a plug-in
-  /// may have threads of its own. Some queries are decided before that, so that the code is in the caches;
-  /// but not if the first takes so long that this makes no difference.
+  /// may have threads of its own. First decides some queries to bring the code into the caches, unless the
+  /// first one takes so long that caches make no difference.
   std::uint64_t time_of_warm() {
     constexpr std::uint64_t long_query = 1'000'000;
     const std::uint32_t all = call_.queries;
@@ -180,10 +180,10 @@ class Asking {
     return timed(0, all);
   }
 
-  /// The part of the last time without copies.
+  /// The part of the last measured time without copies to a device.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const { return kernel_nanoseconds_; }
 
-  /// Notes the number that ask(x, h) returns for the first query.
+  /// Writes the number that ask(x, h) returns as the answer to the first query.
   template <class Ask>
   void give(const Ask& ask) {
     begin(0);
@@ -234,7 +234,7 @@ void answer(const Detector& detector, const Call& call) {
   switch (call.request) {
     case Request::load:
     case Request::share:
-      break;  // that is done already
+      break;  // the plug-in is loaded already
     case Request::decide:
       asking.ask(0, call.queries);
       break;
@@ -265,10 +265,10 @@ void reply(std::uint64_t number) {
   }
 }
 
-/// The files that come with a call: those of the questions and the answers.
+/// The descriptors that come with a call: for the memory of the questions, and of the answers.
 using Files = std::array<int, 2>;
 
-/// Receives a call that has no more than `most` queries, and the files that come with it, if any.
+/// Receives a call with at most `most` queries, and the files that come with it, if any.
 bool receive(Call& call, std::uint32_t most, Files* files = nullptr) {
   iovec content{&call, sizeof call};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Files))> control{};
@@ -344,13 +344,13 @@ std::unique_ptr<Detector> open_detector(const nearmiss_subject& subject, const s
   return detector;
 }
 
-/// A detector that is ready to be asked, and the process that it is in.
+/// A detector that is ready to be asked, and its process.
 struct Loaded {
   std::unique_ptr<Detector> detector;  ///< null if it cannot be used
   pid_t process = getpid();
 };
 
-/// Loads the plug-in of this name, whose library or program lives as long as this process.
+/// Loads the plug-in of this name. Its library or program lives as long as this process.
 Loaded load(std::string_view name) {
   try {
     if (is_program(name)) {
@@ -392,7 +392,7 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
       call.number = no_reply;
     } catch (...) {
       note_exception();
-      if (loaded.process != getpid()) std::abort();  // the program has ended
+      if (loaded.process != getpid()) std::abort();  // the detector's program has ended
       make_arithmetic_plain();
       answers->threw = call.number;
     }

@@ -1,4 +1,4 @@
-// The part of the worker that has the plug-in in its process.
+// The part of the worker that runs in the plug-in's process.
 #pragma once
 
 #include <cstdint>

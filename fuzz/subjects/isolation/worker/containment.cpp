@@ -27,7 +27,7 @@ unsigned long count_entries(const std::string& folder) {
   return count;
 }
 
-/// Processes and threads of this user.
+/// The number of threads of all processes of this user.
 unsigned long threads_of_user() {
   DIR* const processes = opendir("/proc");
   if (processes == nullptr) return 0;
@@ -50,14 +50,15 @@ void write_to(const char* path, const std::string& text) {
   close(file);
 }
 
-/// Root keeps its rights to files only in its own user namespace, so a new one is the second choice.
+/// Enters new namespaces. Makes a new user namespace only if this fails otherwise, because root has its
+/// rights to files only in its own user namespace.
 bool enter(int namespaces) {
   if (unshare(namespaces) == 0) return true;
   const auto same = [](unsigned id) { return std::to_string(id) + ' ' + std::to_string(id) + " 1"; };
   const std::string user = same(geteuid());
   const std::string group = same(getegid());
   if (unshare(CLONE_NEWUSER | namespaces) != 0) return false;
-  write_to("/proc/self/setgroups", "deny");  // otherwise the group cannot be kept
+  write_to("/proc/self/setgroups", "deny");  // required before the group can be kept
   write_to("/proc/self/uid_map", user);
   write_to("/proc/self/gid_map", group);
   return true;
@@ -80,7 +81,7 @@ void forbid_core_dumps() {
 void be_ended_first_for_want_of_memory() {
   std::FILE* const file = std::fopen("/proc/self/oom_score_adj", "w");
   if (file == nullptr) return;
-  std::fputs("1000", file);  // the largest
+  std::fputs("1000", file);  // the largest value
   std::fclose(file);
 }
 

@@ -1,4 +1,4 @@
-// How much memory the plug-in's process may use.
+// Limits on the memory of the plug-in's process.
 #pragma once
 
 #include <sys/types.h>
@@ -11,16 +11,17 @@ namespace nearmiss::isolation {
 /// From now on, `flag` becomes 1 whenever malloc(3) or mmap(2) refuse memory to this process.
 void note_refusals_in(std::atomic<std::uint32_t>& flag);
 
-/// Notes that another function was refused memory.
+/// Notes that the system refused memory to another function.
 void note_refusal();
 
-/// Limits the memory that this process may use in addition while the plug-in is loaded: to twice `more`, the
-/// bytes that a query may use; 0 is no limit. Processes that it starts inherit the limit. Addresses are not
-/// limited yet, because drivers of devices reserve many. No file, on a disk or in memory, may become larger
-/// than `more`; to write more is an error.
+/// Limits the memory that loading the plug-in may take in addition to what this process has: to twice `more`,
+/// where `more` is the limit for a query; 0 is no limit. Processes that this process starts inherit the
+/// limit. The address space is not limited yet, because drivers of devices reserve much of it. A file, on a
+/// disk or in memory, cannot become larger than `more`; writing beyond is an error.
 void limit_memory_of_loading(std::uint64_t more);
 
-/// Limits the memory that this process, or its only child, may use in addition to what it has after loading.
+/// Limits the memory that a process, this one or its only child, may use in addition to what it has after
+/// loading.
 void limit_memory(pid_t process, std::uint64_t more);
 
 }  // namespace nearmiss::isolation

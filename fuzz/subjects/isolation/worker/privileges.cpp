@@ -27,7 +27,7 @@ namespace {
 
 constexpr int ioprio_who_process = 1;  // ioprio_set(2); no header has it
 
-/// The machine whose system calls this program makes; 0 if the filter does not know it.
+/// The machine (AUDIT_ARCH_...) of this program's system calls; 0 if the filter does not know it.
 #if defined(__x86_64__)
 constexpr unsigned machine = AUDIT_ARCH_X86_64;
 #elif defined(__aarch64__)
@@ -36,8 +36,8 @@ constexpr unsigned machine = AUDIT_ARCH_AARCH64;
 constexpr unsigned machine = 0;
 #endif
 
-/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden one fails with EPERM.
-/// Every rule begins and ends with the number of the call in the accumulator.
+/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden call fails with EPERM.
+/// Before and after every rule, the accumulator has the number of the call.
 class Filter {
  public:
   Filter() {
@@ -87,7 +87,8 @@ class Filter {
   void load(std::size_t offset) {
     code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
   }
-  /// Loads the lower half, since the arguments that are judged have 32 bits; both machines put it first.
+  /// Loads the lower half of an argument, since the judged arguments have 32 bits. Both machines store the
+  /// lower half first.
   void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
   void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
     code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
@@ -103,7 +104,7 @@ class Filter {
 }  // namespace
 
 void drop_privileges() {
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that it starts cannot gain privileges, either
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that this process starts cannot gain privileges, either
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
   if (syscall(SYS_capget, &header, sets.data()) != 0) return;
@@ -114,7 +115,7 @@ void drop_privileges() {
     set.effective &= of_files;
     set.permitted &= of_files;
     set.inheritable = 0;
-    of_files = 0;  // the other half of the sets has none of them
+    of_files = 0;  // the other half of the sets has no privilege on files
   }
   syscall(SYS_capset, &header, sets.data());
 }
@@ -122,7 +123,8 @@ void drop_privileges() {
 void keep_out_of_keyrings_and_terminals() {
   Filter filter;
   for (const int call : {SYS_add_key, SYS_request_key, SYS_keyctl}) filter.forbid(call);
-  // TCSETS2 and its two successors, on x86-64 and AArch64; the header that names them excludes others.
+  // TCSETS2; TCSETSW2 and TCSETSF2 follow it. The value is that of x86-64 and AArch64; the header that names
+  // it cannot be included together with others.
   constexpr int set_other_speeds = 0x402c542b;
   for (const int command : {TCXONC, TCSETS, TCSETSW, TCSETSF, TCSETA, TCSETAW, TCSETAF, TIOCSTI,
                             set_other_speeds, set_other_speeds + 1, set_other_speeds + 2})
@@ -136,31 +138,32 @@ void confine_to_itself() {
   for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
                          SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
-  // 0 stands for the caller's own process group, or the caller itself.
+  // Allows only the process itself. 0 stands for the caller's process group, or for the caller itself.
   for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64,
                          SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr, SYS_sched_setaffinity,
                          SYS_migrate_pages, SYS_move_pages})
     filter.limit(call, 0, self, 0);
-  // Nor may it change the priorities of its group's or its user's processes.
+  // Forbids changing the priorities of all processes of a group or user.
   filter.limit(SYS_setpriority, 0, PRIO_PROCESS, PRIO_PROCESS);
   filter.limit(SYS_ioprio_set, 0, ioprio_who_process, ioprio_who_process);
   for (const int call : {SYS_setpriority, SYS_ioprio_set}) filter.limit(call, 1, self, 0);
-  // The owner of an open file gets signals, which the process that sets the owner can choose.
+  // Forbids setting the owner of an open file: the owner gets signals, and the process that sets the owner
+  // chooses which.
   for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
   for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
-  // One signal to the process group reaches all that it has started.
+  // Keeps all started processes in the group, so that one signal to the group reaches all of them.
   for (const int call : {SYS_setsid, SYS_setpgid}) filter.forbid(call);
   filter.apply();
 }
 
 void keep_out_of_other_processes() {
-  // To move files from one folder to another, as compilers of kernels do, must be allowed explicitly; the
-  // first version of Landlock refuses it.
+  // Moving files from one folder to another, as compilers of kernels do, must be allowed explicitly. The
+  // first version of Landlock always refuses it.
   const bool can_allow_moves =
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 1;
   const __u64 of_folders =
       LANDLOCK_ACCESS_FS_WRITE_FILE | (can_allow_moves ? LANDLOCK_ACCESS_FS_REFER : __u64{0});
-  landlock_ruleset_attr wanted{};  // newer systems have more members
+  landlock_ruleset_attr wanted{};  // the rest is zero, since newer systems have more members
   wanted.handled_access_fs = of_folders;
   const auto rules = static_cast<int>(syscall(SYS_landlock_create_ruleset, &wanted, sizeof wanted, 0));
   if (rules < 0) return;

@@ -3,25 +3,28 @@
 
 namespace nearmiss::isolation {
 
-/// Gives up every privilege (capabilities(7)) except those of root on files, for this process and all that it
-/// starts. It then cannot trace or read the memory of a process that has more privileges, such as its
-/// supervisor.
+/// Gives up every privilege (capabilities(7)) except those of root on files, for this process and all
+/// processes that it starts. It can then neither trace a process that has more privileges, such as its
+/// supervisor, nor read its memory.
 void drop_privileges();
 
-/// Keeps this process, and all that it starts, from the keyrings of the user (keyrings(7)), and from settings of
-/// terminals: it cannot stop the output of the user's terminal. Call drop_privileges() first. Does nothing if the
-/// kernel has no such filters, or on other machines than x86-64 and AArch64.
+/// Keeps this process, and all processes that it starts, from the keyrings of the user (keyrings(7)) and from
+/// settings of terminals, so that they cannot stop the output of the user's terminal. Call drop_privileges()
+/// first. Does nothing if the kernel has no filters of system calls, or on machines other than x86-64 and
+/// AArch64.
 void keep_out_of_keyrings_and_terminals();
 
-/// Limits this process, and all that it starts: they can send signals only to this process, cannot change the
-/// priority, processors or limits of any other process, cannot trace any, and cannot leave their process group.
-/// Meant for a process without a PID namespace of its own. Call drop_privileges() first; no privilege is
-/// needed. Does nothing if the kernel has no such filters, or on other machines than x86-64 and AArch64.
+/// Limits this process and all processes that it starts. They can send signals only to this process. They
+/// cannot change the priority, processors or limits of any other process, cannot trace any process, and
+/// cannot leave their process group. Meant for a process without a PID namespace of its own. Call
+/// drop_privileges() first; this function needs no privilege. Does nothing if the kernel has no filters of
+/// system calls, or on machines other than x86-64 and AArch64.
 void confine_to_itself();
 
-/// Keeps this process, and all that it starts, from the memory, environment and files of every other process,
-/// which /proc shows to processes of the same user, and from writing to /proc. New files directly in / cannot
-/// be written to, either. Call drop_privileges() first; does nothing if the kernel has no Landlock.
+/// Keeps this process, and all processes that it starts, from the memory, environment and open files of every
+/// other process, which /proc shows to processes of the same user, and from writing to /proc. New files
+/// directly in / cannot be written to, either. Call drop_privileges() first. Does nothing if the kernel has
+/// no Landlock.
 void keep_out_of_other_processes();
 
 }  // namespace nearmiss::isolation

@@ -22,7 +22,7 @@ namespace nearmiss::isolation {
 namespace {
 
 constexpr int look_again_ms = 5;
-constexpr std::size_t rows_at_once = 2048;  // are written or read
+constexpr std::size_t rows_at_once = 2048;  // queries, in writing requests and reading answers
 
 /// The program that the functions of a nearmiss_subject ask.
 Program* the_program = nullptr;
@@ -37,20 +37,20 @@ struct Pipe {
   }
 };
 
-/// In the new process: takes the pipes as standard streams, and becomes the command.
+/// Called in the new process: makes the pipes its standard streams, and becomes the command.
 [[noreturn]] void become(const std::string& command, const Pipe& in, const Pipe& out, const Pipe& errors) {
   dup2(in.read, STDIN_FILENO);
   dup2(out.write, STDOUT_FILENO);
   dup2(errors.write, STDERR_FILENO);
   closefrom(STDERR_FILENO + 1);
   std::signal(SIGPIPE, SIG_DFL);
-  // The shell itself is replaced, so that the limits are those of the program.
-  // A command that first changes the folder says `exec` itself.
+  // `exec` replaces the shell by the program, so that limits apply to the program. A command that first
+  // changes the folder has its own `exec`.
   execl("/bin/sh", "sh", "-c", ((command.starts_with("cd ") ? "" : "exec ") + command).c_str(), nullptr);
   _exit(127);
 }
 
-/// The last line that is not empty.
+/// The last nonempty line.
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);
@@ -231,7 +231,7 @@ void Program::wait_for(int pipe, short event) {
   const nfds_t count = errors_ >= 0 ? pipes.size() : 1;
   const bool ended = has_ended();
   poll(pipes.data(), count, ended ? 0 : look_again_ms);
-  if (ended && pipes[0].revents == 0) end_like_it();  // its own children may hold the pipe open
+  if (ended && pipes[0].revents == 0) end_like_it();  // the program's own children may hold the pipe open
   if (count > 1 && pipes[1].revents != 0) read_errors();
 }
 

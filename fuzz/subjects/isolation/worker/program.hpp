@@ -12,14 +12,14 @@
 
 namespace nearmiss::isolation {
 
-/// A program wrote bytes that answer no question.
+/// Thrown if a program wrote bytes that answer no question.
 struct UnaskedBytes {};
 
 /// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this
 /// process. If it ends, so does this process, in the same way, and writes what the program wrote to standard error.
 class Program {
  public:
-  /// Starts the command, and reads its description. Throws Error.
+  /// Starts the command, and reads its description. Throws Error if it has none, or an invalid one.
   explicit Program(const std::string& command);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -33,7 +33,7 @@ class Program {
  private:
   enum class Question : std::uint8_t { decide, bound, distance, step };
 
-  // These are the functions of a nearmiss_subject.
+  // The functions of `subject()`.
   static void decide_with_the_program(void* state, int kind, std::size_t n, const double* x, const double* h,
                                       int* answer, double* toi);
   static double bound_of_the_program(void* state, int kind, const double* x, double h);
@@ -45,19 +45,20 @@ class Program {
   void start(const std::string& command);
   std::string read_description();
 
-  /// Writes a request. Throws UnaskedBytes.
+  /// Writes a request. Throws UnaskedBytes if the program has written anything since its last answer.
   void ask(Question question, int kind, std::size_t n, const double* x, const double* h);
-  /// Reads the answer, and calls take(i, number, time) for each query. Throws UnaskedBytes.
+  /// Reads the answer, and calls take(i, number, time) for each query. Throws UnaskedBytes if more bytes
+  /// follow.
   template <class Take>
   void read_answers(std::size_t n, const Take& take);
-  /// Asks one query, and returns the number that the program gives. Throws UnaskedBytes.
+  /// Asks about one query, and returns the program's number. Throws UnaskedBytes as both functions above do.
   double number(Question question, int kind, const double* x, double h);
-  /// Reads the seconds, if the program says them. Throws UnaskedBytes if anything else follows.
+  /// Reads the seconds, if the program gives them. Throws UnaskedBytes if anything else follows.
   void read_end();
   void expect_silence() const;
   void write_all(const void* data, std::size_t size);
   void read_all(void* data, std::size_t size);
-  /// Waits until a pipe can be used, and meanwhile reads what the program writes to standard error. Ends this
+  /// Waits until a pipe is ready, and meanwhile reads what the program writes to standard error. Ends this
   /// process if the program has ended.
   void wait_for(int pipe, short event);
   [[nodiscard]] bool has_ended() const;
@@ -69,9 +70,9 @@ class Program {
   pid_t process_ = -1;
   int in_ = -1, out_ = -1,
       errors_ = -1;          ///< pipes to its standard input, and from its standard output and error
-  std::string last_errors_;  ///< the end of what it wrote to standard error
+  std::string last_errors_;  ///< the end of what the program wrote to standard error
   ProgramDescription description_;
-  double seconds_ = -1;  ///< that the last answer took without copies, if the program says it
+  double seconds_ = -1;  ///< that the last answer took without copies, if the program gives them
 };
 
 }  // namespace nearmiss::isolation

@@ -72,7 +72,7 @@ void read_separation(const std::string& value, nearmiss_subject& subject) {
     subject.separation_kinds = sum_of_kinds(value);
 }
 
-/// How the value of each line is read.
+/// The lines of a description, and how each line's value is read.
 using Description = ProgramDescription;
 const std::map<std::string_view, std::function<void(Description& to, const std::string& value)>> lines{
     {"name", [](auto& to, auto& value) { to.name = value; }},

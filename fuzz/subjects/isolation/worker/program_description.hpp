@@ -1,4 +1,4 @@
-// The description that a program gives of itself.
+// A program's description of itself.
 #pragma once
 
 #include <string>
@@ -12,10 +12,11 @@ struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;
   bool says_seconds = false;  ///< each answer ends with the seconds that it took without copies
-  bool ignores_separation_in_bounds = false;  ///< version 2: is asked for bounds without the separation
+  bool ignores_separation_in_bounds = false;  ///< version 2: asked for bounds without the separation
   nearmiss_subject subject{};                 ///< the rest, without texts and functions
 
-  /// Reads all lines, the empty one included. Throws Error.
+  /// Parses all lines, including the empty one. Throws Error if a line is invalid, or a required line is
+  /// missing.
   static ProgramDescription parse(const std::string& text);
 };
 

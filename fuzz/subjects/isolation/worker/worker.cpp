@@ -57,15 +57,15 @@ sigset_t end_of_child() {
   return signals;
 }
 
-/// Reaps all children that have ended, also adopted orphans. Returns how `process` ended, if it did; then ends
-/// its process group, too.
+/// Reaps all children that have ended, including adopted orphans. If `process` is among them, returns how it
+/// ended, and also ends its process group.
 std::optional<siginfo_t> end_of(pid_t process) {
   std::optional<siginfo_t> end;
   siginfo_t how{};
   while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0) {
     if (how.si_pid == process) {
       end = how;
-      kill(-process, SIGKILL);  // before it is reaped: until then, no other group can have its number
+      kill(-process, SIGKILL);  // before reaping it, since only until then no other group can have its number
     }
     waitpid(how.si_pid, nullptr, 0);
     how.si_pid = 0;
@@ -73,8 +73,8 @@ std::optional<siginfo_t> end_of(pid_t process) {
   return end;
 }
 
-/// Ends all descendants, also those that have left their session: the children of a child that ends become
-/// those of this process, which is a subreaper (prctl(2)).
+/// Ends all descendants, including those that have left their session: when a child ends, its children become
+/// children of this process, which is a subreaper (prctl(2)).
 void end_descendants() {
   const auto any_is_left = [] {
     pid_t ended = 1;
@@ -161,7 +161,7 @@ int run_plugin(const Assignment& work, int errors) {
   return answer_requests(work.plugin, work.bytes);
 }
 
-/// The supervisor. Returns only in the plug-in's process.
+/// Runs the supervisor, and forks the plug-in's process. Returns only in the plug-in's process.
 int supervise(const Assignment& work) {
   // Only a process with more privileges may trace the supervisor, or take its descriptors.
   prctl(PR_SET_DUMPABLE, 0);
@@ -192,7 +192,7 @@ int supervise(const Assignment& work) {
   _exit(0);
 }
 
-/// The guard, which starts the supervisor.
+/// Runs the guard, and forks the supervisor.
 int guard(const Assignment& work) {
   const pid_t supervisor = fork();
   if (supervisor == 0) {
