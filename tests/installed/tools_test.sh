@@ -30,7 +30,7 @@ done
 grep -q '^wang, the failure-proof CCD, reports it' said || fail "the demo: $(cat said)"
 
 # A miss becomes a test that proves its own expectation with the installed checker.
-"$nearmiss" shrink nearmiss-demo.case --subject basic --as python >pasted.py
+"$nearmiss" shrink nearmiss-demo.case --subject bridson:thickness=0 --as python >pasted.py
 cp "$prefix/share/nearmiss/check.py" .
 for answer in True False; do
   printf '%s\n' 'import pasted' "pasted.detects = lambda *_: $answer" \
