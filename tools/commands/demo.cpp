@@ -102,9 +102,9 @@ void show_exotic_miss(const Query& ordinary) {
   const PlainMiss miss(*basic, false);
   const Finding& finding = miss.finding;
   fmt::print(
-      "wang, the failure-proof CCD, {} it. basic, a more careful textbook CCD, {} it, too. After {} of "
-      "degenerate\n"
-      "and extreme families, basic has missed {}. The last of these, simplified, is {} ({}):\n{}\n",
+      "wang, the failure-proof CCD, {} it. basic, a more careful textbook CCD, {} it, too.\nAfter {} of "
+      "degenerate and "
+      "extreme families, basic has missed {}.\nThe last of these, simplified, is {} ({}):\n{}\n",
       answer(*make_subject("wang")), answer(*basic), counted(miss.queries, "query", "queries"),
       counted(miss.misses, "collision", "collisions"), name(finding.query_class),
       to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk));
