@@ -38,8 +38,8 @@ double middle_of(double lo, double hi) {
 /// Narrows an enclosure of a distance that is above `base`, by exact comparisons.
 class Narrowing {
  public:
-  Narrowing(const Query& query, double base, const Enclosure& distance)
-      : query_(query), base_(base), distance_(distance) {}
+  Narrowing(exact::SmallestDistance& smallest, double base, const Enclosure& distance)
+      : smallest_(smallest), base_(base), distance_(distance) {}
 
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
@@ -55,14 +55,14 @@ class Narrowing {
     const double near_upper = std::bit_cast<double>(doubles(distance_.hi) - step_);
     const bool is_near = step_ < doubles(distance_.hi) - doubles(distance_.lo) && near_upper > middle;
     const double number = std::clamp(is_near ? near_upper : middle, least, most);
-    const bool is_below = comes_within(query_, number);
+    const bool is_below = smallest_.is_at_most(number);
     (is_below ? distance_.hi : distance_.lo) = number;
     if (is_below && is_near) step_ = std::min(step_, ~std::uint64_t{0} >> 16) << 16;
     return true;
   }
 
  private:
-  const Query& query_;
+  exact::SmallestDistance& smallest_;
   double base_;
   Enclosure distance_;
   std::uint64_t step_ = 64;  ///< how many doubles below the upper end to compare next
@@ -86,8 +86,9 @@ Enclosure distance_above(double base, const Query& query, double unit, const Nee
   const auto in_units = [&](const Enclosure& distance) {
     return unit == 1 ? distance : Enclosure{exact_ratio.lower(distance.lo), exact_ratio.upper(distance.hi)};
   };
-  if (base > 0 && comes_within(query, base)) return in_units({0, base});
-  Narrowing exact(query, base, {base, to_distance.upper(approach.upper)});
+  exact::SmallestDistance smallest(query);
+  if (base > 0 && smallest.is_at_most(base)) return in_units({0, base});
+  Narrowing exact(smallest, base, {base, to_distance.upper(approach.upper)});
   while (in_units(exact.distance()).lo < needed(in_units(exact.distance()).hi) && exact.compare()) {
   }
   return in_units(exact.distance());

@@ -119,22 +119,57 @@ void Nearness::add_interiors(Interiors&& of) {
       {Features::interiors, F * F - squared_b_ * squared_N, std::move(outside), {squared_N}});
 }
 
+// The smallest distance is that of two features at one of the times below, if their closest points lie in the
+// features then. Proof: Let it be reached at t0, and take a statement about features of the lowest dimension that
+// are at that distance. If t0 is neither 0 nor 1, the closest points of their lines or planes are strictly inside
+// the features, which are not degenerate: otherwise the closest points would lie in features of a lower dimension.
+// So the statement gives a distance near t0, too, and its square, which is a quotient of polynomials, has a minimum
+// at t0 and a derivative of 0. If that is not identically 0, t0 is one of its roots. If it is, the distance stays
+// the same until 0 or 1, or until the closest points leave the inside of the features; and there, features of a
+// lower dimension are at the same distance.
+SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
+  const Interiors of = interiors(query.kind, moving_points(query, unit_));
+  const Nearness contact(query, 0);  // so that each excess is the numerator
+  for (const FeatureNearness& each : contact.statements()) {
+    const bool are_vertices = each.extents.empty();
+    Minima minima{each.excess, are_vertices ? Polynomial({Number(1)}) : each.extents[0], {}};
+    const auto& [numerator, denominator, unused] = minima;
+    const auto add_time = [&](Root t) {
+      if (each.is_inside_at(t) && each.is_extended_at(t)) minima.times.push_back(std::move(t));
+    };
+    const auto add_roots = [&](const Polynomial& p) {
+      if (p.is_zero()) return;
+      for (Root& t : roots_in_step(p)) add_time(std::move(t));
+    };
+    for (const int end : {0, 1}) add_time(Root(Number(end)));
+    if (each.features == Features::interiors) {
+      // F is a factor of the derivative's numerator.
+      const Polynomial twice({Number(2)});
+      add_roots(of.F);
+      add_roots(twice * of.F.derivative() * denominator - of.F * denominator.derivative());
+    } else {
+      add_roots(numerator.derivative() * denominator - numerator * denominator.derivative());
+    }
+    if (!minima.times.empty()) minima_.push_back(std::move(minima));
+  }
+}
+
+bool SmallestDistance::is_at_most(double bound) {
+  const Number scaled = unit_.scaled(bound);
+  const Polynomial squared({scaled * scaled});
+  return std::any_of(minima_.begin(), minima_.end(), [&](Minima& each) {
+    const Polynomial excess = each.numerator - squared * each.denominator;
+    return std::any_of(each.times.begin(), each.times.end(),
+                       [&](Root& t) { return t.sign_of(excess) <= 0; });
+  });
+}
+
 }  // namespace nearmiss::exact
 
 namespace nearmiss {
 
 bool comes_within(const Query& query, double bound) {
-  const exact::Nearness nearness(query, bound);
-  const auto is_near = [&](exact::Root& t) { return nearness.holds_at(t); };
-  if (exact::Root start{exact::Number(0)}; is_near(start)) return true;
-  const auto is_near_at_a_root = [&](const exact::Polynomial& p) {
-    return !p.is_zero() && holds_at_a_root(p, is_near);
-  };
-  return std::any_of(nearness.statements().begin(), nearness.statements().end(),
-                     [&](const exact::FeatureNearness& each) {
-                       if (!each.excess.is_zero()) return is_near_at_a_root(each.excess);
-                       return std::any_of(each.outside.begin(), each.outside.end(), is_near_at_a_root);
-                     });
+  return exact::SmallestDistance(query).is_at_most(bound);
 }
 
 }  // namespace nearmiss

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -103,22 +104,35 @@ Number between(const Number& lo, const Number& hi, double part) { return lo + Nu
 
 Number power_of_half(unsigned bits) { return Number(1) / Number(CGAL::Gmpz(1) << bits); }
 
-OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
-  // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i
-  // (1 + x)^(n - i).
-  c_.reserve(p.coefficients().size());
-  c_.push_back(p.leading());
-  for (auto i = static_cast<std::size_t>(p.degree()); i-- > 0;) {
-    const Number& a = p.coefficients()[i];
-    const std::size_t last = c_.size();
-    c_.push_back(c_.back() * hi + a);
-    std::size_t binomial = 1;
-    for (std::size_t k = last - 1; k > 0; --k) {
-      binomial = binomial * (k + 1) / (last - k);
-      c_[k] = c_[k] * lo + c_[k - 1] * hi + a * Number(binomial);
-    }
-    c_[0] = c_[0] * lo + a;
+namespace {
+
+/// Replaces the coefficients of a polynomial in x, the leading one first, by those of the polynomial in x - shift.
+template <class Multiply>
+void shift(Numbers& c, const Multiply& times_shift) {
+  for (std::size_t last = c.size() - 1; last > 0; --last)
+    for (std::size_t i = 1; i <= last; ++i) c[i] = c[i] + times_shift(c[i - 1]);
+}
+
+}  // namespace
+
+OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi)
+    : c_(p.coefficients().rbegin(), p.coefficients().rend()) {
+  // p in powers of s, the fraction of the interval, which counts from the end with fewer bits.
+  constexpr int short_degree = 3;  // up to this degree, the difference is small
+  const bool from_hi = p.degree() > short_degree && exponent_of_denominator(CGAL::Gmpq(hi)) <
+                                                        exponent_of_denominator(CGAL::Gmpq(lo));
+  const Number& from = from_hi ? hi : lo;
+  const Number width = from_hi ? lo - hi : hi - lo;
+  if (!CGAL::is_zero(from)) shift(c_, [&](const Number& c) { return c * from; });
+  std::reverse(c_.begin(), c_.end());
+  Number power = width;
+  for (std::size_t i = 1; i < c_.size(); ++i) {
+    c_[i] = c_[i] * power;
+    if (i + 1 < c_.size()) power = power * width;
   }
+  // The sum of a_i s^i is that of a_i s^i (s + (1 - s))^(n - i).
+  shift(c_, [](const Number& c) -> const Number& { return c; });
+  if (from_hi) std::reverse(c_.begin(), c_.end());
 }
 
 int OnInterval::only_sign() const {
@@ -172,6 +186,37 @@ std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
   return guess;
 }
 
+std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
+  constexpr std::ptrdiff_t near = -40;  // cuts at doubles approach an end by no more bits than that
+  using Exponents = std::vector<std::ptrdiff_t>;
+  Exponents exponents;
+  for (const Number& c : c_) exponents.push_back(CGAL::is_zero(c) ? 0 : exponent_above(c));
+  // With x = s / (1 - s), the sum of c_i x^i has the same roots. If c_n > 0, it is positive for x >= 2 max (-c_i
+  // / c_n)^(1 / (n - i)) over the negative c_i, because each of their terms is then at most c_n x^n / 2^(n - i).
+  const auto above_roots = [n = c_.size() - 1](const auto& c, const auto& exponent) {
+    std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::min();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (sign(c[i]) * sign(c[n]) >= 0) continue;
+      const auto steps = static_cast<std::ptrdiff_t>(n - i);
+      const std::ptrdiff_t ratio = exponent[i] - exponent[n] + 1;
+      most = std::max(most, 1 + (ratio > 0 ? ratio + steps - 1 : ratio) / steps);  // rounded up
+    }
+    return most;
+  };
+  const std::ptrdiff_t most = above_roots(c_.begin(), exponents.begin());
+  const std::ptrdiff_t most_inverse = above_roots(c_.rbegin(), exponents.rbegin());  // of 1 / x
+  if (most <= -most_inverse) return NearEnd{0, 0, 0};
+  if (std::min(most, most_inverse) >= near) return std::nullopt;
+  // s < x and, for x < 1, s > x / 2; and so 1 - s for 1 / x.
+  const std::ptrdiff_t upper = std::min(most, most_inverse);
+  const std::ptrdiff_t lower = -std::max(most, most_inverse);
+  const auto power = [](std::ptrdiff_t exponent) { return power_of_half(static_cast<unsigned>(-exponent)); };
+  NearEnd at{power(lower - 1), power(std::midpoint(lower, upper)), power(upper)};
+  if (most_inverse < most)
+    at = {Number(1) - at.upper, Number(1) - at.middle, Number(1) - at.lower};
+  return at;
+}
+
 Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)
     : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(p_->sign_at(lo)) {}
 
@@ -190,6 +235,13 @@ void Root::refine() {
   const Number lo = lo_;
   const Number width = hi_ - lo_;
   const OnInterval on(*p_, lo_, hi_);
+  if (const double s = on.guess_root(sign_at_lo_); std::min(s, 1 - s) < around) {
+    if (const auto near_end = on.roots_near_end()) {
+      lo_ = lo + near_end->lower * width;
+      hi_ = lo + near_end->upper * width;
+      return;
+    }
+  }
   // In a small interval p is nearly linear, so each step along the chord gives some more digits of the root.
   Number guess = lo + Number(on.guess_root(sign_at_lo_)) * width;
   Number unit = width;

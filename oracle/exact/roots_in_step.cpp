@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,26 +31,37 @@ struct Part {
 
   [[nodiscard]] Number at(const Number& fraction) const { return lo + fraction * (hi - lo); }
 
-  /// Shrinks the part to the neighbourhood of a multiple of 2^-bits at which a cluster of roots may be, if
-  /// all changes of sign are in this neighbourhood; then there is no root elsewhere. If so, `bits` doubles,
-  /// so that parts shrink quadratically; if not, it halves.
-  bool shrink(const Polynomial& p) {
+  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster, if all changes of sign are
+  /// in this neighbourhood; then there is no root elsewhere. Returns where to cut to separate clusters, the
+  /// upper cut first; nothing if it finds no such place.
+  Numbers shrink(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
-    if (const auto cluster = on.guess_cluster(bits)) {
+    for (bool shrunk = false;; shrunk = true) {
+      if (const auto near_end = on.roots_near_end()) {
+        const Number middle = at(near_end->middle);
+        std::tie(lo, hi) = std::pair(at(near_end->lower), at(near_end->upper));
+        return {middle};
+      }
+      // Parts shrink quadratically towards a multiple of 2^-bits, until it is no farther from the cluster's roots
+      // than they are from each other.
+      const auto cluster = on.guess_cluster(bits);
+      if (!cluster) break;
       const Number unit = power_of_half(bits);
       const Number below = std::max(lo, at(*cluster - unit));
       const Number above = std::min(hi, at(*cluster + unit));
       OnInterval near_cluster(p, below, above);
-      if (near_cluster.changes() == on.changes()) {
-        lo = below;
-        hi = above;
-        on = std::move(near_cluster);
-        bits *= 2;
-        return true;
+      if (near_cluster.changes() != on.changes()) {
+        if (!shrunk) break;
+        bits = least_bits;
+        return {above, below};
       }
+      lo = below;
+      hi = above;
+      on = std::move(near_cluster);
+      bits *= 2;
     }
     bits = std::max(least_bits, bits / 2);
-    return false;
+    return {};
   }
 };
 
@@ -61,25 +73,31 @@ Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;
   std::vector<Part> parts{Part(*p, 0, 1)};  // a stack with the lowest part on top
-  for (int cuts = 0; !parts.empty();) {
+  for (int tries = 0; !parts.empty();) {
     Part part = std::move(parts.back());
     parts.pop_back();
     const int changes = part.on.changes();
     if (changes == 1) isolated.roots.emplace_back(p, part.lo, part.hi);
     if (changes < 2) continue;
-    if (++cuts > few) {
+    Numbers cuts;
+    if (++tries > few) {
       if (!is_simple) return {{}, {}, false};
-      while (part.shrink(*p)) continue;
+      cuts = part.shrink(*p);
+      if (part.lo == part.hi) continue;
     }
-    const double guess = part.at_extremum ? part.on.guess_extremum() : 0.5;
-    const double around_it = part.at_extremum ? around : 0;
+    if (cuts.empty()) {
+      const double guess = part.at_extremum ? part.on.guess_extremum() : 0.5;
+      const double around_it = part.at_extremum ? around : 0;
+      cuts = {part.at(guess + around_it), part.at(guess - around_it)};
+      part.at_extremum = !part.at_extremum;
+    }
     const auto add_part = [&](const Number& lo, const Number& hi) {
       parts.emplace_back(*p, lo, hi);
-      parts.back().at_extremum = !part.at_extremum;
+      parts.back().at_extremum = part.at_extremum;
       parts.back().bits = part.bits;
     };
     Number hi = part.hi;
-    for (const Number& lo : {part.at(guess + around_it), part.at(guess - around_it)}) {
+    for (const Number& lo : cuts) {
       if (!(part.lo < lo && lo < hi)) continue;
       if (p->sign_at(lo) == 0) return {{}, lo};
       add_part(lo, hi);
