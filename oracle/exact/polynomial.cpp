@@ -148,9 +148,6 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q) {
   return (p.degree() < q.degree() ? remainders(q, p) : remainders(p, q)).back();
 }
 
-namespace {
-
-/// The polynomial divided by the largest integer that divides all numerators of its coefficients.
 Polynomial primitive(const Polynomial& p) {
   CGAL::Gmpz content = 0;
   for (const Number& c : p.coefficients()) content = CGAL::gcd(content, CGAL::Gmpq(c).numerator());
@@ -158,8 +155,6 @@ Polynomial primitive(const Polynomial& p) {
   for (Number& c : coefficients) c = c / Number(content);
   return Polynomial(std::move(coefficients));
 }
-
-}  // namespace
 
 Polynomial square_free(const Polynomial& p) {
   const Polynomial slope = p.derivative();

@@ -60,6 +60,9 @@ std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 /// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.
 Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 
+/// The polynomial divided by the largest integer that divides all numerators of its coefficients.
+Polynomial primitive(const Polynomial& p);
+
 /// p with each multiple factor reduced to a single one. The degree of p must be at least 1.
 Polynomial square_free(const Polynomial& p);
 

@@ -79,12 +79,6 @@ double value_at(const std::vector<double>& c, double s) {
   return value;
 }
 
-/// x / y, clamped to ±2^60.
-double ratio(const Number& x, const Number& y) {
-  const std::vector<double> both = in_proportion({x, y});
-  return std::clamp(both[0] / both[1], -0x1p60, 0x1p60);
-}
-
 /// Guesses the number with the fewest bits between two positive numbers: the higher number, truncated after
 /// the first of 53 bits in which the two differ. If none of the 53 differs, the result is the higher number.
 double simplest_between(const Number& lower, const Number& higher) {
@@ -140,6 +134,17 @@ int OnInterval::only_sign() const {
   for (const Number& c : c_)
     if (const int s = sign(c); s != 0) return s;
   return 0;
+}
+
+Number OnInterval::operator()(const Number& s) const {
+  const Number rest = Number(1) - s;
+  Number value = c_[0];
+  Number power = s;
+  for (std::size_t i = 1; i < c_.size(); ++i) {
+    value = value * rest + power * c_[i];
+    power = power * s;
+  }
+  return value;
 }
 
 double OnInterval::guess_root(int sign_at_lo) const {
@@ -229,6 +234,14 @@ void Root::cut(const Number& at) {
     (side == sign_at_lo_ ? lo_ : hi_) = at;
 }
 
+/// Takes another polynomial that has the root, which is its only root in (lo, hi), and simple.
+void Root::take(std::shared_ptr<const Polynomial> p, Number lo, Number hi) {
+  p_ = std::move(p);
+  lo_ = std::move(lo);
+  hi_ = std::move(hi);
+  sign_at_lo_ = p_->sign_at(lo_);
+}
+
 void Root::refine() {
   if (is_number()) return;
   ++refinements_;
@@ -242,16 +255,18 @@ void Root::refine() {
       return;
     }
   }
-  // In a small interval p is nearly linear, so each step along the chord gives some more digits of the root.
-  Number guess = lo + Number(on.guess_root(sign_at_lo_)) * width;
-  Number unit = width;
-  Number magnifier = 1;
-  for (int i = 1; i < chord_steps_; ++i) {
-    unit = unit * Number(around);
-    magnifier = magnifier * Number(1 / around);
-    guess = guess - unit * Number(ratio((*p_)(guess)*magnifier, on.rise()));
+  Number guess = Number(on.guess_root(sign_at_lo_));
+  Number unit = Number(around);
+  // In a small interval p is nearly linear, so a step along the chord gives many more digits of the root.
+  if (chord_steps_ > 1) {
+    for (int i = 1; i < chord_steps_; ++i) unit = unit * Number(around);
+    const Number value = on(guess);
+    const Number step = unit * integer_quotient(value, on.rise() * unit);
+    guess = sign(value) == sign(on.rise()) ? guess - step : guess + step;
   }
-  const Number radius = unit * Number(8 * around);
+  guess = lo + guess * width;
+  unit = unit * width;
+  const Number radius = Number(8) * unit;
   const Number below = guess - radius;
   const Number above = guess + radius;
   // Roots are often numbers of few bits, and signs at such numbers are fast to compute.
@@ -264,14 +279,16 @@ void Root::refine() {
 
 namespace {
 
-/// Whether q shares the root that p has between two numbers. p has at most one root there, a simple one, and
-/// the two polynomials are not both zero at one of the numbers. So a common divisor has the root if and only
-/// if its sign changes.
-bool have_common_root(const Polynomial& p, const Polynomial& q, const Number& lo, const Number& hi) {
+/// A polynomial with the root that p has between two numbers, of the lowest degree that is found, if q shares
+/// the root; else nothing. p has at most one root there, a simple one, and the two polynomials are not both zero
+/// at one of the numbers. So a common divisor has the root if and only if its sign changes.
+std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
+                                                   const Number& hi) {
   constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues
-  if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return false;
-  const Polynomial common = greatest_common_divisor(p, q);
-  return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);
+  if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return nullptr;
+  Polynomial common = greatest_common_divisor(p, q);
+  if (common.degree() < 1 || common.sign_at(lo) == common.sign_at(hi)) return nullptr;
+  return std::make_shared<const Polynomial>(common.degree() < p.degree() ? primitive(common) : p);
 }
 
 }  // namespace
@@ -284,7 +301,10 @@ int Root::sign_of(const Polynomial& q) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
     if (can_be_zero && refinements_ >= patience) {
-      if (have_common_root(*p_, q, lo_, hi_)) return 0;
+      if (const auto common = with_common_root(*p_, q, lo_, hi_)) {
+        take(common, lo_, hi_);
+        return 0;
+      }
       can_be_zero = false;
     }
     refine();
@@ -320,14 +340,19 @@ std::optional<CGAL::Gmpq> Root::as_rational() {
   return std::nullopt;
 }
 
-bool Root::is_same(const Root& other) const {
+bool Root::is_same(Root& other) {
   if (other.is_number()) return is(other.lo_);
   if (is_number()) return other.is(lo_);
   // Each polynomial has at most one root in the intersection of both intervals, and none at the ends of its
   // own interval.
   const Number& lo = std::max(lo_, other.lo_);
   const Number& hi = std::min(hi_, other.hi_);
-  return lo < hi && have_common_root(*p_, *other.p_, lo, hi);
+  if (!(lo < hi)) return false;
+  const auto common = with_common_root(*p_, *other.p_, lo, hi);
+  if (!common) return false;
+  take(common, lo, hi);
+  other.take(common, lo_, hi_);
+  return true;
 }
 
 bool Root::is_below(Root& other) {

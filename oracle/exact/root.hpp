@@ -38,6 +38,9 @@ class OnInterval {
   /// The value at the upper end minus the value at the lower end.
   [[nodiscard]] Number rise() const { return c_.back() - c_.front(); }
 
+  /// The value at a fraction of the interval.
+  [[nodiscard]] Number operator()(const Number& fraction) const;
+
   /// Guesses where the only root is, as a fraction of the interval, given the sign at the lower end.
   [[nodiscard]] double guess_root(int sign_at_lo) const;
   /// Guesses where an extremum may be, as a fraction of the interval.
@@ -84,8 +87,10 @@ class Root {
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  [[nodiscard]] bool is_same(const Root& other) const;
+  /// Whether both are the same root; if so, they then share what is known about it.
+  bool is_same(Root& other);
   void cut(const Number& at);
+  void take(std::shared_ptr<const Polynomial> p, Number lo, Number hi);
 
   std::shared_ptr<const Polynomial> p_;
   Number lo_, hi_;
