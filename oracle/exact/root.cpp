@@ -107,26 +107,67 @@ void shift(Numbers& c, const Multiply& times_shift) {
     for (std::size_t i = 1; i <= last; ++i) c[i] = c[i] + times_shift(c[i - 1]);
 }
 
+/// The coefficients that OnInterval has, from those of the powers of t, of which the leading one comes first.
+Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
+  // In powers of s, the fraction of the interval, which counts from the end with fewer bits.
+  constexpr std::size_t short_size = 4;  // up to this degree, the difference is small
+  const bool from_hi = c.size() > short_size && exponent_of_denominator(CGAL::Gmpq(hi)) <
+                                                    exponent_of_denominator(CGAL::Gmpq(lo));
+  const Number& from = from_hi ? hi : lo;
+  const Number width = from_hi ? lo - hi : hi - lo;
+  if (!CGAL::is_zero(from)) shift(c, [&](const Number& each) { return each * from; });
+  std::reverse(c.begin(), c.end());
+  Number power = 1;
+  for (std::size_t i = 1; i < c.size(); ++i) {
+    power = power * width;
+    c[i] = c[i] * power;
+  }
+  // The sum of a_i s^i is that of a_i s^i (s + (1 - s))^(n - i).
+  shift(c, [](const Number& each) -> const Number& { return each; });
+  if (from_hi) std::reverse(c.begin(), c.end());
+  return std::move(c);
+}
+
+/// Rounds a number toward 0, to a multiple of 2^exponent; whether that changed it.
+bool round_off(Number& x, std::ptrdiff_t exponent) {
+  const CGAL::Gmpq fraction(x);
+  const std::ptrdiff_t denominator = exponent_of_denominator(fraction);
+  if (denominator + exponent <= 0) return false;
+  const CGAL::Gmpz multiple = CGAL::abs(fraction.numerator()) >> (denominator + exponent);
+  const Number rounded =
+      CGAL::is_zero(multiple) ? Number(0) : Number(multiple) * power_of_half(static_cast<unsigned>(-exponent));
+  x = sign(x) < 0 ? -rounded : rounded;
+  return true;
+}
+
 }  // namespace
 
 OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi)
-    : c_(p.coefficients().rbegin(), p.coefficients().rend()) {
-  // p in powers of s, the fraction of the interval, which counts from the end with fewer bits.
-  constexpr int short_degree = 3;  // up to this degree, the difference is small
-  const bool from_hi = p.degree() > short_degree && exponent_of_denominator(CGAL::Gmpq(hi)) <
-                                                        exponent_of_denominator(CGAL::Gmpq(lo));
-  const Number& from = from_hi ? hi : lo;
-  const Number width = from_hi ? lo - hi : hi - lo;
-  if (!CGAL::is_zero(from)) shift(c_, [&](const Number& c) { return c * from; });
-  std::reverse(c_.begin(), c_.end());
-  Number power = width;
-  for (std::size_t i = 1; i < c_.size(); ++i) {
-    c_[i] = c_[i] * power;
-    if (i + 1 < c_.size()) power = power * width;
-  }
-  // The sum of a_i s^i is that of a_i s^i (s + (1 - s))^(n - i).
-  shift(c_, [](const Number& c) -> const Number& { return c; });
-  if (from_hi) std::reverse(c_.begin(), c_.end());
+    : c_(on_interval({p.coefficients().rbegin(), p.coefficients().rend()}, lo, hi)) {}
+
+OnInterval OnInterval::part(const Number& from, const Number& to) const {
+  Numbers powers = c_;
+  shift(powers, [](const Number& each) { return -each; });
+  std::reverse(powers.begin(), powers.end());
+  OnInterval part(on_interval(std::move(powers), from, to));
+  // The Bernstein coefficients of a part are averages of those of the whole, with weights >= 0. So errors do not
+  // grow; rounding adds less than 2^least.
+  constexpr std::ptrdiff_t kept_bits = 16'384;
+  std::ptrdiff_t largest = std::numeric_limits<std::ptrdiff_t>::min();
+  for (const Number& c : part.c_)
+    if (!CGAL::is_zero(c)) largest = std::max(largest, exponent_above(c));
+  const std::ptrdiff_t least = std::max(largest - kept_bits, error_.value_or(largest - kept_bits));
+  part.error_ = error_;
+  for (Number& c : part.c_)
+    if (least < 0 && round_off(c, least)) part.error_ = least + 1;
+  return part;
+}
+
+bool OnInterval::is_certain() const {
+  const auto least = static_cast<std::ptrdiff_t>(c_.size()) + 2;  // no binomial coefficient is above 2^n
+  return !error_ || std::all_of(c_.begin(), c_.end(), [&](const Number& c) {
+    return !CGAL::is_zero(c) && exponent_above(c) > *error_ + least;
+  });
 }
 
 int OnInterval::only_sign() const {
@@ -203,7 +244,7 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
     for (std::size_t i = 0; i < n; ++i) {
       if (sign(c[i]) * sign(c[n]) >= 0) continue;
       const auto steps = static_cast<std::ptrdiff_t>(n - i);
-      const std::ptrdiff_t ratio = exponent[i] - exponent[n] + 1;
+      const std::ptrdiff_t ratio = exponent[i] - exponent[n] + 2;  // 1 for rounding
       most = std::max(most, 1 + (ratio > 0 ? ratio + steps - 1 : ratio) / steps);  // rounded up
     }
     return most;
@@ -221,9 +262,6 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
     at = {Number(1) - at.upper, Number(1) - at.middle, Number(1) - at.lower};
   return at;
 }
-
-Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)
-    : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(p_->sign_at(lo)) {}
 
 /// Cuts the interval at `at`, which must be inside, and keeps the part with the root.
 void Root::cut(const Number& at) {

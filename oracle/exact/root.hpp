@@ -4,6 +4,7 @@
 #include <CGAL/Gmpq.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -28,6 +29,11 @@ class OnInterval {
  public:
   /// p must not be the zero polynomial.
   OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
+
+  /// The polynomial on the part between two fractions of the interval. Very long coefficients are rounded.
+  [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
+  /// Whether rounding cannot have changed the sign of a coefficient, nor its size by a factor of 2.
+  [[nodiscard]] bool is_certain() const;
 
   /// The numbers, of which there is one more than the degree.
   [[nodiscard]] const Numbers& coefficients() const { return c_; }
@@ -58,7 +64,11 @@ class OnInterval {
   [[nodiscard]] std::optional<NearEnd> roots_near_end() const;
 
  private:
+  explicit OnInterval(Numbers&& c) : c_(std::move(c)) {}
+
   Numbers c_;
+  /// Each coefficient is off by less than its binomial coefficient times 2^error; nothing if all are exact.
+  std::optional<std::ptrdiff_t> error_;
 };
 
 /// A real root of a polynomial: either an explicit number, or the only root in an open interval.
@@ -66,7 +76,10 @@ class Root {
  public:
   explicit Root(const Number& number) : lo_(number), hi_(number) {}
   /// The only root of p in (lo, hi), which must be simple; p must not be zero at the ends.
-  Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi);
+  Root(const std::shared_ptr<const Polynomial>& p, const Number& lo, const Number& hi)
+      : Root(p, lo, hi, p->sign_at(lo)) {}
+  Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi, int sign_at_lo)
+      : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(sign_at_lo) {}
 
   /// lo <= the root <= hi. They are equal if the root is an explicit number; else the root lies strictly
   /// between them.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,48 +19,65 @@ struct Isolated {
   bool found = true;
 };
 
+/// Fractions of a part outside of which there is no root, and where to cut between them, the upper cut first.
+struct Cuts {
+  Number lo, hi;
+  Numbers at;
+};
+
 /// A part of the step, and how it is cut next.
 struct Part {
   Number lo, hi;
   OnInterval on;
   bool at_extremum = true;  ///< if not, it is cut in the middle
-  unsigned bits = 44;       ///< see shrink()
+  unsigned bits = 44;       ///< see clusters()
 
-  Part(const Polynomial& p, const Number& from, const Number& to) : lo(from), hi(to), on(p, from, to) {}
+  explicit Part(const Polynomial& p) : lo(0), hi(1), on(p, 0, 1) {}
+  /// The part of a part between two fractions of it.
+  Part(const Polynomial& p, const Part& whole, const Number& from, const Number& to)
+      : lo(whole.at(from)),
+        hi(whole.at(to)),
+        on(whole.on.part(from, to)),
+        at_extremum(whole.at_extremum),
+        bits(whole.bits) {
+    if (!on.is_certain()) on = OnInterval(p, lo, hi);
+  }
 
   [[nodiscard]] Number at(const Number& fraction) const { return lo + fraction * (hi - lo); }
 
+  /// Cuts near an extremum and in the middle, alternately.
+  Cuts usual() {
+    const double guess = at_extremum ? on.guess_extremum() : 0.5;
+    const double around_it = at_extremum ? around : 0;
+    at_extremum = !at_extremum;
+    return {0, 1, {Number(guess + around_it), Number(guess - around_it)}};
+  }
+
   /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster, if all changes of sign are
-  /// in this neighbourhood; then there is no root elsewhere. Returns where to cut to separate clusters, the
-  /// upper cut first; nothing if it finds no such place.
-  Numbers shrink(const Polynomial& p) {
+  /// in this neighbourhood; then there is no root elsewhere. Returns cuts that separate clusters, if it finds any.
+  std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     for (bool shrunk = false;; shrunk = true) {
-      if (const auto near_end = on.roots_near_end()) {
-        const Number middle = at(near_end->middle);
-        std::tie(lo, hi) = std::pair(at(near_end->lower), at(near_end->upper));
-        return {middle};
-      }
+      if (const auto near_end = on.roots_near_end())
+        return Cuts{near_end->lower, near_end->upper, {near_end->middle}};
       // Parts shrink quadratically towards a multiple of 2^-bits, until it is no farther from the cluster's roots
       // than they are from each other.
       const auto cluster = on.guess_cluster(bits);
       if (!cluster) break;
       const Number unit = power_of_half(bits);
-      const Number below = std::max(lo, at(*cluster - unit));
-      const Number above = std::min(hi, at(*cluster + unit));
-      OnInterval near_cluster(p, below, above);
-      if (near_cluster.changes() != on.changes()) {
+      const Number below = std::max(Number(0), *cluster - unit);
+      const Number above = std::min(Number(1), *cluster + unit);
+      Part near_cluster(p, *this, below, above);
+      if (near_cluster.on.changes() != on.changes()) {
         if (!shrunk) break;
         bits = least_bits;
-        return {above, below};
+        return Cuts{0, 1, {above, below}};
       }
-      lo = below;
-      hi = above;
-      on = std::move(near_cluster);
+      *this = std::move(near_cluster);
       bits *= 2;
     }
     bits = std::max(least_bits, bits / 2);
-    return {};
+    return std::nullopt;
   }
 };
 
@@ -72,38 +88,28 @@ struct Part {
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;
-  std::vector<Part> parts{Part(*p, 0, 1)};  // a stack with the lowest part on top
+  std::vector<Part> parts{Part(*p)};  // a stack with the lowest part on top
   for (int tries = 0; !parts.empty();) {
     Part part = std::move(parts.back());
     parts.pop_back();
     const int changes = part.on.changes();
-    if (changes == 1) isolated.roots.emplace_back(p, part.lo, part.hi);
+    if (changes == 1) isolated.roots.emplace_back(p, part.lo, part.hi, sign(part.on.coefficients().front()));
     if (changes < 2) continue;
-    Numbers cuts;
+    std::optional<Cuts> cuts;
     if (++tries > few) {
       if (!is_simple) return {{}, {}, false};
-      cuts = part.shrink(*p);
-      if (part.lo == part.hi) continue;
+      cuts = part.clusters(*p);
     }
-    if (cuts.empty()) {
-      const double guess = part.at_extremum ? part.on.guess_extremum() : 0.5;
-      const double around_it = part.at_extremum ? around : 0;
-      cuts = {part.at(guess + around_it), part.at(guess - around_it)};
-      part.at_extremum = !part.at_extremum;
-    }
-    const auto add_part = [&](const Number& lo, const Number& hi) {
-      parts.emplace_back(*p, lo, hi);
-      parts.back().at_extremum = part.at_extremum;
-      parts.back().bits = part.bits;
-    };
-    Number hi = part.hi;
-    for (const Number& lo : cuts) {
-      if (!(part.lo < lo && lo < hi)) continue;
-      if (p->sign_at(lo) == 0) return {{}, lo};
-      add_part(lo, hi);
+    if (!cuts) cuts = part.usual();
+    Number hi = cuts->hi;
+    cuts->at.push_back(cuts->lo);
+    for (const Number& lo : cuts->at) {
+      if (!(cuts->lo <= lo && lo < hi)) continue;
+      parts.emplace_back(*p, part, lo, hi);
+      const bool is_root = CGAL::is_zero(parts.back().on.coefficients().front());
+      if (is_root) return {{}, parts.back().lo};
       hi = lo;
     }
-    add_part(part.lo, hi);
   }
   return isolated;
 }
