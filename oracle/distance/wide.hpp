@@ -1,17 +1,19 @@
 // Numbers of 384 bits, for distances that double words cannot resolve.
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/mpfr.hpp>
+#include <limits>
 
 #include "oracle/arithmetic/bernstein.hpp"
 
 namespace nearmiss::certified {
 
-/// Rounds to nearest. The exponent range is far larger than that of double, so nothing here overflows or
-/// underflows.
+/// Numbers of MPFR, kept on the stack. It rounds to nearest. The exponent range is far larger than that of double,
+/// so nothing here overflows or underflows.
 using Wide = boost::multiprecision::number<
-    boost::multiprecision::cpp_bin_float<384, boost::multiprecision::digit_base_2>,
+    boost::multiprecision::mpfr_float_backend<115, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
+static_assert(std::numeric_limits<Wide>::digits == 384);  // 115 decimal digits
 
 template <>
 inline constexpr double roundoff<Wide> = 0x1p-384;

@@ -159,8 +159,7 @@ bool SmallestDistance::is_at_most(double bound) {
   const Polynomial squared({scaled * scaled});
   return std::any_of(minima_.begin(), minima_.end(), [&](Minima& each) {
     const Polynomial excess = each.numerator - squared * each.denominator;
-    return std::any_of(each.times.begin(), each.times.end(),
-                       [&](Root& t) { return t.sign_of(excess) <= 0; });
+    return std::any_of(each.times.begin(), each.times.end(), [&](Root& t) { return t.sign_of(excess) <= 0; });
   });
 }
 

@@ -111,8 +111,8 @@ void shift(Numbers& c, const Multiply& times_shift) {
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   // In powers of s, the fraction of the interval, which counts from the end with fewer bits.
   constexpr std::size_t short_size = 4;  // up to this degree, the difference is small
-  const bool from_hi = c.size() > short_size && exponent_of_denominator(CGAL::Gmpq(hi)) <
-                                                    exponent_of_denominator(CGAL::Gmpq(lo));
+  const bool from_hi = c.size() > short_size &&
+                       exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));
   const Number& from = from_hi ? hi : lo;
   const Number width = from_hi ? lo - hi : hi - lo;
   if (!CGAL::is_zero(from)) shift(c, [&](const Number& each) { return each * from; });
@@ -134,8 +134,9 @@ bool round_off(Number& x, std::ptrdiff_t exponent) {
   const std::ptrdiff_t denominator = exponent_of_denominator(fraction);
   if (denominator + exponent <= 0) return false;
   const CGAL::Gmpz multiple = CGAL::abs(fraction.numerator()) >> (denominator + exponent);
-  const Number rounded =
-      CGAL::is_zero(multiple) ? Number(0) : Number(multiple) * power_of_half(static_cast<unsigned>(-exponent));
+  const Number rounded = CGAL::is_zero(multiple)
+                             ? Number(0)
+                             : Number(multiple) * power_of_half(static_cast<unsigned>(-exponent));
   x = sign(x) < 0 ? -rounded : rounded;
   return true;
 }
@@ -244,7 +245,7 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
     for (std::size_t i = 0; i < n; ++i) {
       if (sign(c[i]) * sign(c[n]) >= 0) continue;
       const auto steps = static_cast<std::ptrdiff_t>(n - i);
-      const std::ptrdiff_t ratio = exponent[i] - exponent[n] + 2;  // 1 for rounding
+      const std::ptrdiff_t ratio = exponent[i] - exponent[n] + 2;                  // 1 for rounding
       most = std::max(most, 1 + (ratio > 0 ? ratio + steps - 1 : ratio) / steps);  // rounded up
     }
     return most;
@@ -258,8 +259,7 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
   const std::ptrdiff_t lower = -std::max(most, most_inverse);
   const auto power = [](std::ptrdiff_t exponent) { return power_of_half(static_cast<unsigned>(-exponent)); };
   NearEnd at{power(lower - 1), power(std::midpoint(lower, upper)), power(upper)};
-  if (most_inverse < most)
-    at = {Number(1) - at.upper, Number(1) - at.middle, Number(1) - at.lower};
+  if (most_inverse < most) at = {Number(1) - at.upper, Number(1) - at.middle, Number(1) - at.lower};
   return at;
 }
 
