@@ -151,17 +151,21 @@ OnInterval OnInterval::part(const Number& from, const Number& to) const {
   shift(powers, [](const Number& each) { return -each; });
   std::reverse(powers.begin(), powers.end());
   OnInterval part(on_interval(std::move(powers), from, to));
-  // The Bernstein coefficients of a part are averages of those of the whole, with weights >= 0. So errors do not
-  // grow; rounding adds less than 2^least.
+  // The Bernstein coefficients of a part are averages of those of the whole, with weights >= 0, so errors do not
+  // grow.
+  part.error_ = error_;
+  return part;
+}
+
+void OnInterval::round() {
   constexpr std::ptrdiff_t kept_bits = 16'384;
   std::ptrdiff_t largest = std::numeric_limits<std::ptrdiff_t>::min();
-  for (const Number& c : part.c_)
+  for (const Number& c : c_)
     if (!CGAL::is_zero(c)) largest = std::max(largest, exponent_above(c));
   const std::ptrdiff_t least = std::max(largest - kept_bits, error_.value_or(largest - kept_bits));
-  part.error_ = error_;
-  for (Number& c : part.c_)
-    if (least < 0 && round_off(c, least)) part.error_ = least + 1;
-  return part;
+  bool is_rounded = false;
+  for (Number& c : c_) is_rounded = (least < 0 && round_off(c, least)) || is_rounded;
+  if (is_rounded) error_ = least + 1;
 }
 
 bool OnInterval::is_certain() const {

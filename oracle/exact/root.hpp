@@ -30,8 +30,10 @@ class OnInterval {
   /// p must not be the zero polynomial.
   OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
 
-  /// The polynomial on the part between two fractions of the interval. Very long coefficients are rounded.
+  /// The polynomial on the part between two fractions of the interval.
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
+  /// Rounds very long coefficients. Parts have the same errors.
+  void round();
   /// Whether rounding cannot have changed the sign of a coefficient, nor its size by a factor of 2.
   [[nodiscard]] bool is_certain() const;
 

@@ -29,8 +29,9 @@ struct Cuts {
 struct Part {
   Number lo, hi;
   OnInterval on;
-  bool at_extremum = true;  ///< if not, it is cut in the middle
-  unsigned bits = 44;       ///< see clusters()
+  bool at_extremum = true;     ///< if not, it is cut in the middle
+  unsigned bits = 44;          ///< see clusters()
+  bool is_in_cluster = false;  ///< whether clusters() was called, so that coefficients may be long
 
   explicit Part(const Polynomial& p) : lo(0), hi(1), on(p, 0, 1) {}
   /// The part of a part between two fractions of it.
@@ -39,7 +40,9 @@ struct Part {
         hi(whole.at(to)),
         on(whole.on.part(from, to)),
         at_extremum(whole.at_extremum),
-        bits(whole.bits) {
+        bits(whole.bits),
+        is_in_cluster(whole.is_in_cluster) {
+    if (is_in_cluster) on.round();
     if (!on.is_certain()) on = OnInterval(p, lo, hi);
   }
 
@@ -57,6 +60,7 @@ struct Part {
   /// in this neighbourhood; then there is no root elsewhere. Returns cuts that separate clusters, if it finds any.
   std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
+    is_in_cluster = true;
     for (bool shrunk = false;; shrunk = true) {
       if (const auto near_end = on.roots_near_end())
         return Cuts{near_end->lower, near_end->upper, {near_end->middle}};

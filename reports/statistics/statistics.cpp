@@ -13,16 +13,31 @@ void CountsSum::add(const std::string& family, const Counts& each) {
   is_sample = is_sample && is_random(family);
 }
 
+namespace {
+
+/// Adds each entry. The keys of both are in the same order, so the place of a key is usually the next one.
+template <class Entries>
+void merge_entries(Entries& own, const Entries& other) {
+  auto place = own.begin();
+  for (const auto& [key, each] : other) {
+    place = own.try_emplace(place, key);
+    add_up(place->second, each);
+    ++place;
+  }
+}
+
+}  // namespace
+
 void Statistics::merge(const Statistics& other) {
-  for (const auto& [key, each] : other.oracle) oracle[key].merge(each);
-  for (const auto& [key, each] : other.counts) counts[key].merge(each);
+  merge_entries(oracle, other.oracle);
+  merge_entries(counts, other.counts);
   for (const auto& [name, each] : other.extremes)
     if (const auto [own, fresh] = extremes.try_emplace(name, each); !fresh) own->second.merge(each);
-  for (const auto& [key, each] : other.funnels) funnels[key].merge(each);
-  for (const auto& [key, each] : other.simulated) simulated[key].merge(each);
-  for (const auto& [key, each] : other.factors) factors[key].merge(each);
-  for (const auto& [key, each] : other.versions) versions[key].merge(each);
-  for (const auto& [signature, count] : other.seen) seen[signature] += count;
+  merge_entries(funnels, other.funnels);
+  merge_entries(simulated, other.simulated);
+  merge_entries(factors, other.factors);
+  merge_entries(versions, other.versions);
+  merge_entries(seen, other.seen);
   merge_counters(*this, other);
 }
 

@@ -135,5 +135,32 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
+// Decisions look at the times at which the distance is h; comparisons, at those at which it is smallest.
+TEST(SmallestDistance, IsComparedAsDecisionsAre) {
+  int at_most = 0;
+  int compared = 0;
+  for (std::size_t i = 0; i < 100; ++i) {
+    Random random(8, 0, i);
+    const Kind kind = kinds[i % kinds.size()];
+    Query query = testing::integer_query(random, kind, 2);
+    const int spread = i % 2 == 0 ? 0 : 1 << random.integer(0, 9);
+    for (double& c : query.x) c = std::ldexp(c, random.integer(-spread, spread));
+    repeat_vertices(query);
+    exact::SmallestDistance smallest(query);
+    const double d = minimum_distance(query, 0).lo;
+    for (const double h : {d, std::nextafter(d, 0), std::nextafter(d, HUGE_VAL), 2 * d, 0.5 * d,
+                           std::ldexp(1.0, random.integer(-spread, spread))}) {
+      if (!(h > 0)) continue;
+      const Decision decision = decide_exactly(with_separation(query, h));
+      EXPECT_EQ(smallest.is_at_most(h), decision.collision || decision.is_tie)
+          << testing::repeat(i, with_separation(query, h));
+      ++compared;
+      at_most += smallest.is_at_most(h) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(at_most, compared / 4);
+  EXPECT_LT(at_most, 3 * compared / 4);
+}
+
 }  // namespace
 }  // namespace nearmiss

@@ -5,6 +5,7 @@
 #include <CGAL/Gmpz.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -93,8 +94,8 @@ TEST(Root, PartsCloseRoots) {
 }
 
 TEST(Root, PartsClustersOfRoots) {
-  for (const int exponent : {-40, -400, -1000}) {
-    const Number gap(std::ldexp(1.0, exponent));
+  for (const unsigned exponent : {40, 400, 1000, 5000}) {
+    const Number gap = power_of_half(exponent);
     const auto times_3 = [](const Number& a) { return Polynomial({-a, Number(3)}); };  // its root is a / 3
     const Polynomial inside = times_3(1) * times_3(Number(1) + gap) * times_3(Number(1) - Number(3) * gap);
     EXPECT_EQ(roots_in_step(inside * times_3(2)).size(), 4) << exponent;
@@ -106,7 +107,84 @@ TEST(Root, PartsClustersOfRoots) {
     const Polynomial complex = times_3(1) * times_3(1) + Polynomial({gap * gap});
     EXPECT_EQ(roots_in_step(inside * complex).size(), 3) << exponent;
     EXPECT_EQ(roots_in_step(inside * inside * complex).size(), 3) << exponent;
+    // These have very different distances from an end.
+    for (const Number& end : {Number(0), Number(1)}) {
+      const Polynomial from_end({end, Number(1) - Number(2) * end});
+      const auto shifted = [&](const Number& a) {
+        return Polynomial({-a}) + Polynomial({Number(3)}) * from_end;
+      };
+      auto roots = roots_in_step(shifted(gap) * shifted(gap * gap) * shifted(Number(7) * gap) * times_3(2));
+      ASSERT_EQ(roots.size(), 4) << exponent;
+      for (std::size_t i = 1; i < roots.size(); ++i) EXPECT_TRUE(roots[i - 1].is_below(roots[i]));
+    }
   }
+}
+
+TEST(Root, SharesTheSimplestPolynomialThatIsKnown) {
+  const Polynomial common = polynomial({-1, 3});
+  auto roots = roots_in_step(common * polynomial({-0.3, 0, 1, 7}));
+  auto others = roots_in_step(common * polynomial({0.4, 1, -2, 1, 5}));
+  ASSERT_EQ(others.size(), 1);
+  const auto same = std::find_if(roots.begin(), roots.end(), [&](Root& root) {
+    return !root.is_below(others[0]) && !others[0].is_below(root);
+  });
+  ASSERT_NE(same, roots.end());
+  for (Root* root : {&*same, &others[0]}) {
+    EXPECT_EQ(root->sign_of(common), 0);
+    EXPECT_EQ(root->sign_of(polynomial({-1, 3.0000001})), 1);
+    EXPECT_EQ(root->as_rational(), CGAL::Gmpq(1, 3));
+  }
+}
+
+// --- parts of an interval ---------------------------------------------------------------------------------
+
+std::vector<int> signs(const OnInterval& on) {
+  std::vector<int> signs;
+  for (const Number& c : on.coefficients()) signs.push_back(sign(c));
+  return signs;
+}
+
+TEST(OnInterval, PartsHaveTheSignsOfThePolynomialUnlessRoundingMayHaveChangedThem) {
+  int rounded = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    Random random(5, 0, i);
+    Polynomial p = polynomial({-1, 3});
+    for (int degree = random.integer(1, 5); degree > 0; --degree)
+      p = p * (Polynomial({Number(random.uniform(-1, 1)), Number(random.uniform(-1, 1))}) +
+               Polynomial({power_of_half(static_cast<unsigned>(random.integer(0, 9000)))}));
+    Number lo = 0;
+    Number hi = 1;
+    OnInterval on(p, lo, hi);
+    for (int step = 0; step < 6; ++step) {
+      // A part with a change of sign, whose ends have many bits.
+      Number from = 0;
+      Number to = 1;
+      for (int k = 0; k < 16; ++k) {
+        from = Number(0.0625 * k) + power_of_half(static_cast<unsigned>(random.integer(5, 2000)));
+        to = std::min(from + Number(0.125), Number(1));
+        if (on.part(from, to).changes() > 0) break;
+      }
+      on = on.part(from, to);
+      on.round();
+      const Number width = hi - lo;
+      hi = lo + to * width;
+      lo = lo + from * width;
+      const OnInterval exact(p, lo, hi);
+      if (!on.is_certain()) break;
+      ASSERT_EQ(signs(on), signs(exact)) << "case " << i << ", step " << step;
+      rounded += on.coefficients() == exact.coefficients() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(rounded, 10);
+
+  const Polynomial third = polynomial({-1, 3});
+  const Polynomial p = third * third * third * third;
+  const Number tiny = power_of_half(5000);
+  OnInterval most = OnInterval(p, 0, 1).part(tiny, 1);
+  most.round();
+  EXPECT_TRUE(most.is_certain());
+  const Number below = Number((CGAL::Gmpz(1) << 5000) / CGAL::Gmpz(3)) * tiny - tiny;
+  EXPECT_FALSE(most.part(below, below + tiny + tiny).is_certain());  // values near 2^-20000
 }
 
 TEST(Root, KnowsWhetherItIsRational) {
