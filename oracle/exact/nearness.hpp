@@ -35,9 +35,9 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The polynomials about the planes or lines through the interiors: of the triangle and the vertex, or of both
-/// edges. Where squared_N is positive, their distance is |F| / |N|, and the closest points lie in the features
-/// iff all `outside` are at most 0, and strictly inside iff they are negative.
+/// The polynomials about the planes or lines through the interiors: of the triangle and the vertex, or of
+/// both edges. Where squared_N is positive, their distance is |F| / |N|, and the closest points lie in the
+/// features iff all `outside` are at most 0, and strictly inside iff they are negative.
 struct Interiors {
   Polynomial F;
   Polynomial squared_N;
@@ -79,8 +79,8 @@ class SmallestDistance {
   [[nodiscard]] bool is_at_most(double bound);
 
  private:
-  /// The squared distance of two features is numerator / denominator; the closest points lie in the features at
-  /// each of the times.
+  /// The squared distance of two features is numerator / denominator; the closest points lie in the
+  /// features at each of the times.
   struct Minima {
     Polynomial numerator, denominator;
     std::vector<Root> times;

@@ -100,7 +100,8 @@ Number power_of_half(unsigned bits) { return Number(1) / Number(CGAL::Gmpz(1) <<
 
 namespace {
 
-/// Replaces the coefficients of a polynomial in x, the leading one first, by those of the polynomial in x - shift.
+/// Replaces the coefficients of a polynomial in x, the leading one first, by those of the polynomial in x -
+/// shift.
 template <class Multiply>
 void shift(Numbers& c, const Multiply& times_shift) {
   for (std::size_t last = c.size() - 1; last > 0; --last)
@@ -151,8 +152,8 @@ OnInterval OnInterval::part(const Number& from, const Number& to) const {
   shift(powers, [](const Number& each) { return -each; });
   std::reverse(powers.begin(), powers.end());
   OnInterval part(on_interval(std::move(powers), from, to));
-  // The Bernstein coefficients of a part are averages of those of the whole, with weights >= 0, so errors do not
-  // grow.
+  // The Bernstein coefficients of a part are averages of those of the whole, with weights >= 0, so errors
+  // do not grow.
   part.error_ = error_;
   return part;
 }
@@ -242,8 +243,9 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
   using Exponents = std::vector<std::ptrdiff_t>;
   Exponents exponents;
   for (const Number& c : c_) exponents.push_back(CGAL::is_zero(c) ? 0 : exponent_above(c));
-  // With x = s / (1 - s), the sum of c_i x^i has the same roots. If c_n > 0, it is positive for x >= 2 max (-c_i
-  // / c_n)^(1 / (n - i)) over the negative c_i, because each of their terms is then at most c_n x^n / 2^(n - i).
+  // With x = s / (1 - s), the sum of c_i x^i has the same roots. If c_n > 0, it is positive for x >= 2 max
+  // (-c_i / c_n)^(1 / (n - i)) over the negative c_i, because each of their terms is then at most c_n x^n /
+  // 2^(n - i).
   const auto above_roots = [n = c_.size() - 1](const auto& c, const auto& exponent) {
     std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::min();
     for (std::size_t i = 0; i < n; ++i) {
@@ -321,9 +323,9 @@ void Root::refine() {
 
 namespace {
 
-/// A polynomial with the root that p has between two numbers, of the lowest degree that is found, if q shares
-/// the root; else nothing. p has at most one root there, a simple one, and the two polynomials are not both zero
-/// at one of the numbers. So a common divisor has the root if and only if its sign changes.
+/// A polynomial with the root that p has between two numbers, of the lowest degree that is found, if q
+/// shares the root; else nothing. p has at most one root there, a simple one, and the two polynomials are
+/// not both zero at one of the numbers. So a common divisor has the root if and only if its sign changes.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
   constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues

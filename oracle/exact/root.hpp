@@ -57,9 +57,10 @@ class OnInterval {
   /// nothing if the guess is outside or at the lower end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
-  /// Fractions of the interval between which all its roots lie strictly, if they are all near the same end; and
-  /// one between these, which divides the distances from that end evenly by their exponents. All are 0 if
-  /// the coefficients show that there is no root. There must be a change of sign, and no root at the ends.
+  /// Fractions of the interval between which all its roots lie strictly, if they are all near the same end;
+  /// and one between these, which divides the distances from that end evenly by their exponents. All are 0
+  /// if the coefficients show that there is no root. There must be a change of sign, and no root at the
+  /// ends.
   struct NearEnd {
     Number lower, middle, upper;
   };

@@ -56,16 +56,17 @@ struct Part {
     return {0, 1, {Number(guess + around_it), Number(guess - around_it)}};
   }
 
-  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster, if all changes of sign are
-  /// in this neighbourhood; then there is no root elsewhere. Returns cuts that separate clusters, if it finds any.
+  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster, if all changes of
+  /// sign are in this neighbourhood; then there is no root elsewhere. Returns cuts that separate clusters,
+  /// if it finds any.
   std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     is_in_cluster = true;
     for (bool shrunk = false;; shrunk = true) {
       if (const auto near_end = on.roots_near_end())
         return Cuts{near_end->lower, near_end->upper, {near_end->middle}};
-      // Parts shrink quadratically towards a multiple of 2^-bits, until it is no farther from the cluster's roots
-      // than they are from each other.
+      // Parts shrink quadratically towards a multiple of 2^-bits, until it is no farther from the cluster's
+      // roots than they are from each other.
       const auto cluster = on.guess_cluster(bits);
       if (!cluster) break;
       const Number unit = power_of_half(bits);
