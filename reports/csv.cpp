@@ -32,7 +32,7 @@ struct Field {
 };
 using Fields = std::vector<Field>;
 
-/// Adds the field of a value, or two fields for the ends of a range.
+/// Adds a field for a value, or two fields for the two ends of a range.
 struct AddField {
   Fields& fields;
   const std::string& heading;
@@ -69,8 +69,8 @@ void add_counter(Fields& fields, const Counts& counts, const Counter<Counts, Sub
   }
 }
 
-/// These members have no column: distances.csv and times.csv have the histograms, and case files have the
-/// farthest false positives.
+/// Adds nothing for members of any other type: distances.csv and times.csv have the histograms, and case
+/// files have the farthest false positives.
 template <class Member>
 void add_counter(Fields& /*fields*/, const Counts& /*counts*/, const Counter<Counts, Member>& /*counter*/) {}
 
@@ -92,7 +92,8 @@ void add_counters(Fields& fields, const CountsSum& sum) {
   });
 }
 
-/// The fields of a row that begins with this key; `of` is the heading of the column with its family or class.
+/// The fields of a row: the key, then the counters. `of` is the heading of the key's family column: "family"
+/// or "class".
 Fields fields_of(const CountsKey& key, const char* of, const CountsSum& sum) {
   Fields fields{
       {"subject", field(key.subject)}, {"kind", std::string(short_name(key.kind))}, {of, field(key.family)}};
@@ -106,7 +107,7 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a file, whose headings are taken from `any`, an arbitrary row.
+/// The text of a file with these rows. The headings are those of `any`, which may be any row.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);
   for (const Fields& row : rows) text += line(row, &Field::text);

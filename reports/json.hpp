@@ -8,10 +8,10 @@
 
 namespace nearmiss {
 
-/// The JSON of `replay --json` and `fuzz --json`, on which scripts depend: subjects.NAME.KIND with queries,
-/// collisions, positives, false_negatives, false_positives, max_fp_distance_over_bound and ns_per_query (null
-/// if nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth; sweeps if there are
-/// any (sections/sections.hpp); and other fields.
+/// The JSON of `replay --json` and `fuzz --json`, on which users' scripts depend: subjects.NAME.KIND with
+/// queries, collisions, positives, false_negatives, false_positives, max_fp_distance_over_bound and
+/// ns_per_query (null if nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth;
+/// sweeps if there are any (sections/sections.hpp); and other fields.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
 /// The runs. Each run has its facts, the command that repeats it, the number of decided cases, its missing

@@ -17,8 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The text as it may stand in XML, within an attribute, too. XML has no control characters but ends of
-/// lines.
+/// The text, escaped for an element or an attribute of XML. Of the control characters, XML allows only ends
+/// of lines.
 std::string escaped(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -42,7 +42,7 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-/// A test, which fails if it has a message.
+/// A test; it fails if `message` is not empty.
 struct Test {
   std::string name, message, text;
 };
@@ -66,7 +66,7 @@ std::string suite_xml(const std::string& name, const std::vector<Test>& tests) {
       escaped(name), tests.size(), failed, rows);
 }
 
-/// "missed 3 of 50 collisions"; only the verb if nothing is counted, as in "was asked nothing"
+/// "missed 3 of 50 collisions"; only the verb for a failure without a count, such as "was asked nothing"
 std::string message_of(const FailureInfo& failure, const Counts& counts) {
   if (failure.one.empty()) return std::string(failure.verb);
   return fmt::format("{} {} of {}", failure.verb, with_separators(failure.count(counts)),
@@ -92,7 +92,8 @@ std::string commands(const Campaign& campaign) {
   return lines;
 }
 
-/// The first findings that are `chosen`, each of another way to fail, as nearmiss replay reads them.
+/// Queries in the form that nearmiss replay reads: at most three of the findings for which `chosen` is true,
+/// one for each way to fail.
 template <class Chosen>
 std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
   constexpr std::size_t most = 3;
@@ -106,7 +107,8 @@ std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) 
   return lines;
 }
 
-/// Queries of a test that failed: those of its class, or else those that its families made.
+/// Queries for a test that failed: those of the test's class or, if none is of this class, those that
+/// families of the class made.
 std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings) {
   const auto is_own = [&](const Finding& each) {
     return each.subject == key.subject && each.query.kind == key.kind;
@@ -118,7 +120,7 @@ std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings
                  [&](const Finding& each) { return is_own(each) && class_of(each.family) == key.of; });
 }
 
-/// The text with some characters as % and their hexadecimal codes.
+/// The text with each of `characters` replaced by % and its hexadecimal code.
 std::string percent_encoded(std::string_view text, std::string_view characters) {
   std::string safe;
   for (const char c : text)
@@ -149,7 +151,8 @@ std::string junit_xml(const Campaign& campaign, const Failures& failing) {
 
 std::string github_annotations(const Campaign& campaign, const Failures& failing) {
   const auto line = [](std::string_view title, std::string_view message) {
-    // GitHub takes these characters for the end of a property, and of the line.
+    // A colon or a comma would end the title, and an end of a line the annotation; % begins an escaped
+    // character.
     return fmt::format("::error title={}::{}\n", percent_encoded(title, "%:,"),
                        percent_encoded(message, "%\n"));
   };

@@ -17,7 +17,7 @@ namespace nearmiss {
 /// Data that a report shows in addition to its campaign.
 struct ReportContext {
   std::optional<Changes> since = {};  ///< the comparison with earlier campaigns
-  std::vector<Hunt> hunts = {};       ///< hunts for known defects
+  std::vector<Hunt> hunts = {};       ///< how soon hunts find known defects
   std::string audit = {};             ///< audit of rounding constants, the JSON that nearmiss audit writes
   std::string paper = {};             ///< the paper's claims, the JSON that nearmiss paper writes
   std::string distances = {};         ///< distances of features, from the JSON that nearmiss distance writes
@@ -28,10 +28,10 @@ struct ReportContext {
 /// The version of report.json, which reports/report.schema.json describes.
 inline constexpr int report_schema_version = 2;
 
-/// Everything that the page shows: the version; summary_json by shown family (family.hpp); the headline, and
-/// a verdict on each subject; error against run time; the histogram's borders, and the names of the stages;
-/// the first findings of each signature and the farthest false positives, with the names of their case files;
-/// the earliest and latest times; and the sections of `context`.
+/// Everything that the page shows: the schema's version; summary_json by shown family (family.hpp); the
+/// headline, and a verdict on each subject; error against run time; the histogram's borders, and the names
+/// of the stages; the first findings of each signature and the farthest false positives, with the names of
+/// their case files; the earliest and latest times; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
 /// Writes the files of a report:

@@ -27,7 +27,8 @@ constexpr std::array fixed_files{data_file,
                                  std::string_view("findings.csv")};
 constexpr std::array sub_folders{"cases", "farthest"};
 
-/// Files are written in this folder, and then renamed. It is on the file system of the report's folder.
+/// The sub-folder in which files are written before they are renamed, so that a rename stays in one file
+/// system.
 constexpr const char* part_name = ".nearmiss-part";
 
 /// Whether a path is a file directly in one of the sub-folders.
@@ -54,8 +55,8 @@ Error not_a_report(const fs::path& folder) {
                   folder.string()));
 }
 
-/// Throws Error if the path of one of the report's files is that of a folder, or of a file that nearmiss did
-/// not write.
+/// Throws Error if something is in the way of one of the report's files: a folder, or a file that nearmiss
+/// did not write.
 void expect_room(const fs::path& folder, const ReportPaths& own,
                  const std::map<std::string, std::string>& files) {
   const auto refuse = [](const fs::path& path) {
@@ -82,8 +83,8 @@ void write_beside(const fs::path& part, const std::map<std::string, std::string>
   replace_file(part / data_file, files.at(std::string(data_file)));
 }
 
-/// Moves all files from `part` to the folder. At any moment, the earlier or the new report.json names each of
-/// the report's files, so that an interrupted replacement can be completed.
+/// Moves all files from `part` to the folder. At every moment, each file of the report is named by the
+/// earlier report.json or by the new one, so that an interrupted replacement can be completed.
 void put_in_place(const fs::path& part, const fs::path& folder, const ReportPaths& own,
                   const std::map<std::string, std::string>& files) {
   for (const char* sub_folder : sub_folders) fs::create_directories(folder / sub_folder);
@@ -139,7 +140,7 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
     put_in_place(part, folder, own, files);
   } catch (const std::exception& error) {
     std::error_code ignored;
-    if (!is_written) {  // otherwise the next replacement needs `part`
+    if (!is_written) {  // once all is written, the next replacement needs `part`
       fs::remove_all(part, ignored);
       fs::remove(folder, ignored);  // if it is empty
     }

@@ -20,10 +20,10 @@ ReportPaths files_of(const nlohmann::ordered_json& report);
 /// folder is empty or does not exist. Throws Error if the folder is not that of a report.
 ReportPaths own_files(const std::filesystem::path& folder);
 
-/// Replaces the files `own` in a folder by `files`, a map from paths to contents; no other file is changed.
-/// All files are first written under temporary names and then renamed, report.json last. If this is
-/// interrupted, the next call completes it. Throws Error, before any file is replaced, if another file is in
-/// the way or the files cannot be written.
+/// Replaces the files `own` in a folder by `files`, a map from paths to contents; changes no other file.
+/// Writes all files under temporary names and then renames them, report.json last. The next call completes
+/// an interrupted replacement. Throws Error, before it replaces any file, if another file is in the way or
+/// the files cannot be written.
 void replace_report(const std::filesystem::path& folder, const ReportPaths& own,
                     const std::map<std::string, std::string>& files);
 

@@ -28,13 +28,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The time at which the page draws a query: t* of a collision, else when the primitives are closest.
+/// The time at which the page draws a query: t* for a collision, otherwise the time at which the primitives
+/// are closest.
 double moment(const Query& query) {
   auto earliest = earliest_time(query);
   return earliest ? earliest->enclosure().lo : closest_time(query);
 }
 
-/// The coordinates, and the separation unless it is 0, as in a query file.
+/// The coordinates of a query, then its separation unless it is 0, as in a query file.
 ordered_json numbers_json(const Query& query) {
   ordered_json json = coordinate_list(query);
   if (query.separation != 0) json.push_back(query.separation);
@@ -96,7 +97,7 @@ ordered_json extreme_times_json(const Statistics& statistics) {
       if (cases->empty()) continue;
       const FarCase& far = cases->front();
       const double time = moment(far.query);
-      const double given = is_early ? time - far.ratio : time + far.ratio;  // to the precision of the ratio
+      const double given = is_early ? time - far.ratio : time + far.ratio;  // as precise as the ratio
       json.push_back({{"subject", key.subject},
                       {"kind", short_name(key.kind)},
                       {"side", is_early ? "early" : "after"},
@@ -157,7 +158,7 @@ void add_pictures(ordered_json& json, const Campaign& campaign) {
     }
 }
 
-/// Results of other commands, and the comparison with the baseline.
+/// Adds the results of other commands, and the comparison with the baseline.
 void add_context(ordered_json& json, const Statistics& statistics, const ReportContext& context) {
   const auto add = [&](const char* section, const std::string& text) {
     if (!text.empty()) json[section] = ordered_json::parse(text);

@@ -140,7 +140,7 @@ void QueryInput::read(const std::function<void(const Query&)>& sink) const {
   const Kind of = parse_kind(kind, "--kind");
   const auto each = [&](const Case& read) { sink(separation.apply(read.query)); };
   if (file == "-") {
-    std::ios::sync_with_stdio(false);  // otherwise a read error looks like the end of input
+    std::ios::sync_with_stdio(false);  // synchronized, a read error would look like the end of input
     return read_query_lines(std::cin, of, "stdin", each);
   }
   std::ifstream in(file);
@@ -186,7 +186,7 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
 
 namespace {
 
-/// The families that a word stands for; nothing for another name.
+/// The families that the word "all" or "vertices" stands for; nothing for any other name.
 std::optional<std::span<const Family>> group_of_families(std::string_view name, std::span<const Family> all) {
   if (name == "all") return all;
   if (name == "vertices") return vertex_families();

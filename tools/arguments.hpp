@@ -17,47 +17,48 @@
 
 namespace nearmiss::tools {
 
-/// --subject A,B,./plugin.so
+/// --subject A,B,./plugin.so: the subjects on trial.
 void add_subject_option(CLI::App& command, std::vector<std::string>& names);
 
-/// --jobs J; all cores by default.
+/// --jobs J: the number of threads; by default, one for each core.
 void add_jobs_option(CLI::App& command, int& jobs);
 void add_verbose_option(CLI::App& command, bool& verbose);
 
 /// --seed S: the seed of the random queries.
 void add_seed_option(CLI::App& command, std::uint64_t& seed);
 
-/// --compare N and --compare-near-bounds
+/// --compare N and --compare-near-bounds: which queries all exact methods decide.
 void add_comparison_options(CLI::App& command, Comparison& comparison);
 
 /// --separation H: the separation of every query.
 struct SeparationOption {
   std::string text;
 
-  /// Adds the option. `can_be_drawn`: whether its value may be "drawn", for a random separation of each
-  /// query.
+  /// Adds the option. If `can_be_drawn`, its value may be "drawn", which gives each query a random
+  /// separation.
   CLI::Option* add_to(CLI::App& command, bool can_be_drawn = false);
   [[nodiscard]] bool is_given() const { return !text.empty(); }
-  /// The separation to use in families that have none of their own: "drawn" or a positive number; "" for
-  /// contact. Throws Error.
+  /// The separation for families that have none of their own: "drawn" or a positive number; "" for contact.
+  /// Throws Error if the option's value is neither "drawn" nor a separation.
   [[nodiscard]] std::string of_families() const;
-  /// The query with the separation, if one is given. Throws Error.
+  /// The query, with the option's separation if the option is given. Throws Error if its value is no
+  /// separation.
   [[nodiscard]] Query apply(const Query& query) const;
 };
 
 /// "vt", "ee" and so on: the values of --kind.
 std::vector<std::string> short_names_of_kinds();
 
-/// Throws Error if the subject does not decide a kind of queries.
+/// Throws Error if the subject does not decide queries of this kind.
 void expect_kind(const Subject& subject, Kind kind);
 
 /// Throws Error if the subject takes separations for none of these kinds.
 void expect_separation(const Subject& subject, std::span<const Kind> of = kinds_of_meshes);
-/// Throws Error if one of the subjects that decide some of these kinds takes separations for none of them, or
-/// if no subject decides any.
+/// Throws Error if no subject decides any of these kinds, or if a subject that decides some of them takes
+/// separations for none of them.
 void expect_separations(const Subjects& subjects, std::span<const Kind> of = kinds_of_meshes);
 
-/// --bound B: one bound for every pair.
+/// --bound B: one bound B for all pairs, in place of each pair's own.
 void add_bound_option(CLI::App& command, std::string& bound);
 
 /// --query-time T and --query-memory BYTES: the limits of a plug-in.
@@ -66,42 +67,46 @@ struct PluginLimitOptions {
   std::uint64_t bytes = isolation::PluginLimits().bytes;
 
   void add_to(CLI::App& command);
-  /// Throws Error.
+  /// The limits. Throws Error if a value is not a time or a number of bytes.
   [[nodiscard]] isolation::PluginLimits limits() const;
 };
 
-/// --kind vt|ee and FILE|-: the kind, and the file with one query a line.
+/// --kind KIND and FILE: the kind of the queries, and a file (- for standard input) with one query a line.
 struct QueryInput {
   std::string kind, file = "-";
   SeparationOption separation;
 
   void add_to(CLI::App& command);
-  /// Passes every query to `sink`, in order. Throws Error.
+  /// Passes every query to `sink`, in order. Throws Error if the file cannot be read or has other content.
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
 /// Throws Error if a subject's text is not printable().
 void expect_printable(const std::string& subject);
 
-/// Makes the subjects that these texts denote (fuzz/subjects/subjects.hpp), with distinct names; each plug-in
-/// runs in its own process. Throws Error, also for what expect_printable() refuses.
+/// Makes the subjects that these texts denote (fuzz/subjects/subjects.hpp), with distinct names. Each
+/// plug-in runs in a process of its own. Throws Error for an unknown subject, and for a text that
+/// expect_printable() refuses.
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
-/// Finds the families NAME, NAME@VALUE and so on (find_any_family); "all" stands for those in `all`, "vertices" for
-/// those of vertices and edges. Throws Error and Stopped.
+/// Finds the families with these names: NAME, NAME@VALUE and so on (find_any_family). "all" stands for the
+/// families in `all`, "vertices" for the families of vertices and edges. Throws Error for an unknown or
+/// repeated name, and Stopped.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all, const Stop& stop);
 
-/// Makes the families NAME@VALUE of the sweeps of these families; "all" and "vertices" stand for those that have a
-/// parameter. Throws Error.
+/// Makes the families NAME@VALUE of sweeps with this number of steps. "all" stands for the families in `all`
+/// that have a parameter, "vertices" for those of vertices and edges. Throws Error for a name without a
+/// sweep.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known, std::span<const Family> all);
 
-/// Parses "0/4" .. "3/4" into the shard and the number of shards. Throws Error.
+/// Parses "0/4" .. "3/4" into the index of the shard and the number of shards. Throws Error for any other
+/// form.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);
 
-/// Parses a positive finite number; "" gives nothing. Throws Error.
+/// Parses a positive finite number; "" gives nothing. Throws Error for any other text.
 std::optional<double> parse_bound(std::string_view text);
 
 }  // namespace nearmiss::tools

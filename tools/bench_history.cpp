@@ -77,14 +77,14 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
   return {{"about", run.about}, {"rows", std::move(rows)}};
 }
 
-/// The fewest pairs of runs with which the median of their ratios has a 95 % confidence interval.
+/// The fewest pairs of runs for which the ratios' median has a 95 % confidence interval.
 constexpr std::size_t fewest_pairs = 6;
 
-/// How a time has changed.
+/// How much a time has changed.
 struct Change {
   double ratio;   ///< the median of the ratios after / before of all pairs
-  double lo, hi;  ///< its confidence interval, of at least 95 %
-  /// `faster` or `slower` if the interval does not contain 1, else `within noise`.
+  double lo, hi;  ///< confidence interval of the median, of at least 95 %
+  /// "faster" or "slower" if the interval does not contain 1, otherwise "within noise".
   [[nodiscard]] std::string_view verdict() const {
     return hi < 1 ? "faster" : lo > 1 ? "slower" : "within noise";
   }
@@ -95,9 +95,9 @@ struct Change {
 /// 3rd edition, 7.1).
 Change change_of(std::vector<double> ratios) {
   std::sort(ratios.begin(), ratios.end());
-  // The true median is between the order statistics k and n + 1 - k, unless fewer than k ratios are on one
-  // side of it. The loop finds the largest k for which that happens with a probability of at most 2.5 % for
-  // each side.
+  // The true median lies between the order statistics k and n + 1 - k, unless fewer than k ratios are below
+  // it, or fewer than k above it. The loop finds the largest k for which each of these has a probability of
+  // at most 2.5 %.
   const boost::math::binomial below(static_cast<double>(ratios.size()), 0.5);
   std::size_t k = 1;
   while (k < ratios.size() / 2 && boost::math::cdf(below, static_cast<double>(k)) <= 0.025) ++k;
@@ -160,7 +160,7 @@ void append_to_history(const std::filesystem::path& file, const BenchRun& run) {
   std::string text;
   if (std::filesystem::exists(file)) {
     text = read_whole_file(file);
-    runs_of(text, file);  // throws if the file is of another kind
+    runs_of(text, file);  // throws if the file has other content
     if (!text.empty() && text.back() != '\n') text += '\n';
   }
   replace_file(file, text + json_text(to_json(run)) + '\n');

@@ -11,7 +11,7 @@
 
 namespace nearmiss::tools {
 
-/// What a row of the table times: a subject on the queries of one kind in one input.
+/// What a row of a table of times is about: a subject on the queries of one kind in one input.
 struct TimedRow {
   std::string input, kind;
   std::size_t queries = 0;
@@ -26,16 +26,18 @@ struct BenchRun {
   std::map<TimedRow, std::vector<double>> times;  ///< ns per query of each pass; NaN without an answer
 };
 
-/// The runs in a file, one a line as JSON, in their order. Throws Error.
+/// Reads the runs in a file, each a line of JSON, in their order. Throws Error if the file cannot be read or
+/// has other content.
 std::vector<BenchRun> read_history(const std::filesystem::path& file);
 
-/// Adds a run at the end of such a file, which may not exist yet. Throws Error, and leaves the file as it
-/// was, if that is impossible.
+/// Appends a run to such a file, or makes the file. Throws Error if that is impossible, and then leaves the
+/// file as it was.
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
-/// A table of the changes from one series of runs to another, made in turn, before and after a change. Run i of one is
-/// compared with run i of the other, by the medians over their passes. Throws Error if the series have different
-/// lengths or fewer than six runs, or if the runs used different processors.
+/// A table of the differences between two series of runs, one from before a change and one from after it.
+/// Run i of one series is compared with run i of the other, made right before or after it, by the medians
+/// over passes. Throws Error if the series have different lengths or fewer than six runs, or if the runs
+/// used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

@@ -63,7 +63,7 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
   return show_duration(std::max(left, {})) + " left, " + line;
 }
 
-/// The kinds chosen with --kind, or else those that a subject decides.
+/// The kinds chosen with --kind; without --kind, those that a subject decides.
 std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& subjects) {
   if (options.kinds.empty()) {
     const bool of_meshes = !options.separation.of_families().empty();
@@ -78,8 +78,8 @@ std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& s
   return chosen;
 }
 
-/// A family of which only the chosen kinds are asked. If --kind is given, throws Error for a family that has
-/// none of them.
+/// A family, of which a campaign asks only the chosen kinds. If --kind is given, throws Error for a family
+/// that has none of these kinds.
 Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
   if (const auto chosen = of_kinds(family, asked)) return *chosen;
   if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");
@@ -91,15 +91,15 @@ Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
   return mesh_family(open_scene(options.mesh), stop);
 }
 
-/// The queries of files and folders.
+/// The queries in files and folders.
 std::vector<Query> queries_of(const std::vector<std::filesystem::path>& paths) {
   std::vector<Query> queries;
   for (const auto& path : paths) read_cases(path, [&](Case&& each) { queries.push_back(each.query); });
   return queries;
 }
 
-/// The families chosen with --family, --sweep, --mesh, --near and --search. Throws Error, and Stopped if the
-/// stop is due before the pairs of meshes and simulations are known.
+/// The families chosen with --family, --sweep, --mesh, --near and --search. Throws Error for wrong options,
+/// and Stopped if the stop is due before the pairs of meshes and simulations are known.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
   const std::vector<Kind> asked = chosen_kinds(options, subjects);
@@ -116,8 +116,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   const std::size_t of_meshes = known.size();
   known.insert(known.end(), vertex_families().begin(), vertex_families().end());
   known.insert(known.end(), near_within.begin(), near_within.end());
-  // Only with --separation drawn does "all" include the families of meshes that have separations of their
-  // own.
+  // "all" includes the families of vt and ee queries that have separations of their own only with
+  // --separation drawn.
   std::vector<Family> all(
       known.begin(),
       known.begin() + static_cast<std::ptrdiff_t>(separation == drawn_separation ? of_meshes : contact));
@@ -133,7 +133,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     if (!separation.empty() && !family.has_separation) family = with_separation(family, separation);
     if (!options.separation.is_given()) family = as_asked(family);
     family = with_kinds(options, family, asked);
-    // Without a word about separations, a subject that takes none is not asked for them.
+    // If the user does not name such families or --separation, a subject that takes no separations is just
+    // not asked.
     if (family.has_separation && (are_named || options.separation.is_given()))
       expect_separations(subjects, kinds_asked(family));
   }
@@ -165,7 +166,7 @@ std::string names_of_kinds_asked(const CampaignPlan& plan) {
   return names_of_kinds(sum, ",");
 }
 
-/// A digest of the content of files, and of all files below folders; names that are no files are left out.
+/// A digest of the content of files, and of all files below folders. Leaves out names of other things.
 template <class Paths>
 std::string digest_of(const Paths& paths) {
   namespace fs = std::filesystem;
@@ -185,8 +186,8 @@ std::string digest_of(const Paths& paths) {
   return digest.hex_digest();
 }
 
-/// Everything that the campaign's results depend on. The time limit is left out, because it changes the
-/// number of rounds, not the result of a round.
+/// Everything on which the campaign's results depend. Leaves out the time limit, because it changes the
+/// number of rounds, but not the result of a round.
 RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const Subjects& subjects) {
   RunInfo info = options.trial.run_info("fuzz", subjects);
   std::string& again = info["again"];

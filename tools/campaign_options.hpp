@@ -1,4 +1,4 @@
-// A campaign as the commands fuzz, ladder and tightness run it.
+// The options of a campaign, which the commands fuzz, ladder and tightness run.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace nearmiss::tools {
 struct CampaignOptions {
   TrialOptions trial;
   std::vector<std::string> families{"all"}, sweeps;
-  std::vector<std::string> kinds;  ///< short names; empty: those of kinds_to_ask()
+  std::vector<std::string> kinds;  ///< short names of the kinds to ask; if empty, kinds_to_ask()
   SeparationOption separation;
   int steps = 17;
   bool search = false;
@@ -27,7 +27,8 @@ struct CampaignOptions {
   RecordOptions record;
 };
 
-/// Runs the campaign, or the rest of it, and records its results. Returns the exit code. Throws Error.
+/// Runs the campaign, or the rest of a stored one, and records its results. Returns the exit code. Throws
+/// Error for bad options, and if results cannot be stored.
 int record_campaign(const CampaignOptions& options);
 
 }  // namespace nearmiss::tools

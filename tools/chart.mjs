@@ -1,8 +1,9 @@
-// Writes a chart of a report as an SVG file, or any part of its page as a PNG file: opens the page in Chromium, as
-// a user does.
+// Writes a chart of a report as an SVG file, or any element of the report's page as a PNG file. Opens the
+// page in Chromium, as a user does.
 // Usage: node tools/chart.mjs REPORT CHART OUT.svg|OUT.png
 //   REPORT  the folder of a report
-//   CHART   the id of a chart on its page, such as error-time, misses or distances; for a PNG file, of any element
+//   CHART   the id of a chart on the report's page, such as error-time, misses or distances; for a PNG file,
+//           the id of any element
 //   OUT     the file to write; a name that ends in -dark.svg gets the colours of a dark page
 import { existsSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -29,7 +30,7 @@ try {
   const part = page.locator(`[id="${chart.replace(/["\\]/g, "\\$&")}"]`);
   if ((await part.count()) === 0) refuse(`${file}: found no chart '${chart}'`);
   if (out.endsWith(".png")) {
-    await page.emulateMedia({ media: "print" }); // without buttons
+    await page.emulateMedia({ media: "print" }); // hides the buttons
     await part.screenshot({ path: out });
     process.exit(0);
   }
@@ -38,7 +39,7 @@ try {
     if (!drawn) return undefined;
     const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
     for (const [name, value] of Object.entries({ width: "100%", height: "100%", fill })) paper.setAttribute(name, value);
-    drawn.prepend(paper); // so that it can be read on any page
+    drawn.prepend(paper); // a background, so that the chart can be read on a page of any colour
     return new XMLSerializer().serializeToString(drawn);
   }, [chart, isDark ? "#0d1117" : "white"]);
   if (svg === undefined) refuse(`${file}: found no chart '${chart}'`);

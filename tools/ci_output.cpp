@@ -20,7 +20,7 @@ void CiOutput::add_to(CLI::App& command) {
 
 void CiOutput::expect_writable(std::span<const OptionFile> others) const {
   if (junit_.empty()) return;
-  // Unlike --json, --junit has no form for standard output.
+  // Unlike --json, --junit does not take - for standard output.
   if (junit_ == "-") throw Error("--junit: found '-', expected a file");
   tools::expect_writable(junit_, "--junit");
   for (const OptionFile& other : others) expect_different({junit_, "--junit"}, other);

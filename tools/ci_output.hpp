@@ -17,11 +17,12 @@ class CiOutput {
   /// Adds --junit and --github.
   void add_to(CLI::App& command);
 
-  /// Throws Error if it is already clear that the file cannot be written, or if it is one of these, such as the
-  /// store.
+  /// Throws Error if it is already clear that the file of --junit cannot be written, or if it is one of
+  /// `others`, such as the store.
   void expect_writable(std::span<const OptionFile> others) const;
 
-  /// Writes the file, and prints the annotations to `text`, as far as they are wanted. Throws Error.
+  /// Writes the file and prints the annotations to `text`, each if its option is given. Throws Error if the
+  /// file cannot be written.
   void write(const Campaign& campaign, const Failures& failing, std::FILE* text = stdout) const;
 
  private:

@@ -1,4 +1,4 @@
-// The subcommands of nearmiss, one file each.
+// The subcommands of nearmiss. Each has a file in tools/commands/.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,12 +8,12 @@ namespace nearmiss::tools {
 /// Exit codes, on which scripts depend. They are the same for every subcommand that shows results.
 inline constexpr int exit_fine = 0;
 /// The shown results have a failure of usual_failures() (reports/statistics/failure.hpp), or one that
-/// --fail-on names, even if a baseline has it, too.
+/// --fail-on names, even if the baseline has the same failure.
 inline constexpr int exit_found = 1;
 inline constexpr int exit_bad_input = 2;  ///< bad usage or bad input, or output that cannot be written
 inline constexpr int exit_interrupted = 130;
 
-// Each function adds its subcommand to the command line. When the subcommand runs, it stores its exit code in
+// Each function adds a subcommand to the command line. When the subcommand runs, it stores its exit code in
 // `exit_code`.
 void add_demo(CLI::App& app, int& exit_code);
 void add_oracle(CLI::App& app, int& exit_code);

@@ -5,9 +5,9 @@
 
 namespace nearmiss::tools {
 
-/// The commit that was checked out when nearmiss was built, as 40 hexadecimal digits. If its code was
-/// changed, "-dirty." and the beginning of a digest of the changes follow; the digest includes only the names
-/// of new files. "unknown" if the source code was not in a Git repository of its own.
+/// The commit that was checked out when nearmiss was built, as 40 hexadecimal digits. If the source code
+/// differed from the commit, "-dirty." and the beginning of a digest of the changes follow; of new files,
+/// the digest has only the names. "unknown" if the source code was not in a Git repository of its own.
 std::string commit();
 
 }  // namespace nearmiss::tools

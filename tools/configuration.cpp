@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r";
 
-/// Where the string that begins a line ends: behind its second quote, or at the end of the line.
+/// The length of the string at the beginning of a line: up to its second quote, or to the end of the line.
 std::size_t string_length(std::string_view line) {
   const char quote = line.front();
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -27,14 +27,14 @@ std::size_t string_length(std::string_view line) {
   return line.size();
 }
 
-/// How long the first piece of a line is: a string, a character that separates, or a word.
+/// The length of the first piece of a line. A piece is a string, a character that separates, or a word.
 std::size_t piece_length(std::string_view line) {
   constexpr std::string_view separators = " \t\r=,[]\"'#";
   if (line.front() == '"' || line.front() == '\'') return string_length(line);
   return std::clamp<std::size_t>(line.find_first_of(separators), 1, line.size());
 }
 
-/// The word; if it is a number, without underscores between digits.
+/// The word. If it is a number, leaves out underscores between digits.
 std::string without_underscores(std::string_view word) {
   constexpr std::string_view digits = "0123456789";
   if (word.find_first_not_of("0123456789_+-.eE") != std::string_view::npos) return std::string(word);

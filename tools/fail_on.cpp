@@ -15,7 +15,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// "unknown, contract, slow"
+/// The names of the failures that count only on request: "unknown, contract, slow".
 std::string names_on_request() {
   std::vector<std::string_view> names;
   for (const FailureKind kind : all_failures())
@@ -23,7 +23,7 @@ std::string names_on_request() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Whether this is the name of a fault that needs no request.
+/// Whether a text names a fault; --fail-on need not name faults, because they always count.
 bool is_fault(const std::string& text) {
   const auto found = std::find(fault_names.begin(), fault_names.end(), text);
   return found != fault_names.end() &&

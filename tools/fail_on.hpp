@@ -1,4 +1,4 @@
-// --fail-on A,B: the exit code of the subcommands that show results.
+// --fail-on A,B: further failures for which the subcommands that show results exit with code 1.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 
 namespace nearmiss::tools {
 
-/// Which failures count: the usual ones, and those that the user names.
+/// The failures that count: the usual ones, and those that the user names.
 class FailOnOption {
  public:
   /// Adds --fail-on. The option throws Error for a name that no failure has.
@@ -15,7 +15,7 @@ class FailOnOption {
 
   [[nodiscard]] const Failures& failures() const { return failures_; }
 
-  /// exit_found if one of the failures is in the statistics, else exit_fine.
+  /// exit_found if the statistics have a failure that counts, otherwise exit_fine.
   [[nodiscard]] int exit_code(const Statistics& statistics) const;
 
  private:

@@ -1,17 +1,16 @@
 # shellcheck shell=bash
-# A fresh Debian in a folder: sourced by scripts, after options.sh. Needs root, mmdebstrap, and Debian's
-# mirror.
+# Functions that install and use a fresh Debian in a folder. A script sources this file after options.sh.
+# Needs root, mmdebstrap, and Debian's mirror.
 
-# make_debian RELEASE FOLDER [OPTION...]: installs a release, such as trixie; the options are those of
-# mmdebstrap.
+# make_debian RELEASE FOLDER [OPTION...]: installs a release, such as trixie, with options for mmdebstrap.
 make_debian() {
   ((EUID == 0)) || refuse "needs root"
   command -v mmdebstrap >/dev/null || refuse "found no mmdebstrap, expected Debian's package"
   mmdebstrap --quiet --variant=minbase --include=mount "${@:3}" "$1" "$2"
 }
 
-# in_debian FOLDER COMMAND...: runs a command in this Debian as root, with /proc, /sys and /dev.
-# VARIABLE=VALUE may precede the command. The mounts are visible only to the command and end with it.
+# in_debian FOLDER [VARIABLE=VALUE...] COMMAND...: runs a command in the Debian in this folder as root, with
+# /proc, /sys and /dev. Only the command sees these mounts, and they end with it.
 in_debian() {
   # shellcheck disable=SC2016  # the inner shell expands the variables
   unshare --mount sh -ec '

@@ -1,20 +1,19 @@
 # shellcheck shell=bash
-# Lets scripts that run other programs for hours react to interrupts at once. Bash itself runs a trap only
-# after the foreground program has ended. Therefore a script sources this file and runs programs with
-# `attend`.
+# Lets scripts that run programs for hours react to interrupts at once. Bash runs a trap only after the
+# foreground program has ended, so a script sources this file and runs its programs with `attend`.
 
 interrupted=false  # whether INT, TERM or HUP has come
 attended=          # the process to which these signals are passed on
 
-# Passes a signal on as TERM, because a background program of a script ignores INT.
+# Passes every signal on as TERM, because a program that a script runs in the background ignores INT.
 on_interrupt() {
   interrupted=true
   [[ -z $attended ]] || { kill -TERM -- "-$attended" || kill -TERM "$attended" || true; } 2>/dev/null
 }
 trap on_interrupt INT TERM HUP
 
-# await PROCESS: waits until a background process has ended, even if signals come meanwhile, and returns its
-# exit code.
+# await PROCESS: waits until a background process has ended, whatever signals the script gets meanwhile, and
+# returns the process's exit code.
 await() {
   local code=0
   while kill -0 "$1" 2>/dev/null; do wait "$1" || true; done  # a signal ends the wait
@@ -22,9 +21,9 @@ await() {
   return $code
 }
 
-# attend COMMAND...: runs a program. An interrupt ends it with TERM, or keeps it from starting. Returns its
-# exit code, or 130 if it did not start. A program that leaves its children behind needs setsid(1): then TERM
-# goes to all of them.
+# attend COMMAND...: runs a program. An interrupt ends the program with TERM, or keeps it from starting.
+# Returns the program's exit code, or 130 if it did not start. A program that would leave its children
+# running needs setsid(1): TERM then goes to all of them.
 attend() {
   local code=0
   ! $interrupted || return 130

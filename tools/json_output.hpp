@@ -10,7 +10,7 @@
 
 namespace nearmiss::tools {
 
-/// A file, and the option whose value it is; an empty path if the option is not given.
+/// A file that an option names; its path is empty if the option is not given.
 struct OptionFile {
   std::filesystem::path file;
   std::string_view option;
@@ -19,13 +19,14 @@ struct OptionFile {
 /// Throws Error if two options name the same file.
 void expect_different(const OptionFile& one, const OptionFile& other);
 
-/// Throws Error if it is already clear that a file, which is an option's value, cannot be written, or if it
-/// would replace the file `db`.
+/// Throws Error if it is already clear that the file that an option names cannot be written, or if it would
+/// replace the file `db`.
 void expect_writable(const std::filesystem::path& file, std::string_view option,
                      const std::filesystem::path& db = {});
 
-/// Where a command writes its results as JSON: to a file, to standard output (-), or nowhere. With --json -,
-/// standard output gets the JSON and nothing else; the text goes to standard error.
+/// --json: where a command writes its results as JSON. It writes to a file, to standard output (-), or
+/// nowhere. With
+/// --json -, standard output gets the JSON and nothing else, and the command's text goes to standard error.
 class JsonOutput {
  public:
   /// Adds --json.
@@ -34,18 +35,18 @@ class JsonOutput {
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
   [[nodiscard]] bool is_stdout() const { return file_ == "-"; }
 
-  /// Where the command prints its text.
+  /// The stream to which the command prints its text.
   [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
 
-  /// Throws Error if it is already clear that the file cannot be written, or if it would replace the file
-  /// `db`.
+  /// Throws Error if it is already clear that the file of --json cannot be written, or if it would replace
+  /// the file `db`.
   void expect_writable(const std::filesystem::path& db = {}) const;
 
-  /// Writes the JSON if it is wanted, indented by `indent` blanks. A file is written whole or not at all.
-  /// Throws Error if it cannot be written.
+  /// If --json is given, writes the JSON, indented by `indent` blanks. A file gets all of it or nothing.
+  /// Throws Error if the JSON cannot be written.
   void write(const nlohmann::ordered_json& json, int indent = 2) const;
 
-  /// The file; empty if there is none.
+  /// The file of --json; empty for standard output, or without --json.
   [[nodiscard]] std::filesystem::path file() const { return is_stdout() ? std::filesystem::path() : file_; }
 
  private:

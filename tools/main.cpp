@@ -52,7 +52,7 @@ constexpr const char* exit_codes =
     "as the\n"
     "machine can, which is the default. It changes no answer.";
 
-/// The smallest number of letters to change, add or remove that turns one word into the other.
+/// The edit distance: the smallest number of letters to change, add or remove in one word to get the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -84,7 +84,7 @@ void expect_subcommand(const CLI::App& app, std::string_view word) {
   if (!word.starts_with('-')) expect_known("subcommand", word, names, "nearmiss --help");
 }
 
-/// The command whose --help tells more about these arguments.
+/// The command that shows help for these arguments.
 std::string help_for(int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' ? fmt::format("nearmiss {} --help", argv[1]) : "nearmiss --help";
 }
@@ -110,7 +110,7 @@ void expect_options(const CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// The message of the command line's parser, in which long words that the user typed are cut short.
+/// The message of the command line's parser, with long words that the user typed cut short.
 std::string with_short_words(std::string_view text) {
   constexpr std::size_t most = 200;  // the parser's own longest word, a list of choices, is shorter
   std::string result;
@@ -125,7 +125,7 @@ std::string with_short_words(std::string_view text) {
 }
 
 /// Throws Error if an argument or the value of an option is empty, or consists only of commas. This happens
-/// if a variable of the shell is not set.
+/// if the user writes a variable of the shell that is not set.
 void expect_values(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
@@ -156,13 +156,13 @@ void print_reason(std::string_view reason) {
   std::fputs(("nearmiss: " + nearmiss::printable(reason) + "\n").c_str(), stderr);
 }
 
-/// Throws Error if something that was printed is lost.
+/// Throws Error if anything that was printed could not be written.
 void expect_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw nearmiss::Error(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
 }
 
-/// Prints the command that continues an interrupted command, if that has a store.
+/// If an interrupted command has a store, prints the command that continues it.
 void print_continuation(const CLI::App& command, int argc, char** argv) {
   const CLI::Option* const store = command.get_option_no_throw("--db");
   const CLI::Option* const resume = command.get_option_no_throw("--resume");
@@ -262,17 +262,17 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-/// Keeps freed memory for the next slice of work. By default, the C library returns it to the system, which
-/// takes a tenth of the time of a fast campaign. Setting the threshold for this also fixes the size from
-/// which a block gets a mapping of its own, which otherwise adapts to the program; therefore that size is set
-/// to its maximum.
+/// Keeps freed memory for the next slice of work. By default, the C library returns freed memory to the
+/// system, which takes a tenth of the time of a fast campaign. Setting the threshold for returning memory
+/// has a side effect: the size from which a block gets a mapping of its own no longer adapts to the program.
+/// Therefore sets that size to its maximum.
 void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 << 20);  // bytes of each thread's memory
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
 }
 
 /// Ends the program at once; only results since the last save are lost. An exception would unwind through
-/// number types of CGAL and GMP, which it would leave damaged.
+/// code of CGAL and GMP, and leave their numbers damaged.
 [[noreturn]] void end_without_memory() {
   constexpr std::string_view reason = "nearmiss: found too little memory\n";
   (void)!write(STDERR_FILENO, reason.data(), reason.size());
@@ -284,7 +284,7 @@ void* or_end(void* memory) {
   return memory;
 }
 
-/// Ends the program if memory cannot be allocated, by C++ or by GMP, which would abort.
+/// Lets the program end if C++ or GMP cannot allocate memory. By default, GMP would abort.
 void end_if_memory_runs_out() {
   std::set_new_handler(end_without_memory);
   mp_set_memory_functions(
@@ -305,12 +305,12 @@ int main(int argc, char** argv) {
         odd.c_str());
   keep_freed_memory();
   end_if_memory_runs_out();
-  // The arithmetic is set before any thread starts, because a thread inherits it from the thread that starts
-  // it.
+  // Sets the arithmetic before any thread starts, because a thread inherits the arithmetic of the thread
+  // that starts it.
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);
-  } catch (const nearmiss::Stopped&) {  // before there was anything to save
+  } catch (const nearmiss::Stopped&) {  // there was nothing to save yet
     return nearmiss::tools::exit_interrupted;
   } catch (const std::filesystem::filesystem_error& error) {
     print_reason(fmt::format("{}: {}", error.path1().string(), error.code().message()));

@@ -8,7 +8,8 @@
 
 namespace nearmiss::tools {
 
-/// The median of the numbers that are not NaN, or the upper of the two middle ones; NaN if there are none.
+/// The median of the numbers that are not NaN; for an even number of them, the upper of the two in the
+/// middle. NaN if there are none.
 inline double median(std::vector<double> numbers) {
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (numbers.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,4 @@
-// Files that a command writes, and that get their names when they are complete.
+// Files that a command writes under temporary names until they are complete.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@ namespace nearmiss::tools {
 /// Throws Error if the file exists.
 void expect_new(const std::filesystem::path& file);
 
-/// A new file, which has another name until it is complete.
+/// A new file, which has a temporary name until it is complete.
 class NewFile {
  public:
-  /// Throws Error if the file exists or cannot be made.
+  /// Makes the file under a temporary name. Throws Error if `place` exists, or if the file cannot be made.
   explicit NewFile(const std::filesystem::path& place);
 
   void write(const std::string& text);
-  /// Throws Error if something could not be written.
+  /// Closes the file. Throws Error if any of its content could not be written.
   void close();
-  /// Gives the file its name, unless it is empty. Call close() first.
+  /// Gives the file its final name, unless it is empty. Call close() first.
   void put_in_place();
 
  private:

@@ -1,6 +1,5 @@
-// Reads the options of scripts for Node.js, in the same way as tools/options.sh: --help and -h print the
-// comment at the top of the script, and an unknown option ends the script with exit code 2 before it has done
-// anything.
+// Reads the options of scripts for Node.js as tools/options.sh does: --help and -h print the comment at the
+// top of the script, and an unknown option ends the script with exit code 2 before it does anything.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The options of all scripts. A script sources this file before anything else, and declares its options with
-# `options`. A script's usage is the comment at its top.
+# Reads the options of all scripts. A script sources this file before anything else, and declares its options
+# with `options`. The comment at the top of a script is its usage.
 unset CDPATH  # with it, cd prints a folder, and may go to another one
 script=$(realpath "$0")
 script_name=${script#"$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")/"}
@@ -13,10 +13,10 @@ usage() { sed -n '2,/^[^#]/ { /^#SBATCH/d; /^# shellcheck/d; s/^# \{0,1\}//p }' 
 
 # options SPECIFICATION ARGUMENTS...: reads the arguments of the script.
 # The specification lists the options: 'time= first o=' stands for --time VALUE (or --time=VALUE), the flag
-# --first, and -o VALUE. A value goes to the variable with the option's name, in which - is replaced by _; a
-# flag's variable becomes true. Other arguments go to the array `arguments`. With * in the specification, so
-# do unknown options. The array also gets a -- and every argument after it. -h and --help print the usage. An
-# unknown option or a missing value is refused.
+# --first, and -o VALUE. A value goes to the variable with the option's name, with _ in place of -; the
+# variable of a flag becomes true. The array `arguments` gets all other arguments, including a -- and every
+# argument after it. With * in the specification, it also gets unknown options. Otherwise, the script refuses
+# an unknown option, as it always refuses a missing value. -h and --help print the usage.
 options() {
   local specification=" $1 " name
   shift

@@ -29,7 +29,7 @@ std::string literal(double value, Form language) {
   return text;
 }
 
-/// The vertices at a time (0 or 1): a line for each.
+/// The vertices of a query at t = `time`, 0 or 1, with a line for each vertex.
 std::string points(const Query& query, std::size_t time, Form language) {
   const bool python = language == Form::python;
   std::string text;
@@ -41,7 +41,7 @@ std::string points(const Query& query, std::size_t time, Form language) {
   return text;
 }
 
-/// The event at t*, in words: "The primitives touch".
+/// What happens at t*, in words: "The primitives touch".
 std::string what_happens(const Query& query) {
   return query.separation == 0
              ? "The primitives touch"
@@ -60,8 +60,8 @@ std::string what_is_true(const Query& query) {
                      to_hex(hi));
 }
 
-/// The largest double that is not a late time. Throws Error if the distance first touches h without falling
-/// below it, because a later time is then no failure.
+/// The largest double that is not a late time. Throws Error if the distance reaches h without falling below
+/// it at first: some later times are then no failure.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;
@@ -90,7 +90,7 @@ std::string what_was_answered(const Finding& finding) {
   }
 }
 
-/// A text that says which points belong to which primitive.
+/// Says which points belong to which primitive of a kind.
 std::string_view primitives(Kind kind) {
   switch (kind) {
     case Kind::vertex_triangle:
@@ -105,7 +105,7 @@ std::string_view primitives(Kind kind) {
   return "";
 }
 
-/// The lines of the comment on top of the test.
+/// The lines of the comment at the top of the test; each begins with `mark`.
 std::string comment(const Finding& finding, std::string_view mark) {
   std::istringstream lines(
       fmt::format("{} (found by nearmiss).\nVertices move linearly from `start` (t = 0) to `end` (t = "
@@ -118,7 +118,7 @@ std::string comment(const Finding& finding, std::string_view mark) {
   return text;
 }
 
-/// The certificate of what the test expects; "" if there is none.
+/// The certificate of the truth that the test expects; "" if there is none.
 std::string certificate(Finding finding) {
   if (finding.what == Finding::What::late) finding.time = std::nextafter(largest_time(finding.shrunk), 2.0);
   return certificate_of(finding);
@@ -133,7 +133,7 @@ std::string certificate_comment(const std::string& certificate) {
       certificate);
 }
 
-/// A text in parts of a line each, as a literal of Python.
+/// A text as a literal of Python, divided into parts that fit on a line each.
 std::string literal_in_lines(std::string_view text) {
   constexpr std::size_t width = 90;
   std::string lines;
@@ -142,7 +142,7 @@ std::string literal_in_lines(std::string_view text) {
   return "(\n" + lines + ")";
 }
 
-/// A number of a statement, in Python.
+/// A number in a certificate's statement, as Python source code.
 std::string literal(const mpq_class& value) {
   return mpq_class(value.get_d()) == value ? literal(value.get_d(), Form::python)
                                            : fmt::format("check.Fraction('{}')", value.get_str());
@@ -208,13 +208,13 @@ std::string expectation(const Finding& finding, const std::string& arguments, Fo
   const std::string is_right =
       python ? (collision ? "" : "not ") + detects : fmt::format("{} == {}", detects, collision);
   if (!gives_invalid_time(finding)) return is_right;
-  // If the CCD reports no collision, it needs no time. If it reports a false positive, it needs a valid one.
+  // A false positive must have a valid time, too; an answer without a collision needs none.
   if (python) return fmt::format("{} {} 0 <= {} <= 1", is_right, collision ? "and" : "or", time);
   return collision ? fmt::format("{0} && {1} >= 0 && {1} <= 1", is_right, time)
                    : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);
 }
 
-/// A comment that asks the reader to write the functions, followed in C++ by their declarations.
+/// A comment that asks the reader to write these functions. In C++, their declarations follow.
 std::string request(const std::vector<Asked>& functions, const Query& query, Form language) {
   const bool python = language == Form::python;
   const bool has_separation = query.separation != 0;

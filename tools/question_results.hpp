@@ -10,16 +10,17 @@
 
 namespace nearmiss::tools {
 
-/// A table of subjects and kinds, the sizes and angles at which each is right, and the findings.
+/// A table with a row for each subject and kind, the sizes and angles at which each subject is right, and
+/// the findings.
 std::string text_of(const QuestionResults<DistanceQuestion>& results);
 std::string text_of(const QuestionResults<StepQuestion>& results);
 
-/// The same, with the queries exactly.
+/// The content of text_of as JSON, with exact queries.
 nlohmann::ordered_json json_of(const QuestionResults<DistanceQuestion>& results);
 nlohmann::ordered_json json_of(const QuestionResults<StepQuestion>& results);
 
-/// What a report shows of the JSON of distances: its section `distances`. Throws an exception of nlohmann if it
-/// is no such JSON.
+/// The section `distances` of a report: the part of `results`, the JSON of nearmiss distance, that it shows.
+/// Throws an exception of nlohmann for any other JSON.
 nlohmann::ordered_json distances_section(const nlohmann::ordered_json& results);
 
 }  // namespace nearmiss::tools

@@ -34,8 +34,8 @@ namespace {
 
 constexpr std::size_t printed_if_verbose = 10;  // findings
 constexpr auto save_interval = std::chrono::milliseconds(500);
-constexpr auto when_locked = std::chrono::seconds(5);           // a longer interval, because each try waits
-constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // rare, because it writes all findings
+constexpr auto when_locked = std::chrono::seconds(5);           // longer, because each attempt waits
+constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // long, because a save writes all findings
 
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
@@ -66,7 +66,7 @@ void print_broken(std::FILE* text, const std::vector<Finding>& findings, const S
   }
 }
 
-/// The lines as they are shown: wrapped, if that is a terminal.
+/// The lines in the form for `text`: wrapped if it is a terminal.
 std::string shown_lines(std::FILE* text, const std::string& lines) {
   constexpr std::size_t columns = 100, most_lines = 6;
   if (isatty(fileno(text)) == 0) return lines;
@@ -136,7 +136,7 @@ Record::~Record() {
   if (!store_) return;
   try {
     if (unsaved_) save_now();
-  } catch (const std::exception&) {  // the cause, such as a full disk, has also ended the command
+  } catch (const std::exception&) {  // the cause, such as a full disk, has already ended the command
   }
   if (saved_) return;
   store_.reset();

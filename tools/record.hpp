@@ -20,7 +20,7 @@
 
 namespace nearmiss::tools {
 
-/// --json FILE|-, --db FILE, --fail-on A,B, --junit FILE, --github, --quiet and --verbose
+/// The options --json FILE|-, --db FILE, --fail-on A,B, --junit FILE, --github, --quiet and --verbose.
 struct RecordOptions {
   JsonOutput json = {};
   std::filesystem::path db = {};
@@ -48,26 +48,26 @@ std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most);
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
 class Record {
  public:
-  /// Throws Error, before any work is done, if a file cannot be made, or if the store has another run. From
-  /// now on, a signal only sets a flag (stop_on_signals), so that the command saves its results. Throws
-  /// Stopped if that happens while the store is read.
+  /// Throws Error, before the command does any work, if a file cannot be made, or if the store has another
+  /// run. From now on, a signal only sets a flag (stop_on_signals), so that the command can save its
+  /// results. Throws Stopped if a signal comes while the store is read.
   Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
-  /// Saves what was added, if an exception ends the command. Removes the store if nothing was ever saved in
-  /// it.
+  /// If an exception has ended the command, saves what was added since the last save. Removes the store if
+  /// nothing was ever saved in it.
   ~Record();
 
   /// The shard, including the work of earlier processes if the run was resumed.
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result, and replaces findings that have been shrunk since; saves at intervals.
+  /// Adds a result, and replaces findings that have been shrunk since they were added. Saves at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store. If another process has locked the store, waits up to half a
   /// minute.
   void add(const ScenePicture& picture);
-  /// Saves what was added. Waits for a locked store in the same way.
+  /// Saves what was added. If another process has locked the store, waits up to half a minute.
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
@@ -97,7 +97,7 @@ class Record {
   bool saved_ = false;    // whether anything was ever saved
   bool unsaved_ = false;  // something was added since the last save
   Statistics statistics_;
-  std::set<CountsKey> set_aside_;  // already announced as too slow to be asked more
+  std::set<CountsKey> set_aside_;  // announced as too slow to be asked more
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved

@@ -26,7 +26,7 @@ Scene open_scene(const std::vector<std::string>& arguments) {
 
 namespace {
 
-/// Whether a subject's answers depend on a given bound.
+/// Whether a subject uses a bound that is given to it.
 bool uses_bound(const std::string& text) {
   Query query;
   query.x[0] = 1;

@@ -1,4 +1,4 @@
-// The subjects that are asked about a scene, with their bounds.
+// The subjects that are asked about a scene, each with the bound that it is to use.
 #pragma once
 
 #include <cstdio>
@@ -12,7 +12,8 @@
 
 namespace nearmiss::tools {
 
-/// The scene of the arguments START END, FOLDER, or NAME@SIZE of a built-in scene. Throws Error.
+/// Opens the scene that the arguments name: START END, FOLDER, or NAME@SIZE for a built-in scene. Throws
+/// Error if there is no such scene.
 Scene open_scene(const std::vector<std::string>& arguments);
 
 struct SceneSubjects {
@@ -20,14 +21,15 @@ struct SceneSubjects {
   std::optional<double> bound = {};  ///< the scene's bound, if a subject needs it
 };
 
-/// Makes the subjects with each of the bounds "pair", "scene" or a number. NAME uses each pair's own bound,
-/// NAME@scene the largest bound of the scene's pairs, and NAME@B the number. Throws Error.
+/// Makes the subjects once with each of the bounds, which are "pair", "scene" or a number B. A subject's
+/// name is NAME if it uses each pair's own bound, NAME@scene if it uses the largest bound of the scene's
+/// pairs, and NAME@B if it uses the number. Throws Error for an unknown subject or bound.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene, const Stop& stop);
 
-/// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of
-/// contact; prints the claim and the cost of each subject to `out`. Throws Error if there is no such subject,
-/// or if the thickness is not a number.
+/// Keeps only the cheapest of the subjects whose claimed distance of false positives does not exceed the
+/// thickness of contact. Prints the claim and the cost of each subject to `out`. Throws Error if no subject
+/// is accurate enough, or if the thickness is not a number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects, std::FILE* out);
 

@@ -8,26 +8,27 @@
 
 namespace nearmiss::tools {
 
-/// Opens /dev/null for each standard stream that was closed when the program started, so that no store and no
-/// socket gets its descriptor. Reading or writing the stream is still an error. Must be called before any
-/// file is opened.
+/// Opens /dev/null for each standard stream that was closed when the program started, so that no store and
+/// no socket gets the stream's descriptor. Using the stream is still an error. Call this before the program
+/// opens any file.
 void occupy_standard_streams();
 
-/// Until `stop_on_signals` is called, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code
-/// of an interrupt. Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an
-/// error instead of a signal. Commands call this again when everything is saved, because their output may
-/// wait for a reader forever. Then a signal within two seconds of the one that set the flag is ignored.
+/// From now on, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code of an interrupt.
+/// Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an error instead of a
+/// signal. Commands call this again after stop_on_signals(), when everything is saved, because their output
+/// may wait forever for a reader. In that case, the program ignores a signal within two seconds of the
+/// signal that set the flag.
 void end_on_signals();
 
-/// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that results can be saved; a second signal, at
-/// least two seconds later, ends the program at once. Call this only when there is something to save. Until
-/// then, a signal ends the program at once, for example while it loads files.
+/// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that the program can save its results; a second
+/// signal, at least two seconds later, ends the program at once. Call this only once there is something to
+/// save, so that before that, for example while the program loads files, a signal ends it at once.
 void stop_on_signals();
-/// This flag.
+/// The flag that these signals set.
 const std::atomic<bool>& interrupted();
 
-/// Shows progress on stderr: one line that is overwritten; a new line every minute if stderr is not a
-/// terminal.
+/// Shows progress on stderr. In a terminal, each line overwrites the last one; elsewhere, a new line comes
+/// every minute.
 class Progress {
  public:
   explicit Progress(bool quiet = false);

@@ -16,7 +16,7 @@ struct Place {
   double column, row;
 };
 
-/// A sheet of characters, which are about twice as high as wide.
+/// A sheet of characters. A character is about twice as high as wide.
 class Sheet {
  public:
   static constexpr int columns = 64;
@@ -102,7 +102,7 @@ std::string terminal_picture(const Query& query, double time) {
     sheet.draw(at(i, time), at(j, time), mark);
   };
   const auto& edges = topology(query.kind).edges;
-  for (std::size_t i = edges.size(); i-- > 0;)  // the first primitive is on top
+  for (std::size_t i = edges.size(); i-- > 0;)  // draws the first primitive last, on top
     edge(edges[i].from, edges[i].to, edges[i].from == 0 ? 'o' : '#');
   constexpr std::string_view numbers = "0123";
   for (std::size_t i = 4; i-- > 0;) sheet.draw(at(i, time), numbers[i]);

@@ -7,9 +7,9 @@
 
 namespace nearmiss::tools {
 
-/// Lines of text that show the query at a time, in parallel projection along the axis of its smallest extent:
-/// the first primitive with 'o', the second with '#', vertices with their numbers, and the paths of the
-/// vertices with '.'.
+/// Lines of text that show the query at a time, in parallel projection along the axis of its smallest
+/// extent. 'o' draws the first primitive, '#' the second, digits the vertices, and '.' the paths of the
+/// vertices.
 std::string terminal_picture(const Query& query, double time);
 
 /// A line for each vertex, "  x0 (0, 0, 0) -> (0, 0, 1)": its coordinates at t = 0, and at t = 1 if it moves. They

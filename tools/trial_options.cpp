@@ -75,7 +75,7 @@ Subjects TrialOptions::keep_contracts(Subjects made) const {
 
 namespace {
 
-/// The name of a fact about a renamed subject.
+/// The name of the fact about a renamed subject.
 std::string subject_fact(const std::string& subject) { return std::string(about_subject) + subject; }
 
 std::string plugin_fact(const std::string& subject) { return std::string(about_plugin) + subject; }
@@ -136,7 +136,7 @@ std::string absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// A program's command, changed so that it does the same in any current folder.
+/// The command of a program, with absolute paths, so that it works in any current folder.
 std::string absolute_command(const std::string& command) {
   const std::vector<std::string> words = shell_words(command);
   const bool is_absolute = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -148,7 +148,7 @@ std::string absolute_command(const std::string& command) {
                      command.starts_with("cd ") ? "" : "exec ", command);
 }
 
-/// The text that denotes a plug-in, whatever the current folder is.
+/// The text that denotes a plug-in, with an absolute path, so that it works in any current folder.
 std::string absolute_text(const Subject& subject) {
   const auto [name, plugin] = SubjectText::parse(text_of(subject));
   const std::string given = name.empty() ? "" : name + "=";

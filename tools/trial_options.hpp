@@ -11,8 +11,8 @@
 
 namespace nearmiss::tools {
 
-/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --no-shrink,
-/// --versions, --jobs
+/// The options --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds,
+/// --no-shrink, --versions and --jobs.
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
   bool beyond_contract = false;
@@ -23,23 +23,23 @@ struct TrialOptions {
 
   void add_to(CLI::App& command);
 
-  /// The limits of plug-ins. When `stop` is due, nearmiss no longer waits for the answer of a plug-in.
+  /// The limits of plug-ins. Once `stop` is due, nearmiss no longer waits for a plug-in's answer.
   [[nodiscard]] isolation::PluginLimits plugin_limits(const Stop& stop) const;
 
-  /// The subjects, wrapped so that they are asked only what their contracts allow (contracted.hpp). Throws
-  /// Error for an unknown name.
+  /// Makes the subjects, wrapped so that each is asked only queries that its contract allows
+  /// (contracted.hpp). Throws Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
-  /// Wraps subjects that were made without regard to their contracts, as make_subjects does, and gives them
-  /// distinct names (tell_apart).
+  /// Wraps subjects as make_subjects does, and gives them distinct names (tell_apart). `made` are subjects
+  /// that may still be asked any query.
   Subjects keep_contracts(Subjects made) const;
 
-  /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is
-  /// the subcommand with its own arguments. The entry `again` is the command that repeats the run.
+  /// Everything on which a run's results depend, including the digest and the version of each plug-in.
+  /// `what` is the subcommand with its own arguments. The fact `again` is the command that repeats the run.
   [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
 
-/// Notes an option on which a run's results depend: its value as a fact, and the option in the command that
-/// repeats the run.
+/// Notes an option on which a run's results depend: adds its value as a fact, and the option to the command
+/// that repeats the run.
 void note_option(RunInfo& info, const std::string& fact, const std::string& option, const std::string& value);
 
 /// The line of progress of a command that has asked all queries and shrinks its findings.

@@ -12,8 +12,8 @@ namespace nearmiss::tools {
 /// The largest number of queries that an option takes.
 inline constexpr std::uint64_t most_queries = std::uint64_t{1} << 62;
 
-/// Adds an option whose value is a whole number from `least` to `most`. --help shows the present value as the
-/// default. `value` must live as long as the command.
+/// Adds an option whose value is a whole number from `least` to `most`. --help shows the present content of
+/// `value` as the default. `value` must live as long as the command.
 template <class Integer>
 CLI::Option* add_count_option(CLI::App& command, const std::string& name, Integer& value, std::uint64_t least,
                               std::uint64_t most, const std::string& description) {

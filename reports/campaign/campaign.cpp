@@ -23,10 +23,10 @@ namespace nearmiss {
 
 namespace {
 
-/// Sorts findings into the order in which one machine would have found them, and drops those that it would
-/// not have kept.
+/// Sorts the findings of all shards into the order in which a single machine would have found them, and drops
+/// those that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
-  // All findings of a case come from one shard, which has them in order.
+  // The sort is stable because all findings of a case come from one shard, which has them in order.
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
@@ -36,12 +36,12 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    if (name != "again")  // the command that repeats the other facts
+    if (name != "again")  // this command only repeats the other facts
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 
-/// The facts of the original of a salvaged run: those that a salvage adds are removed.
+/// The facts that a run had before its store was salvaged: without those that a salvage adds.
 RunInfo original_of(RunInfo info) {
   info.erase(salvaged_fact);
   info.erase(origin_fact);
@@ -110,7 +110,7 @@ std::vector<Finding> Campaign::findings() const {
 
 namespace {
 
-/// Throws Error if the campaign has results of an unknown run, which a merge could count twice.
+/// Throws Error if the campaign has results of an unknown run, because a merge could count them twice.
 void expect_known_runs(const Campaign& campaign, const std::string& name) {
   if (std::any_of(campaign.runs.begin(), campaign.runs.end(),
                   [](const Run& run) { return run.info.contains(origin_fact); }))
@@ -151,8 +151,8 @@ class RunMerger {
                               fact->name, fact->other, fact->one, other_name, describe(task_of(info))));
   }
 
-  /// Throws Error if a name is that of a plug-in, or of a renamed subject, and of another one in another input.
-  /// A plug-in's bytes and version may differ from night to night.
+  /// Throws Error if two inputs give the same name to different plug-ins or renamed subjects. Versions of one
+  /// plug-in are not different plug-ins: its bytes and version may differ from night to night.
   void expect_known_names(const RunInfo& info, const std::string& name) {
     for (const auto& [about, value] : info) {
       const bool is_plugin = about.starts_with(about_plugin) && about.ends_with(its_digest) &&
@@ -187,12 +187,13 @@ class RunMerger {
 
   std::map<RunInfo, Run> runs_;
   std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< the first run of each task, and its input
-  /// For each name of a plug-in or of a renamed subject: what it stands for, and the first input with it.
+  /// What each name of a plug-in or of a renamed subject stands for, and the first input that has the name.
   std::map<std::string, std::pair<std::string, std::string>> by_subject_;
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };
 
-/// Whether one of the names in a fact, up to a comma or a blank, fulfils a condition; true without the fact.
+/// Whether a fact lists a name that fulfils a condition; true if the run does not have the fact. Commas
+/// divide the list, and a blank ends a name: what follows it is a comment.
 template <class Condition>
 bool any_name(const RunInfo& info, const std::string& of, const Condition& condition) {
   const std::string text = fact(info, of);
@@ -204,8 +205,9 @@ bool any_name(const RunInfo& info, const std::string& of, const Condition& condi
   return false;
 }
 
-/// Whether a run may have asked the queries of a key, by its facts: families "uniform,needle",
-/// "stiff in 17 steps" or "all, search", kinds "vt,ee", subjects "wang,x=wang,./plugin.so".
+/// Whether a run may have asked the queries of a key, judged by the run's facts. Their values are such as
+/// "uniform,needle", "stiff in 17 steps" or "all, search" for the families, "vt,ee" for the kinds, and
+/// "wang,x=wang,./plugin.so" for the subjects.
 bool may_ask(const RunInfo& info, const CountsKey& key) {
   const FamilyName wanted(key.family);
   return any_name(info, "families",
@@ -221,7 +223,7 @@ bool may_ask(const RunInfo& info, const CountsKey& key) {
          });
 }
 
-/// The same key for queries of the same separation, such as 0.1 and 0.10.
+/// The key with its separation in one form, so that families with 0.1 and with 0.10 have equal keys.
 CountsKey with_usual_separation(CountsKey key) {
   FamilyName of(key.family);
   const auto separation = of.separation ? number_in(*of.separation) : std::nullopt;
@@ -239,16 +241,16 @@ std::set<CountsKey> random_keys(const Campaign& campaign, const RunInfo& info) {
   return keys;
 }
 
-/// Whether the queries of a family are those of files.
+/// Whether the queries of a family come from files.
 bool is_of_files(std::string_view root) { return root == "mesh" || root == "near" || root == "near-within"; }
 
-/// Whether campaigns that are added up asked a subject the same random queries, or have the same step of a
-/// simulation, which would count twice.
+/// Finds results that would count twice if campaigns are added up: answers of a subject to the same random
+/// queries, or the same step of a simulation.
 class AskedQueries {
  public:
-  /// Adds a campaign, whose store has this name. Throws Error if a run of a campaign that was added before had
-  /// the same seed and asked the same subject queries of the same family, or has the same step of a simulation.
-  /// Shards of one run ask different queries.
+  /// Adds a campaign; `name` is that of its store. Throws Error if two runs of different campaigns have the
+  /// same seed and ask the same subject queries of the same family, or have the same step of a simulation.
+  /// Shards of one run do not count as two runs, because they ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:
@@ -322,7 +324,7 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
 
 namespace {
 
-/// Says after how many of its cases an incomplete run of one shard stopped.
+/// Says how many cases an incomplete run of one shard has decided.
 std::string how_far(const Run& run) {
   const Shard& shard = run.shards.front();
   const std::string after = "stopped after " + with_separators(shard.cases);

@@ -28,9 +28,10 @@ using RunInfo = std::map<std::string, std::string>;
 /// The value of a fact, "" if there is none.
 std::string fact(const RunInfo& info, const std::string& name);
 
-/// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256", "plug-in NAME version", and
-/// "plug-in NAME detector" if the plug-in calls itself otherwise. The environment of a shard has "plug-in NAME",
-/// which is how the command line names the plug-in in every folder, and "plug-in NAME build id".
+/// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256" and "plug-in NAME
+/// version"; if the plug-in calls itself by another name, "plug-in NAME detector" has that name. The
+/// environment of a shard has "plug-in NAME build id", and "plug-in NAME", an argument that names the
+/// plug-in in any working directory.
 inline constexpr std::string_view about_plugin = "plug-in ";
 inline constexpr std::string_view its_digest = " sha256";
 inline constexpr std::string_view its_detector = " detector";
@@ -41,21 +42,21 @@ inline constexpr std::string_view about_subject = "subject ";
 /// and the commit of nearmiss, and the bytes and the version of each plug-in.
 bool says_which_code(std::string_view fact);
 
-/// The facts of a run that say what it was asked to do, not which code ran, or what was lost since.
+/// The facts that say what a run was asked to do; without those on which code ran and on what a salvage lost.
 RunInfo task_of(const RunInfo& info);
 
-/// A fact that differs between two runs, and its two values; "" if a run does not have it. The command to
-/// repeat a run is not compared, because it repeats other facts.
+/// A fact that differs between two runs, and its two values; the value is "" for a run without the fact. The
+/// command that repeats a run is not compared, because it only repeats other facts.
 struct DifferentFact {
   std::string name, one, other;
 };
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
-/// Name of the fact of a run that says what was lost when its store was salvaged. A run with this fact is a
-/// different run, so that no command resumes it.
+/// Name of the fact that says what a run lost when its store was salvaged. A run with this fact differs from
+/// the original run, so no command resumes it.
 inline constexpr const char* salvaged_fact = "salvaged";
-/// Name of the fact that a salvage gives to all runs if rows about runs were lost: some results may then
-/// belong to an unknown run.
+/// Name of the fact that a salvage gives to every run of a store that lost rows about runs: some results may
+/// belong to a run that is no longer known.
 inline constexpr const char* origin_fact = "origin";
 
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
@@ -69,15 +70,15 @@ struct Shard {
   bool complete = false;
   std::string started = {};  ///< date and time, for people only: clocks jump
   double seconds = 0;        ///< run time so far
-  RunInfo environment = {};  ///< machine and compiler; times depend on it, and no other result does
+  RunInfo environment = {};  ///< machine and compiler: only run times depend on them
 
   bool operator==(const Shard&) const = default;
 };
 
-/// A command with everything on which its results depend; equal runs give equal results. The facts of a run
-/// include the code that ran: the commit of nearmiss, and the bytes of each plug-in (`says_which_code`). The
-/// compiler of nearmiss, its flags and the path of a plug-in belong to the environment of a shard: answers do
-/// not depend on them, so different machines can share a run.
+/// A command together with everything on which its results depend: equal runs give equal results. The facts
+/// of a run include the code that ran: the commit of nearmiss, and the bytes of each plug-in
+/// (`says_which_code`). The compiler of nearmiss, its flags and the path of a plug-in belong to the
+/// environment of a shard: answers do not depend on them, so different machines can share a run.
 struct Run {
   RunInfo info;
   std::vector<Shard> shards;      ///< by index

@@ -15,7 +15,7 @@ struct Complexity {
   /// How hard the distinct magnitudes are to draw: the sum of 0 for each integer of one digit, 1 for each
   /// other multiple of 1/4 below 100, and 2 for each remaining magnitude.
   int awkward = 0;
-  int numbers = 0;    ///< nonzero coordinates (one at rest counts once), plus 1 if there is a separation
+  int numbers = 0;    ///< nonzero coordinates, each once if at rest; plus 1 with a separation
   int moving = 0;     ///< coordinates that are not at rest
   int distinct = 0;   ///< magnitudes other than 0, of the coordinates and the separation
   int bits = 0;       ///< sum of the significant bits of these magnitudes
@@ -40,7 +40,7 @@ Numbers numbers_of(const Query& query);
 /// The magnitudes of some numbers other than 0, sorted and without repetition.
 std::vector<double> magnitudes(std::span<const double> numbers);
 
-/// The number of bits of a magnitude from the first to the last set bit.
+/// The number of bits from the first to the last set bit of a magnitude.
 int significant_bits(double magnitude);
 
 }  // namespace nearmiss

@@ -10,20 +10,19 @@
 
 namespace nearmiss {
 
-/// The finding with its shrunk query in place of the original one, and without the ratio of the original
-/// query.
+/// The finding with its shrunk query in place of the original query, and without the ratio, which was that
+/// of the original query.
 Finding of_shrunk(const Finding& finding);
 
-/// The case of a finding, with its truth if the finding implies one.
+/// The case of a finding. It has the truth if the finding implies the truth.
 Case to_case(const Finding& finding);
 
-/// A name for the case's file: what failed, the subject, and an `id` that distinguishes it. Subjects with
-/// similar names, such as "a b" and "a;b", get the same file name, so the id must distinguish their cases
-/// too.
+/// A name for the file of a finding's case: what failed, the subject, and `id`. Subjects with similar names,
+/// such as "a b" and "a;b", get the same text in file names, so the ids of their cases must also differ.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
-/// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A
-/// text of more than 60 bytes is cut, and a hash of it added.
+/// Turns a text into a part of a valid file name: keeps letters, digits, '-' and '.', and replaces every
+/// other character by '_'. Cuts a text of more than 60 bytes, and appends a hash of the whole text.
 std::string file_name(std::string text);
 
 /// The lines of Finding::errors, without their ends.

@@ -5,12 +5,14 @@
 
 namespace nearmiss {
 
-/// The picture is JSON, because only a page reads it:
+/// The picture is a JSON object, because only a page reads it. Its members:
 ///   meanings   entry i says what bit i of a mark means: "collides" and so on
 ///   primitives the number of primitives of the step; a large picture leaves some of them out
-///   points     x y z at t = 0 and x y z at t = 1, one after the other, as integers with blanks between them,
-///              scaled equally along all axes so that all are within 0 and 9999
-///   triangles  three points and a mark, one after the other; lines: two and a mark; dots: one and a mark
+///   points     for each point, x y z at t = 0 and x y z at t = 1: integers from 0 to 9999, divided by
+///              blanks and scaled equally along all axes
+///   triangles  for each triangle, three indices of points and a mark
+///   lines      for each line, two indices of points and a mark
+///   dots       for each dot, an index of a point and a mark
 struct ScenePicture {
   std::string step;  ///< "scene:NAME" or "scene:NAME#STEP"
   std::string json;

@@ -4,14 +4,14 @@
 const failureTitles = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer",
   committed: "step with contact", "unsafe-step": "unsafe step" };
 
-/** "missed collision of basic" and so on. */
+/** The title of a finding, such as "missed collision of basic". */
 function failureTitle(finding) {
   const what = `${failureTitles[finding.what] ?? finding.what} of ${finding.subject || "the oracle"}`;
   if (finding.late_by) return `${what}, by ${short(finding.late_by)} of the step`;
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** Makes a short text of any text, the same in every report. */
+/** A short hash of a text, which is the same in every report. */
 function digest(text) {
   let [a, b] = [0x9e3779b9, 0x85ebca6b];
   for (const letter of text) {
@@ -21,10 +21,10 @@ function digest(text) {
   return [a, b].map((each) => (each >>> 0).toString(36).padStart(7, "0")).join("");
 }
 
-/** The address of a finding on this page, the same in every report that shows it. */
+/** The address of a finding on this page. It is the same in every report that shows the finding. */
 const idOf = ({ subject, kind, what, signature, class: own, provenance }) => `finding-${digest([subject, kind, what, signature, own, provenance].join("\n"))}`;
 
-/** A link to a finding, also if the filter hides it. */
+/** A link to a finding, which works even if the filter hides the finding. */
 function findingLink(title, index) {
   const link = made("a", title, { href: `#${idOf(report.findings[index])}` });
   link.addEventListener("click", () => setTimeout(() => showFinding(index)));
@@ -41,7 +41,7 @@ function linkButton(finding) {
 }
 
 /**
- * A card with a picture, which opens large, and the text that belongs to it.
+ * A card with a picture that opens large, and with text about it.
  * @param shown what the picture shows (makeViewer)
  * @param onOpen is called when the user opens it
  */
@@ -69,7 +69,7 @@ function pictureCard(shown, content, attributes = {}, onOpen = () => {}) {
   return card;
 }
 
-/** A query that is shown on demand, with a button for its certificate if it has one. */
+/** A query that the page shows on demand, with a button that copies its certificate if it has one. */
 const fold = (title, query, file, certificate) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query),
   ...(certificate ? [" ", copyButton(certificate, "copy the certificate")] : [])]);
 
@@ -100,8 +100,8 @@ const findings = report.findings.map((finding, index) => ({ finding, index,
   .sort((a, b) => Number(b.finding.new) - Number(a.finding.new));
 const findingsAtOnce = 24;
 /**
- * The filter that hides nothing: the chosen value of each field ("" for all), the words that must occur, and
- * how many findings are shown at most.
+ * The filter that hides nothing. A filter has the chosen value of each field ("" for all), the words that
+ * must occur, and the largest number of findings to show.
  */
 const noFilter = { subject: "", what: "", kind: "", class: "", family: "", words: "", most: findingsAtOnce };
 const filter = { ...noFilter };
@@ -120,14 +120,17 @@ function drawCards() {
   element("more-findings").toggleAttribute("hidden", some.length <= filter.most);
 }
 
-/** Shows only the findings with these values. */
+/** Shows only the findings that have these values in these fields. */
 function filterFindings(values) {
   Object.assign(filter, noFilter, values);
   for (const input of document.querySelectorAll("#findings-filter [name]")) input.value = filter[input.name];
   drawCards();
 }
 
-/** Opens a finding; if the filter hides it, among those of its subject. */
+/**
+ * Opens a finding. If the filter hides the finding, first changes the filter to show all findings of its
+ * subject.
+ */
 function showFinding(index) {
   const finding = report.findings[index];
   const id = idOf(finding);
@@ -175,7 +178,7 @@ function drawFilter() {
   });
 }
 
-/** Draws the simplest failure of the subject that is worst, as in the first table. */
+/** Draws the simplest failure of the worst subject, which is the first in the first table. */
 function drawExample() {
   const worst = inOrder(report.verdicts).find(({ clean, finding }) => !clean && finding !== null);
   const index = worst ? worst.finding : report.findings.findIndex(({ subject }) => subject === ""); // the oracle's
@@ -221,8 +224,8 @@ function drawExtremeTimes() {
   if (rows.length === 0) return;
   show("extreme-times-section");
   // A time after t* is not late if the distance of the primitives only touches h. If a subject gives both
-  // lower bounds and estimates, the report does not say which of them this time is, so the page does not call
-  // it late.
+  // lower bounds and estimates, the report does not say which of the two a time is, so the page does not
+  // call the time late.
   const isLate = ({ subject, kind, side }) => {
     const { late, after_histogram: after } = report.subjects[subject][kind];
     return side === "after" && late === after.reduce((a, b) => a + b, 0);

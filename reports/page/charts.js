@@ -1,10 +1,13 @@
 // Charts of the numbers in report.json.
 "use strict";
 
-/** The width of each of two panels side by side, with room for their labels. */
+/**
+ * The width of each of two panels side by side, at most `widest`; `labels` is the room for their labels, in
+ * pixels.
+ */
 const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
 
-/** Colours of algorithms; subjects of one algorithm over different scalars share its colour. */
+/** Colours of algorithms: subjects that run one algorithm over different scalars have the same colour. */
 const algorithmNames = [...new Set([...Object.values(report.error_against_time.subjects), ...(report.ladder?.rungs ?? [])]
   .map((row) => row.algorithm))];
 const colorOfAlgorithm = (name) => palette[algorithmNames.indexOf(name) % palette.length];
@@ -18,12 +21,12 @@ const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge", vv: "vertex-vertex", ve: "vertex-edge" };
 const kindNames = Object.keys(kindTitles);
 
-/** A line of a tooltip: whose bound is the unit of distances. */
+/** The line of a tooltip that says whose bound is the unit of distances. */
 const boundField = { field: "bound_of_distances", title: "bound" };
 
 /**
- * A logarithmic axis whose ends stand for 0 and infinity. The result's `at` returns the place of a value on
- * it; `written` is the expression that formats a value.
+ * A logarithmic axis whose ends stand for 0 and infinity, if `values` have them. The result's `at` moves
+ * such a value to its end; `written` is the expression that formats a value.
  */
 function logAxis(values, written = "digits(datum.value, 3)") {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
@@ -44,13 +47,16 @@ function logAxis(values, written = "digits(datum.value, 3)") {
 /** The classes of families in the order of charts. */
 const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
-/** Whether a row is a step of a sweep of its subject; sweeps have charts of their own. */
+/** Whether a row is a step of a sweep that its subject was asked; other charts show the sweeps. */
 function isSweep({ subject, family }) {
   const swept = family.replace(/@[^~]*/, "");
   return swept !== family && Object.hasOwn(report.sweeps ?? {}, swept) && Object.hasOwn(report.sweeps[swept], subject);
 }
 
-/** Rates of random families except sweeps; cases and scenes are not random samples. */
+/**
+ * The rows whose false positives are a rate: random families except sweeps, because cases and scenes are no
+ * random samples.
+ */
 function rateRows() {
   return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row))
     .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],
@@ -63,7 +69,7 @@ function drawRates() {
   const names = chosenNames();
   const families = [...new Set(all.map((row) => row.family))].sort();
   const lowest = 10 ** Math.floor(Math.log10(Math.min(...all.map((row) => row.lo))));
-  // The chart is at most about 2,400 pixels high, unless the names of the families need more.
+  // The chart is at most about 2,400 pixels high, unless the families' names need more than that.
   const rowsOfSubjects = hasPicker ? names.length + 1 : 1.25 * names.length;
   const step = Math.max(11 / rowsOfSubjects, Math.min(Math.max(4, 12 / names.length), 2300 / (families.length * rowsOfSubjects)));
   const hue = chosenColor();
@@ -97,7 +103,7 @@ function drawRates() {
     { data: { values: rows }, hconcat: kindNames.filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
-/** The subjects' misses in each family with collisions, except sweeps. */
+/** The counters of each subject, kind and family with collisions, except sweeps. */
 const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row));
 
 /** The misses of all kinds together, by subject and family, with a text for each kind. */
@@ -114,7 +120,7 @@ function missedByFamily() {
   return [...cells.values()].map((cell) => ({ ...cell, rate: cell.missed / cell.collisions }));
 }
 
-/** Draws a cell for each family and subject that missed anything. */
+/** Draws the misses as cells: a row for each family, a column for each subject. */
 function drawMisses() {
   const cells = missedByFamily();
   const failed = inOrder(report.verdicts).map(({ subject }) => subject).filter((name) => cells.some((cell) => cell.subject === name && cell.missed > 0));

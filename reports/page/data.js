@@ -1,7 +1,10 @@
 // Reads the report's data, which is part of the page.
 "use strict";
 
-/** The largest double stands for a distance divided by a bound of 0, because JSON has no infinity. */
+/**
+ * Replaces the largest double by infinity: JSON has none, so the largest double stands for a distance
+ * divided by a bound of 0.
+ */
 const withInfinity = (value) => (Array.isArray(value) ? value.map(withInfinity) : value === Number.MAX_VALUE ? Infinity : value);
 const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
@@ -24,7 +27,7 @@ function countRows(byFamily) {
   return rows;
 }
 
-/** [{subject, kind, class, ...counts}]: the sums over the families of each class. */
+/** The sums over the families of each class as rows [{subject, kind, class, ...counts}]. */
 const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKind]) =>
   Object.entries(ofKind).flatMap(([kind, counts]) =>
     Object.entries(counts.classes).map(([name, each]) => ({ subject, kind, family: "", class: name, ...each }))));
@@ -33,7 +36,7 @@ const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKin
 const isNoRung = ({ subject, algorithm }) => subject === algorithm;
 
 /**
- * Whether distances are fractions of the bound that the subject claims; else they are in units of wang's
+ * Whether distances are fractions of the bound that the subject claims. If not, they are in units of wang's
  * bound.
  */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
@@ -42,10 +45,13 @@ const isOfClaim = (row) => row.bound_of_distances === "claimed";
  */
 const unitMark = (row) => (isOfClaim(row) ? "" : "**");
 /**
- * The mark of a subject: that of a distance, unless its distances of all kinds are fractions of a claimed
- * bound.
+ * The mark of a subject: the mark of distances, unless the subject's distances of all kinds are fractions of
+ * a claimed bound.
  */
 const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");
 
-/** The separation of a query: its number after the coordinates, six for each vertex; or 0. */
+/**
+ * The separation of a query: the number after the coordinates, of which each vertex has six; 0 without such
+ * a number.
+ */
 const separationOf = (query) => (query.length % 6 === 1 ? query.at(-1) : 0);

@@ -29,8 +29,8 @@ const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-seri
 const drawn = {};
 
 /**
- * A copy in which strings such as "constructor", which every object has as a member, end in an invisible
- * character: Vega-Lite drops them from the domain of a scale.
+ * A copy in which an invisible character ends each string that names a member of every object, such as
+ * "constructor": Vega-Lite drops such strings from the domain of a scale.
  */
 function withoutMembers(value) {
   if (typeof value === "string") return value in {} ? `${value}\u200b` : value;
@@ -40,8 +40,8 @@ function withoutMembers(value) {
 }
 
 /**
- * Draws a chart in place of an earlier one. Makes no code from strings, so that the page's content policy
- * allows it.
+ * Draws a chart in place of an earlier one. The page's content policy forbids code from strings, so Vega
+ * interprets its expressions instead of compiling them.
  */
 async function draw(id, description, spec) {
   const node = element(id);

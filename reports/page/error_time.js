@@ -14,15 +14,18 @@ function drawErrorTime() {
   return ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach();
 }
 
-/** The position of a value on a logarithmic axis: 0 at one end, 1 at the other. The ratio of the ends may overflow. */
+/**
+ * The position of a value on a logarithmic axis: 0 at one end, 1 at the other. Takes logarithms before it
+ * divides, because the ratio of the ends may overflow.
+ */
 const partOfAxis = (value, [from, to]) => (Math.log(value) - Math.log(from)) / (Math.log(to) - Math.log(from));
 const atPartOfAxis = (part, [from, to]) => Math.exp((1 - part) * Math.log(from) + part * Math.log(to));
 
 /**
- * Layers with the names of points in a chart with logarithmic axes. A line joins a point to its name unless
- * the name is right beside it.
+ * Layers that write the names of points into a chart with logarithmic axes. A line joins a point to its name
+ * unless the name is right beside it.
  * @param rows [{subject, x, y, rank}]
- * @param x, y the channels of the chart
+ * @param x, y the chart's channels in Vega-Lite
  */
 function nameLayers(rows, x, y, [width, height]) {
   const [xs, ys] = [x.scale.domain, y.scale.domain];
@@ -107,8 +110,8 @@ function makeStrands(rows) {
 }
 
 /**
- * Places around a point for a label of this size, in the order in which they are tried: beside it, then up to
- * `reach` pixels away.
+ * Places for a label of this size, relative to its point, in the order in which they are tried: beside the
+ * point, then up to `reach` pixels away from it.
  */
 function* placesAround([w, h], reach) {
   yield* [[6, -h / 2], [-6 - w, -h / 2], [-w / 2, -6 - h], [-w / 2, 6], [5, -4 - h], [5, 4], [-5 - w, -4 - h], [-5 - w, 4]];
@@ -120,8 +123,8 @@ function* placesAround([w, h], reach) {
 }
 
 /**
- * Finds places for labels near their points, without overlaps among labels and points; a label without a
- * place is left out.
+ * Finds places for labels near their points, so that no label covers another label or a point. Leaves out a
+ * label for which no place is free.
  * @param points [{at: [x, y] in pixels, label, rank: lower ranks choose first; an infinite rank means no
  * label}]
  * @param reach how far from its point a label may be, in pixels; 0 means right beside it

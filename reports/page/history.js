@@ -35,7 +35,10 @@ function drawNights() {
   ], [...nights].reverse());
 }
 
-/** The nights that asked a subject, each with its numbers, and whether the subject's code is another than before. */
+/**
+ * The nights that asked a subject, each with the subject's numbers, and whether its code differs from the
+ * night before.
+ */
 function nightsOf(subject) {
   const asked = nights.map((night, index) => ({ index, night, of: night.subjects[subject] })).filter(({ night }) => Object.hasOwn(night.subjects, subject));
   return asked.map(({ index, night, of }, i) => ({ index, name: night.name, ...of,

@@ -3,8 +3,8 @@
 "use strict";
 
 /**
- * Colours of marked primitives: a list with the bits of a mark, their meaning, and the name of the colour.
- * The first entry that matches a mark applies.
+ * Colours of marked primitives: a list with bits, their meaning, and the name of a colour. The first entry
+ * that has a bit in common with a primitive's mark gives its colour.
  */
 function markColours(meanings, subject) {
   const bit = (meaning) => (meanings.includes(meaning) ? 1 << meanings.indexOf(meaning) : 0);
@@ -49,7 +49,7 @@ function readPicture(picture) {
   return { ...picture, name: picture.step.replace(/^scene:/, ""), whole: picture.primitives, primitives, points, middle, subjects, subject: wrong ?? subjects[0] };
 }
 
-/** The primitives of a picture that show a miss of a subject, or that are tangled. */
+/** The primitives of a picture that are tangled, or that belong to a pair that the subject missed. */
 function missesOf({ meanings, primitives }, subject) {
   const bits = markColours(meanings, subject).filter(({ colour }) => colour === "--bad").reduce((all, each) => all | each.bits, 0);
   return primitives.filter(({ mark }) => mark & bits);
@@ -88,7 +88,7 @@ function drawMesh(entries) {
   function draw() {
     const { primitives, meanings, name, whole } = view.picture;
     const colours = markColours(meanings, view.subject).map((each) => ({ ...each, paint: color(each.colour) }));
-    const dense = 2; // sharp on paper and on fine screens
+    const dense = 2; // canvas pixels per CSS pixel, for sharp pictures on paper and on fine screens
     [canvas.width, canvas.height] = meshSize.map((side) => dense * side);
     const paint = canvas.getContext("2d");
     paint.scale(dense, dense);
@@ -117,7 +117,7 @@ function drawMesh(entries) {
       }
       paint.stroke();
     }
-    // A ring shows each small miss from afar, also one behind others.
+    // A ring marks each miss, even if it is small or behind other primitives.
     for (const primitive of missesOf(view.picture, view.subject)) {
       const isFocus = primitive === view.focus;
       const [x, y] = [mean(primitive, 0), mean(primitive, 1)];

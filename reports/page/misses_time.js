@@ -1,7 +1,7 @@
 // Draws what subjects miss among the collisions of ordinary queries, against their run time.
 "use strict";
 
-/** A row for each subject that was asked ordinary queries: all of its kinds together. */
+/** A row for each subject that was asked ordinary queries, with the sums over its kinds. */
 function ordinaryRows() {
   return Object.entries(report.subjects).flatMap(([subject, kinds]) => {
     const ordinary = Object.values(kinds).map(({ classes }) => classes.ordinary).filter((each) => each !== undefined);

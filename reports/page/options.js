@@ -2,7 +2,8 @@
 "use strict";
 
 /**
- * The charts of an option: what a chart shows, its title, and how it writes numbers if not in the usual way.
+ * The charts of an option: the field that a chart shows, its title, and the format of numbers unless it is
+ * the usual one.
  */
 const optionCharts = [
   ["false_negative_rate", "missed, among collisions", "share(datum.value)"],

@@ -65,7 +65,8 @@ std::string make_nonce() {
   return nonce;
 }
 
-/// JSON for a script element, with "<" escaped: the browser would take "</script" for its end.
+/// JSON for a script element, with "<" escaped: a browser would take "</script" in a string for the
+/// element's end.
 std::string inside_script(const nlohmann::ordered_json& json) {
   std::string text;
   for (const char c : json_text(json)) {
@@ -77,7 +78,7 @@ std::string inside_script(const nlohmann::ordered_json& json) {
   return text;
 }
 
-/// A page of this HTML with JSON as its data, and scripts that draw it.
+/// A page of this HTML, with JSON as its data and the scripts in `files`, which draw the data.
 std::string page_of(std::string_view html, const char* data, const nlohmann::ordered_json& json,
                     std::initializer_list<std::string_view> files) {
   const std::string nonce = make_nonce();

@@ -21,7 +21,7 @@ function drawNavigation() {
     document.querySelector("nav").append(made("a", titles[section.parentNode.id] ?? section.textContent, { href: `#${section.parentNode.id}` }));
 }
 
-/** Lists the run times that differ by more than those of equal campaigns do. */
+/** Lists the run times that differ by more than the run times of equal campaigns do. */
 function drawChangedTimes({ changed_times: times, compared_times: compared, campaigns_with_times: campaigns }) {
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   if (campaigns === 0) return say("Run times are not compared: the baseline ran on another model of processor.");
@@ -120,7 +120,7 @@ const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, 
 /** The farthest of some false positives; undefined if the list is empty. */
 const farthestAmong = (some) => some.reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
 const farthestOfSubject = (subject) => farthestAmong(report.farthest.filter((far) => far.subject === subject));
-/** The farthest false positive of a subject and kind, in one family, in one class or in all. */
+/** The farthest false positive of a subject and kind, in one family, in one class or in all families. */
 const farthestOf = ({ subject, kind, family, class: own }) => farthestAmong(report.farthest
   .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.shown_family === family) &&
     (own === undefined || far.class === own)));
@@ -162,7 +162,10 @@ function drawSlowest() {
   ], rows, true);
 }
 
-/** Draws which stage decided, for subjects that pass queries on to another stage if they are not sure. */
+/**
+ * For subjects that pass queries on to another stage if they are not sure, draws how many queries each stage
+ * decided.
+ */
 function drawDeciders() {
   const rows = report.deciders;
   if (!rows) return;
@@ -289,7 +292,7 @@ function drawHow() {
   }
 }
 
-/** Draws a part of the page. If that fails, the page says so, and the other parts are drawn nevertheless. */
+/** Draws a part of the page. If that fails, the page says so, and the other parts are still drawn. */
 function drawPart(draw) {
   try {
     draw();
@@ -335,7 +338,7 @@ for (const box of document.querySelectorAll("main .scroll, main .chart")) {
   for (const [name, value] of Object.entries({ tabindex: "0", role: "group", "aria-label": title })) box.setAttribute(name, value);
 }
 
-/** Draws a chart. If that fails, its section says so, and the others are drawn nevertheless. */
+/** Draws a chart. If that fails, its section says so, and the other charts are still drawn. */
 async function drawOne([id, chart]) {
   try {
     await chart();
@@ -346,7 +349,8 @@ async function drawOne([id, chart]) {
 }
 
 /**
- * Draws charts one after the other. A later call replaces the charts that earlier calls have not yet drawn.
+ * Draws charts one after the other. A call while charts of an earlier call are not yet drawn replaces those
+ * charts.
  */
 let calls = 0;
 let drawing = Promise.resolve();
@@ -357,7 +361,8 @@ function drawCharts(some) {
     .then(() => call === calls && document.body.setAttribute("data-drawn", "true"));
 }
 drawCharts(charts);
-// Findings of a report without failure are below the charts.
+// Without failures, the findings are below the charts, so the page shows a finding only after it has drawn
+// these.
 report.headline.clean ? drawing.then(showAddress) : showAddress();
 addEventListener("hashchange", showAddress);
 const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));

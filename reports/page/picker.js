@@ -1,5 +1,5 @@
-// Lets the reader choose the subjects in charts that have a row or a line for each subject, if there are many
-// subjects. At first, as many are chosen as there are colours.
+// If there are many subjects, lets the reader choose which of them the charts show in a row, a line or a
+// colour of their own. At first, as many subjects are chosen as there are colours.
 "use strict";
 
 const subjectNames = Object.keys(report.subjects);
@@ -7,8 +7,8 @@ const fewSubjects = 8;
 const hasPicker = subjectNames.length > fewSubjects;
 
 /**
- * Subjects in the order of their names; if there are many, grouped by algorithm and sorted from few digits to
- * many.
+ * Subjects in the order of their names. If there are many, they are grouped by algorithm, and sorted within
+ * a group from few digits to many.
  */
 const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
 if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
@@ -18,8 +18,8 @@ const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
 /**
- * As many subjects as there are colours: first those of the Pareto fronts, then the clean ones, then the
- * failed ones.
+ * Chooses as many subjects as there are colours: first those on Pareto fronts, then others without failures,
+ * then those with failures.
  */
 function firstChoice() {
   const { front_by_distance, front_by_rate, front_by_earliness, ladder } = report.error_against_time;
@@ -33,10 +33,10 @@ function firstChoice() {
   return choice;
 }
 
-/** Indices of the colours of chosen subjects; a subject keeps its colour while it is chosen. */
+/** Maps each chosen subject to the index of its colour, which it keeps while it is chosen. */
 const chosenColors = new Map();
 
-/** Chooses these subjects. If the colour of a subject is taken, it gets the first free one. */
+/** Chooses these subjects. If a subject's usual colour is taken, it gets the first free one. */
 function choose(choice) {
   for (const subject of chosenColors.keys()) if (!choice.has(subject)) chosenColors.delete(subject);
   const isFree = (index) => ![...chosenColors.values()].includes(index);
@@ -56,7 +56,8 @@ const subjectColor = { field: "subject", type: "nominal", title: "subject",
   scale: { domain: subjectNames, range: subjectNames.map((_, i) => paletteColor(i)) } };
 
 /**
- * Colours of the chosen subjects, with a legend. @param others the colour of all others, if they are drawn
+ * Colours of the chosen subjects, with a legend.
+ * @param others the colour of subjects that are not chosen, if a chart draws them
  */
 function chosenColor(others) {
   const names = chosenNames();

@@ -1,8 +1,8 @@
-// Draws a query: both primitives at one time, pale at the start and at the end of the step and at the times that a
-// subject gave, with the paths of their vertices.
+// Draws a query: both primitives at one time, and the paths of their vertices. Draws the primitives in pale
+// colours at both ends of the step and at the times that a subject gave.
 "use strict";
 
-/** The primitives of each kind as lists of vertices, and what they are. */
+/** The two primitives of each kind as lists of vertices, and a caption that names them. */
 const shapes = {
   vt: { primitives: [[0], [1, 2, 3]], caption: "A vertex and a triangle" },
   ee: { primitives: [[0, 1], [2, 3]], caption: "Two edges" },
@@ -23,8 +23,9 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
 
 /**
- * A query with its coordinates moved and scaled into [-1, 1]: `at` returns the places of its vertices at a time of its
- * step, or of another step of the same vertices; `unit` is the length of 1.
+ * A query whose coordinates are moved and scaled into [-1, 1]. `at` returns the scaled places of its
+ * vertices at a time of its step, or of another step of the same vertices; `unit` is the length that is
+ * scaled to 1.
  */
 function scaledQuery(query) {
   const x = query.slice(0, query.length - (query.length % 6));
@@ -39,7 +40,10 @@ function scaledQuery(query) {
     at: (t, step = x) => Array.from({ length: vertices }, (_, i) => along(place(step, i), place(step, vertices + i), t)) };
 }
 
-/** The point of the first primitive that is the closest to the second one, given the places of the vertices. */
+/**
+ * The point of the first primitive that is closest to the second primitive, given the places of the
+ * vertices.
+ */
 function closestPoint(kind, [x0, x1, x2, x3]) {
   if (kind !== "ee") return x0;
   const inside = (s) => Math.min(1, Math.max(0, s || 0));
@@ -49,7 +53,7 @@ function closestPoint(kind, [x0, x1, x2, x3]) {
   return along(x0, x1, inside((dot(d, e) * u - dot(d, r)) / dot(d, d)));
 }
 
-/** The part of a polygon inside a square; far outside, browsers draw inexactly. */
+/** The part of a polygon inside a square. Browsers draw points far outside of the picture inexactly. */
 function clipped(points, low, high) {
   for (const [k, border, sign] of [[0, low, 1], [0, high, -1], [1, low, 1], [1, high, -1]]) {
     const isInside = (p) => sign * (p[k] - border) >= 0;
@@ -64,7 +68,7 @@ function clipped(points, low, high) {
 /**
  * A picture that can be drawn again.
  * @param shown {kind, query, time: t* or when the primitives are closest, toi: the time that a subject gave for t*,
- * step: the step that it commits}; the last two may be missing
+ * step: the step to that time, if its end matters}; toi and step may be missing
  * @param size [width, height]
  * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: that of a plane between the primitives}
  */
@@ -80,7 +84,10 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
 
   function draw({ yaw, pitch, zoom, time: now, isLabelled, normal }) {
     const far = 3 * width;
-    /** The place of a point on the screen, in parallel projection. The larger the picture, the nearer is the contact to its middle. */
+    /**
+     * The place of a point on the screen, in parallel projection. Zooming in moves the contact to the middle
+     * of the picture.
+     */
     const seen = (point) => {
       const [px, py, pz] = point.map((c, k) => zoom * (c - contact[k]) + (zoom > 1 ? 1 / zoom : zoom) * contact[k]);
       const depth = -Math.sin(yaw) * px + Math.cos(yaw) * py;
@@ -115,7 +122,7 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
   return { svg, draw };
 }
 
-/** A square between two primitives, in the plane in the middle between their vertices along a normal. */
+/** A square in the plane that has this normal and is halfway between the vertices of the two primitives. */
 function planeBetween(points, normal) {
   const least = Math.min(...points[0].map((p) => dot(normal, p)));
   const most = Math.max(...points[1].map((p) => dot(normal, p)));
@@ -128,7 +135,7 @@ function planeBetween(points, normal) {
   return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => middle.map((c, k) => c + height * normal[k] + 0.7 * (a * side[k] + b * up[k])));
 }
 
-/** A line for the separation, and one for each of two times. */
+/** Lines of the legend: the separation, both times, and the committed step, each if the picture shows it. */
 function pictureLegend({ query, time, toi, step }) {
   const line = (name, content) => made("div", [made("span", "", { class: `swatch ${name}` }), ` ${content}`]);
   const difference = toi - time;

@@ -5,7 +5,7 @@ const isStep = (family) => family.startsWith("scene:") && !isSimulation(family);
 const sceneOf = (step) => step.replace(/^scene:/, "").replace(/#\d+$/, "");
 const stepNumber = (step) => Number(step.match(/#(\d+)$/)?.[1] ?? 0);
 
-/** Groups rows whose fields `by` are equal, and adds up their numbers. */
+/** Groups rows that have equal values in the fields `by`, and adds up their numbers. */
 function summed(rows, by) {
   const sums = new Map();
   for (const row of rows) {
@@ -19,7 +19,7 @@ function summed(rows, by) {
   return [...sums.values()];
 }
 
-/** The pairs of each step and kind. */
+/** The number of pairs with each fate, for each step and kind. */
 const funnelRows = () => Object.entries(report.scenes ?? {}).flatMap(([step, ofKind]) =>
   Object.entries(ofKind).map(([kind, { times, ...funnel }]) =>
     ({ scene: sceneOf(step), step: stepNumber(step), kind, ...funnel, ...times })));

@@ -1,12 +1,12 @@
 // Draws the first table: a row for each subject, the worst first.
 "use strict";
 
-/** "vt 53 of 504, ee 0 of 701": the missed collisions of a class, kind by kind. */
+/** The missed collisions of a class by kind: "vt 53 of 504, ee 0 of 701". */
 const missedByKind = (subject, name) => Object.entries(report.subjects[subject]).map(([kind, { classes }]) => [kind, classes[name]])
   .filter(([, counts]) => counts?.collisions > 0)
   .map(([kind, counts]) => `${kind} ${integer(counts.false_negatives)} of ${integer(counts.collisions)}`).join(", ");
 
-/** The text with each power of two, such as 2^-9, set as one. */
+/** The text with powers of two, such as 2^-9, typeset with a superscript. */
 const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 2 === 0 ? part : ["2", made("sup", part.slice(2).replace("-", "−"))]));
 
 /** At which lengths of edges, and how far from the origin, the subject is right. */
@@ -19,7 +19,7 @@ const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject 
   return [note];
 });
 
-/** The misses of the least exotic class by kind, then the rates of the other classes, and the sum. */
+/** The misses: those of the least exotic class by kind, then the rates of the other classes, then the sum. */
 const missedCell = ({ counts, classes, subject, failures }) => {
   if (failures.includes("unjudged")) return [made("strong", "not asked", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
@@ -43,8 +43,8 @@ const falseCell = ({ counts, subject }) => {
 };
 
 /**
- * The number of queries without an answer, with the reasons as a tooltip. Slow queries and those that break a
- * contract are not failures.
+ * The number of queries without an answer, with the reasons as a tooltip. Slow queries, and queries that a
+ * contract excludes, are no failures.
  */
 function noAnswerCell(verdict) {
   const reasons = [...new Set(Object.keys(verdict.faults).map((why) => (["time", "not-asked"].includes(why) ? "slow" : why)))];
@@ -55,7 +55,8 @@ function noAnswerCell(verdict) {
 }
 
 /**
- * The scale of the bars: logarithmic, from somewhat below the fastest subject to the slowest 99 % quantile.
+ * The logarithmic scale of the bars. It goes from somewhat below the fastest subject to the largest 99 %
+ * quantile.
  */
 const barScale = (() => {
   const times = report.verdicts.flatMap((v) => [v.times.median_ns, v.times.q99_ns, v.counts.ns_per_query]).filter((ns) => ns > 0);
@@ -63,12 +64,12 @@ const barScale = (() => {
   return (ns) => `${(100 * Math.log(ns / least)) / Math.log(most / least)}%`;
 })();
 
-/** The median time of queries that were timed one by one, or that of batches if none were. */
+/** The median time of queries that were timed one by one; if there are none, the time of batches. */
 const usualTime = ({ counts, times }) => times.median_ns ?? counts.ns_per_query;
 
 /**
- * The run time: the median and the 99 % quantile of queries that were timed one by one, or the time of
- * batches if none were.
+ * The run time: the median and the 99 % quantile of queries that were timed one by one; if there are none,
+ * the time of batches.
  */
 const timeCell = (verdict) => {
   const { median_ns: median, q99_ns: q99 } = verdict.times;
@@ -114,8 +115,8 @@ function subjectCell({ subject, finding }) {
 }
 
 /**
- * Sorts the failed subjects by their rates of misses, ordinary misses first; then the others by their run
- * times, and at last those that are asked beyond their contracts.
+ * Sorts subjects. Failed ones come first, by their rates of misses, ordinary misses first; then the others,
+ * by their run times; last, those that are asked beyond their contracts.
  */
 function inOrder(verdicts) {
   const rates = ({ classes }) => ["ordinary", "degenerate", "extreme", "unclassified"].map((name) => -(classes[name]?.false_negative_rate ?? 0));
@@ -130,8 +131,8 @@ function inOrder(verdicts) {
 const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
 
 /**
- * The rows of clean subjects that are folded into one row if there are many: those on the ladder, and also
- * the others if these are still many.
+ * The rows of clean subjects to fold into one row: if there are many, those on the ladder; if too many rows
+ * still remain, also the others.
  */
 function foldedRows(rows) {
   const good = rows.filter(isGood);
@@ -176,8 +177,8 @@ function drawScorecard() {
 }
 
 /**
- * Draws pairs of versions of a CCD: how many queries each fails, and the first query that the later version
- * breaks.
+ * Draws each pair of versions of a CCD: on how many queries each version fails, and the first query that the
+ * later version breaks.
  */
 function drawVersions() {
   if (!report.versions) return;

@@ -10,7 +10,7 @@ const simulatedSteps = () => Object.entries(report.simulations ?? {}).flatMap(([
     scene: simulationName(family), subject, ...Object.fromEntries(Object.entries(lists).map(([name, list]) => [name, list[i]])),
   }))));
 
-/** One row for each simulation: the sums of its steps, and what its tangles and its energy came to. */
+/** One row for each simulation: sums over its steps, its tangles and its energy. */
 function simulations() {
   const all = new Map();
   for (const step of simulatedSteps()) {
@@ -51,7 +51,7 @@ function drawSimulations() {
     if (isSimulation(picture.step.replace(/ with .*$/, ""))) element("simulation-pictures").append(drawMesh([picture]));
 }
 
-/** Draws what each subject reported and missed, the tangles and the energy along the steps. */
+/** Draws for each step what each subject reported and missed, the tangles, and the energy. */
 function drawSimulatedSteps() {
   const rows = simulatedSteps().map((row) => ({ ...row, joules: 1e-12 * row.picojoules }));
   const scenes = [...new Set(rows.map((row) => row.scene))];

@@ -1,10 +1,10 @@
-// Draws tables: rows of report.json under headings that sort.
+// Draws tables with rows of report.json. A click on a heading sorts the rows.
 "use strict";
 
 const integer = (n) => n.toLocaleString("en-US");
 /**
- * A number with this many digits, written with an exponent if it is below a thousandth or at least ten
- * million.
+ * A number with this many significant digits. It is written with an exponent if it is below 10^-3 or at
+ * least 10^7.
  */
 function rounded(x, digits) {
   const size = Math.abs(x);
@@ -17,9 +17,8 @@ const short = (x) =>
 /** "1 query", "1,234 queries" */
 const counted = (n, one, many) => `${integer(n)} ${n === 1 ? one : many}`;
 /**
- * Formats a ratio with three digits, or with more if a number below 1 would be rounded to 1. A ratio in the
- * lowest bin of the
- * histogram is known only to be below the bin's upper border.
+ * Formats a ratio with three digits, or with more if a ratio below 1 would be rounded to 1. For a ratio in
+ * the lowest bin of the histogram, only an upper bound is known, the bin's upper border.
  */
 function fraction(x) {
   const lowest = report.histogram_borders[1];
@@ -28,7 +27,7 @@ function fraction(x) {
     if (Number(x.toPrecision(digits)) < 1) return Number(x.toPrecision(digits)).toString();
   return short(x);
 }
-/** How far a false positive is; `row` says whose bound is the unit. */
+/** Says how far the primitives of a false positive are apart; `row` says whose bound is the unit. */
 function timesTheBound(x, row) {
   // A row without this field is a refuted bound, and only a claimed bound can be refuted.
   const isClaim = row.bound_of_distances === undefined || isOfClaim(row);
@@ -37,7 +36,7 @@ function timesTheBound(x, row) {
   return isClaim ? text : `${text} (it claims none)`;
 }
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
-/** A column whose cells are ranges, each of which contains the true number. */
+/** A column whose cells are ranges that contain the true numbers. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
   text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? rounded(x, 2) : "∞")).join("–") + unitMark(r) : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
@@ -50,13 +49,13 @@ function made(tag, content = [], attributes = {}) {
   return node;
 }
 
-/** A line of small print. */
+/** A line in small print. */
 const small = (content) => made("div", content, { class: "small" });
 
-/** "14.8 % (14.4–15.2 %)"; the interval is left out if the queries are not a random sample. */
+/** "14.8 % (14.4–15.2 %)", or without the interval if the queries are no random sample. */
 const rateText = (rate, interval) => percent(rate) + (interval ? ` (${percentRange(interval)})` : "");
 
-/** "4,576 of 30,998"; if there was no miss, also the upper confidence bound of the rate. */
+/** "4,576 of 30,998"; without a miss, also the upper confidence bound of the rate of misses. */
 function missedText(counts) {
   const seen = `${integer(counts.false_negatives)} of ${integer(counts.collisions)}`;
   if (counts.false_negatives > 0 || counts.collisions === 0 || counts.false_negative_rate_upper_95 === null) return seen;
@@ -65,8 +64,8 @@ function missedText(counts) {
 
 /**
  * Draws a table.
- * @param columns {title, text(row): text or node, number(row): the key to sort by, bad(row): whether it is
- * marked}
+ * @param columns [{title, text(row): text or node, number(row): the key to sort by, bad(row): whether the
+ * cell is marked}]
  * @param sortable whether a click on a heading sorts
  */
 function fillTable(table, columns, rows, sortable = false) {
@@ -119,7 +118,7 @@ const measures = {
 };
 const columnsOf = (...keys) => keys.map((key) => measures[key]);
 
-/** A button that copies text. Its title is text or a node. */
+/** A button that copies `content`, a text. `title` is text or a node. */
 function copyButton(content, title = "copy") {
   const button = made("button", title, { type: "button", class: "copy" });
   button.addEventListener("click", async () => {
@@ -133,14 +132,14 @@ function copyButton(content, title = "copy") {
 const command = (content) => made("div", [made("code", content), copyButton(content)]);
 
 /**
- * A button that copies a query as a line of its coordinates and, if there is one, the separation, for nearmiss
- * oracle and verdict.
+ * A button that copies a query as a line that nearmiss oracle and verdict read: its coordinates, then the
+ * separation if it has one.
  */
 const copyQuery = (x) => copyButton(x.join(" "));
 
 /**
- * A line for each vertex: its place at t = 0, and its place at t = 1 if it moves; then the separation, if
- * there is one.
+ * A query in lines: for each vertex its place at t = 0, and at t = 1 if it moves; then the separation if the
+ * query has one.
  */
 function queryText(x) {
   const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;

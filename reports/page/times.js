@@ -2,7 +2,10 @@
 "use strict";
 
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
-/** The encoding of a chart that shows the two sorts of time with two `looks`, such as shapes or dashes. */
+/**
+ * The encoding of a chart that distinguishes the two sorts of time by `looks`, such as two shapes or two
+ * dashes.
+ */
 const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
   legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
 
@@ -12,7 +15,7 @@ const timedRows = () => countRows(false).filter((row) => row.times_given > 0)
 
 // --- error against run time -----------------------------------------------------------------------
 
-/** A row for each subject of the picture. Its quantiles of errors are the upper ends of bins. */
+/** A row for each subject of the chart. A quantile of errors is the upper end of its bin. */
 const earlinessRows = () => Object.entries(report.error_against_time.subjects)
   .filter(([, { time_sort }]) => time_sort !== "none")
   .map(([subject, row]) => ({ ...row, subject, sort: sortsOfTime[row.time_sort],
@@ -60,7 +63,10 @@ function drawEarliness() {
 
 /** The column of late times, for subjects that promise lower bounds. */
 const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
-/** The column of sound times to which no rounded step leads without contact. */
+/**
+ * The column of committed times: sound lower bounds, but the rounded step to such a time has contact before
+ * its end.
+ */
 const committedSteps = { title: "committed", number: (r) => r.committed, text: (r) => (r.times_promised > 0 ? integer(r.committed) : "–"), bad: (r) => r.unsafe_steps > 0 };
 
 function drawTimes() {
@@ -84,8 +90,9 @@ function drawTimes() {
 // --- histograms -----------------------------------------------------------------------------------
 
 /**
- * The histogram of a row from the earliest to the latest: bin i of early times is at place -i, that of times
- * after t* at i.
+ * The two histograms of a row as one, from the earliest time to the latest: bin i of the times before t* is
+ * at place
+ * -i, bin i of the times after t* at place i.
  */
 function binsOfErrors(row) {
   const { early_histogram: early, after_histogram: after } = row;
@@ -132,7 +139,8 @@ function drawTimeErrors() {
     },
   });
   const kinds = kindNames.filter((kind) => rows.some((row) => row.kind === kind));
-  // A kind that a subject was not asked about has an empty strip, so that all strips stand in the lines of their names.
+  // If a subject was not asked about a kind, that kind gets an empty strip, so that each strip stands beside
+  // its subject's name.
   const empty = kinds.flatMap((kind) => names.map((subject) => ({ subject, kind, place: 0, count: 0 })));
   const values = [...all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last),
     ...empty.filter(({ subject, kind }) => !rows.some((row) => row.subject === subject && row.kind === kind))]

@@ -4,7 +4,7 @@
 /**
  * Lets the user turn a picture.
  * @param node the element that shows the picture
- * @param view an object whose yaw and pitch are changed
+ * @param view an object with yaw and pitch in radians, which turning changes
  * @param slowness pixels of mouse movement per radian
  * @param draw redraws the picture
  * @param others {key: function} for further keys

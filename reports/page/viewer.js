@@ -1,4 +1,5 @@
-// A large picture of a query: it turns, comes nearer to the contact, and runs through the step, beside plots over time.
+// A large picture of a query that the reader can turn, zoom in on the contact, and run through the step;
+// beside it are plots over time.
 "use strict";
 
 /** A number of a certificate: a hexadecimal double, an integer or a fraction. */
@@ -10,7 +11,10 @@ function certificateNumber(text) {
   return Number((BigInt(p) * 10n ** BigInt(digits)) / BigInt(q)) / 10 ** digits;
 }
 
-/** A function of time: the unit normal of the planes that a certificate puts between the primitives, or undefined. */
+/**
+ * A function that returns the unit normal, at a time, of the plane that a certificate puts between the
+ * primitives; undefined without such planes.
+ */
 function normalOf(certificate) {
   const { times, normals } = certificate ? JSON.parse(certificate) : {};
   if (!normals) return () => undefined;
@@ -26,8 +30,9 @@ function normalOf(certificate) {
 }
 
 /**
- * What is plotted over time for the places of a query's vertices: F, the volume that they span, which is 0 when they are
- * coplanar, or the distance of the closest points; and barycentric weights, divided by `norm`.
+ * The values that plots show for given places of a query's vertices. For vt and ee: F, the volume that the
+ * vertices span, which is 0 when they are coplanar. For vv and ve: the distance of the closest points. For
+ * all kinds except vv: the barycentric weights times `norm`.
  */
 const curves = {
   vt: ([x0, x1, x2, x3]) => {
@@ -55,8 +60,8 @@ const plotSize = [300, 110];
  * A plot of curves over time.
  * @param lines [{name, values}], with values at equal steps of time
  * @param range [lowest, highest] value shown
- * @param marks [{at: the part of the plot's width, name}]
- * @param levels values that have a horizontal line
+ * @param marks vertical lines [{at: place as a part of the plot's width, name}]
+ * @param levels values at which a horizontal line is drawn
  */
 function drawPlot(svg, lines, [lowest, highest], marks, levels) {
   const [width, height] = plotSize;
@@ -68,7 +73,7 @@ function drawPlot(svg, lines, [lowest, highest], marks, levels) {
     ...marks.filter(({ at }) => at >= 0 && at <= 1).map(({ at, name }) => svgMade("line", { x1: at * width, x2: at * width, y1: 0, y2: height, class: name })));
 }
 
-/** The plots of a query, and a function that draws them for a span of time around the time now. */
+/** The plots of a query, and a function that draws them for a span of time and marks the time now. */
 function makePlots({ kind, query, time, toi }) {
   const { at, unit } = scaledQuery(query);
   const first = curves[kind](at(0));
@@ -101,7 +106,7 @@ const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 /**
  * A large picture of a query with its controls, and plots.
- * @param shown as makePicture takes it, and perhaps with a certificate
+ * @param shown the `shown` of makePicture; it may also have a certificate
  * @returns a figure, and a list of plots
  */
 function makeViewer(shown) {
@@ -113,7 +118,9 @@ function makeViewer(shown) {
   const slider = made("input", [], { type: "range", min: "0", max: "1", step: "any", "aria-label": "time in the step" });
   const now = made("output");
   const play = made("button", "play", { type: "button" });
-  /** The times that the slider covers: the larger the picture, the fewer around t*. */
+  /**
+   * The span of time that the slider covers: around t*, and the shorter the more the picture is zoomed in.
+   */
   const span = () => [Math.max(0, shown.time - 1 / view.zoom), Math.min(1, shown.time + 1 / view.zoom)];
 
   function draw() {
@@ -159,7 +166,7 @@ function makeViewer(shown) {
   makeTurnable(picture.svg, view, 150, draw, keys);
   picture.svg.setAttribute("tabindex", "0");
   picture.svg.addEventListener("wheel", (event) => {
-    if (document.activeElement !== picture.svg) return; // the page scrolls
+    if (document.activeElement !== picture.svg) return; // the wheel then scrolls the page
     event.preventDefault();
     zoomed(2 ** (-event.deltaY / 300));
   });

@@ -21,12 +21,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The values of each fact, over all runs.
+/// All values that each fact has in the runs of a campaign.
 std::map<std::string, std::set<std::string>> facts_of(const Campaign& campaign) {
   std::map<std::string, std::set<std::string>> facts;
   for (const Run& run : campaign.runs)
     for (const auto& [name, value] : run.info) facts[name].insert(value);
-  facts.erase("again");  // the command repeats the other facts
+  facts.erase("again");  // this command only repeats the other facts
   return facts;
 }
 

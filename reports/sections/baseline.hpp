@@ -20,7 +20,7 @@ namespace nearmiss {
 /// Which code of a subject ran. If runs had different code, their values are joined with " | ".
 struct SubjectCode {
   std::string
-      version;  ///< a plug-in's own, or nearmiss's for a built-in subject and the oracle; "" if there is none
+      version;  ///< the plug-in's; for a built-in subject and the oracle, nearmiss's; "" if there is none
   std::string build;  ///< "sha256 0123456789ab" for a plug-in, "commit 0123456" for a built-in subject
 
   /// "version 2", or the build if there is no version; "" if neither is known.
@@ -31,9 +31,10 @@ struct SubjectCode {
 
 SubjectCode code_of(const Campaign& campaign, const std::string& subject);
 
-/// When the baseline saw a signature: the dates of the first and the last of its campaigns that saw it, the
-/// subject's code in these two, the number of such campaigns, and the next other code of the subject in the
-/// baseline, which did not show the signature; empty if there is none.
+/// When the baseline saw a signature: the dates of the first and the last campaign that saw it, the subject's
+/// code in these two campaigns, and the number of campaigns that saw it. Also the subject's code in the first
+/// later campaign of the baseline that had other code and did not show the signature; empty without such a
+/// campaign.
 struct Sightings {
   std::string first, last;
   std::size_t campaigns = 0;
@@ -43,20 +44,20 @@ struct Sightings {
 };
 
 struct ChangedSignatures {
-  /// Ways to fail that are new, or more frequent than chance explains; in order.
+  /// Ways to fail that are new, or more frequent than chance explains, in the order of Signature.
   std::vector<Signature> new_signatures = {};
-  /// Signatures that are missing in the baseline, of a subject that already failed there, and that are no
-  /// more frequent than chance explains.
+  /// Signatures that the baseline does not have, but that chance explains: their subject already failed in
+  /// the baseline, and they are rare.
   std::vector<Signature> unseen_signatures = {};
   double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
-  /// Signatures that only the baseline has, and whose absence now is unlikely to be chance.
+  /// Signatures that only the baseline has, if chance hardly explains that they are absent now.
   std::vector<Signature> gone_signatures = {};
   /// For each gone signature whose subject's code has changed since the signature was last seen: "in version
   /// 2", or "since sha256 0123456789ab".
   std::map<Signature, std::string> fixed = {};
   /// The other signatures that only the baseline has.
   std::vector<Signature> unrepeated_signatures = {};
-  /// Signatures that the baseline has, too, and that are no more frequent now than chance explains.
+  /// Signatures that the baseline also has, and that are no more frequent now than chance explains.
   std::vector<Signature> lasting_signatures = {};
   std::map<Signature, Sightings> sightings = {};  ///< of all signatures of the baseline
   /// Subjects that the baseline was not asked about. Their failures are neither new nor lasting.
@@ -72,12 +73,13 @@ struct ChangedSignatures {
 /// gone if the same test finds it less frequent, or if the subject has no failure of that sort any more and
 /// the test finds all failures of the sort together less frequent.
 ///
-/// A new signature must also be more frequent than in the rest of the baseline, after those campaigns are
-/// left out in which it was rarer than in the last one by more than chance explains. Therefore campaigns in
-/// which a fault was absent do not make it new again.
+/// The comparison leaves out campaigns of the baseline in which a signature was rarer than in the last
+/// campaign by more than chance explains. A new signature must also be more frequent than in the rest of the
+/// baseline. Therefore campaigns in which a fault was absent do not make the fault new again.
 ///
-/// The steps of a sweep share their random draws, so that the queries of a campaign with sweeps are no
-/// independent samples. Therefore the test counts draws: the smallest number from which the queries may come.
+/// The steps of a sweep share their random draws, so the queries of a campaign with sweeps are no
+/// independent samples. Therefore the test counts draws: the smallest number of draws that could have made
+/// the queries.
 ///
 /// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
 /// different ratios for different families, and the families in which a signature was seen are not recorded.
@@ -86,8 +88,9 @@ struct ChangedSignatures {
 /// a signature is gone, because those cases and meshes may not have been asked again.
 ///
 /// @param before the sum of the baseline's statistics
-/// @param risk the probability that a signature is found to be new although none is, and also that one is
-///             found to be gone; each comparison has an equal part of it (Bonferroni)
+/// @param risk the probability of calling some signature new although none is new, and likewise of calling
+/// some
+///             signature gone; each comparison has an equal part of this risk (Bonferroni)
 ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
                                      const Statistics& before, double risk);
 
@@ -110,19 +113,21 @@ struct ComparedRates {
 
 /// Compares the rates of all families that a campaign and its baseline have, by Fisher's exact test. The
 /// earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
-/// differs from it by no more than chance explains. Therefore campaigns in which a fault was absent for some
-/// time do not make it new again. For each subject it also compares the sum over all families and kinds with
-/// few failures in both campaigns, to notice a new way to fail that is spread over many families. The steps
-/// of a sweep share their random draws, so the sum includes only the step of each sweep with the most
-/// failures. Cases and meshes are left out, because they are not random samples.
+/// differs from the last one's by no more than chance explains. Therefore campaigns in which a fault was
+/// absent do not make the fault new again. For each subject, the function also compares the sum over all
+/// families and kinds with few failures in both campaigns, to notice a new way to fail that is spread over
+/// many families. The steps of a sweep share their random draws, so the sum includes only the step of each
+/// sweep with the most failures. Cases and meshes are left out, because they are no random samples.
 ///
-/// @param risk the probability that a rate is found to have changed although none has; each comparison has an
-///             equal part of it (Bonferroni)
+/// @param risk the probability of calling some rate changed although none has changed; each comparison has
+/// an equal
+///             part of this risk (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
 
-/// A run time per query that differs by more than those of equal campaigns do.
+/// A run time per query that differs by more than the run times of equal campaigns do.
 struct ChangedTime {
-  /// For a subject as a whole, ChangedTime::all_families and all of its kinds, as in "vt, ee".
+  /// For a subject as a whole, `family` is ChangedTime::all_families, and `kind` names all kinds, as in "vt,
+  /// ee".
   std::string subject, kind, family;
   double before = 0;    ///< ns in the baseline: the geometric mean over its campaigns
   double expected = 0;  ///< ns expected now: `before` multiplied by the slowdown of everything else
@@ -150,15 +155,17 @@ struct ComparedTimes {
 /// A busy machine makes everything slower. Therefore each family is compared with the subject's other
 /// families: the ratio of its time to its earlier time is divided by the median of this ratio over the
 /// subject's families. A subject as a whole is compared with the other subjects: its median ratio is divided
-/// by the median of 1 and the median ratios of all subjects. The families of a subject that has only a few
-/// are divided by this median, too.
+/// by the median of 1 and the median ratios of all subjects. If a subject has only a few families, their
+/// ratios are also divided by this median.
 ///
 /// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
 /// parts: one that follows from the batches, and one estimated from the subject's families, most of which
-/// have not changed. If there are several earlier campaigns, the variance is at least the one between them.
+/// have not changed. If there are several earlier campaigns, the variance is at least the variance between
+/// them.
 ///
-/// @param risk the probability that a time is found to have changed although none has; each comparison has an
-///             equal part of it (Bonferroni)
+/// @param risk the probability of calling some time changed although none has changed; each comparison has
+/// an equal
+///             part of this risk (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
 /// A fact that differs between the campaigns' runs; `before` and `now` join all of its values with " | ".
@@ -178,13 +185,13 @@ struct Changes : ChangedSignatures {
   Campaign baseline = {};  ///< the sum of the earlier campaigns
 };
 
-/// The probability that `changes` reports a changed rate although no rate has changed. Each other sort of
-/// report has the same probability of a false alarm: a new way to fail, one that is gone, and a changed run
-/// time.
+/// The probability that `changes` reports a changed rate although no rate has changed. The probability is
+/// the same for each other sort of false report: a new way to fail, a way to fail that is gone, and a
+/// changed run time.
 inline constexpr double false_alarm_risk = 1e-3;
 
-/// Adds up campaigns to serve as a baseline. They may have asked the same cases and meshes. Throws Error if
-/// two of them have a shard of random queries in common, because these queries would count twice.
+/// Adds up campaigns to serve as a baseline. The campaigns may have asked the same cases and meshes. Throws
+/// Error if two of them have a shard of random queries in common, because its queries would count twice.
 Campaign add_up(std::span<const Campaign> campaigns);
 
 /// Compares a campaign with earlier ones, given from the oldest. Rates and signatures are compared with the

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
 constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
 
-/// The rates of one subject, kind and family that are compared between campaigns.
+/// The rates of one subject, kind and family that a comparison of campaigns looks at.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
@@ -28,7 +28,8 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// The sum of the last proportion and of those before it that differ from it by no more than chance explains.
+/// The sum of the last proportion and of all earlier ones that differ from the last by no more than chance
+/// explains.
 Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   Proportion sum;
   for (const Proportion& each : all)
@@ -36,7 +37,7 @@ Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   return sum;
 }
 
-/// All rates that a campaign and its baseline have, whether changed or not.
+/// All rates that both a campaign and its baseline have, whether they have changed or not.
 std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const Campaign> baseline,
                                         double risk) {
   std::vector<ChangedRate> pairs;
@@ -59,23 +60,23 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// Thresholds: a family has few failures if it has at most one of these numbers. All three are tried, because
+/// The most failures with which a family counts as one with few. All three thresholds are tried, because
 /// larger campaigns have more failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The values now and before of some pairs of families and kinds, and the sum of these kinds.
+/// Proportions {now, before} of some pairs of family and kind, and the sum of the kinds.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;
 };
 
-/// The pairs (now, before) that have at least one failure and at most `few` in both campaigns together, by
-/// the rate's name. The steps of a sweep share their draws, and so are no independent samples. Therefore only
-/// the step with the most failures is included. Selecting pairs by the sum of both counts favours neither
-/// campaign, so the later test stays valid.
+/// The pairs of family and kind with 1 to `few` failures in both campaigns together, by the rate's name. The
+/// steps of a sweep share their draws, so they are no independent samples: only the step with the most
+/// failures is included. The sum of both counts selects the pairs. This favours neither campaign, so the
+/// later test stays valid.
 std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
   std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;
@@ -93,8 +94,8 @@ std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& p
   return found;
 }
 
-/// For each subject, the rates summed over all families and kinds with few failures. The function takes the
-/// number in `fews` that gives the smallest p, and multiplies this p by the length of `fews`.
+/// The rates of each subject, summed over all families and kinds with few failures. Takes the threshold in
+/// `fews` that gives the smallest p-value, and multiplies this p-value by the number of thresholds.
 std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
   std::map<RateName, ChangedRate> best;
   for (const std::uint64_t few : fews)
@@ -120,7 +121,7 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   return sums;
 }
 
-/// Says in the name of a rate that the bound is wang's, for subjects that claim no bound.
+/// Changes the names of rates of subjects that claim no bound: the names say that the bound is wang's.
 void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
   std::set<std::string> claim_nothing;
   for (const auto& [key, counts] : now.counts)

@@ -22,9 +22,9 @@ using What = Finding::What;
 /// A sort of failure, and the subject that fails.
 using Sort = std::pair<What, std::string>;
 
-/// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline. It
-/// is computed from how often each known signature was seen, by the series of Good and Toulmin (1956), or by
-/// the first term of that series if the campaign is larger than the baseline.
+/// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline,
+/// by the series of Good and Toulmin (1956), or by its first term if the campaign is larger than the
+/// baseline. `seen` says how often each known signature was seen in the baseline.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
   for (const std::uint64_t times : seen) {
@@ -86,8 +86,8 @@ std::uint64_t unasked(const Counts& counts) {
   return counts.without_answer(Fault::not_asked) + counts.without_answer(Fault::contract);
 }
 
-/// The number of queries that could have shown this sort of failure: a miss needs an answered query, a fault
-/// only an asked one.
+/// The number of queries that could have shown this sort of failure: all asked queries for a fault, all
+/// answered ones for any other sort.
 std::uint64_t chances(const Counts& counts, What what) {
   return counts.queries - (what == What::fault ? unasked(counts) : counts.faults_total());
 }
@@ -101,14 +101,15 @@ std::uint64_t failures(const Counts& counts, What what) {
   return sum;
 }
 
-/// How many queries could have shown a sort of failure now, compared with before. The counters do not say in
-/// which families a signature was seen, so only the range of the ratio over families is known.
+/// How many queries could have shown a sort of failure now, and how many before. The counters do not say in
+/// which families a signature was seen, so only the range of the ratio now / before over the families is
+/// known.
 struct Chances {
-  std::uint64_t before = 0;  ///< number of such random queries in the baseline
+  std::uint64_t before = 0;  ///< number of random queries in the baseline that could have shown the failure
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
   double most = 0;           ///< the largest such ratio
-  /// The largest number of times that one random draw was asked. The steps of a sweep share their draws: a
-  /// failure that was seen 40 times in 20 steps may have been drawn twice. To be safe, the tests count draws
+  /// The largest number of queries that share one random draw. The steps of a sweep share their draws: a
+  /// failure that was seen 40 times in 20 steps may come from two draws. To be safe, the tests count draws
   /// and not queries.
   std::uint64_t repeats = 1;
 
@@ -116,7 +117,7 @@ struct Chances {
   [[nodiscard]] std::uint64_t now(double ratio) const {
     return static_cast<std::uint64_t>(ratio * static_cast<double>(before));
   }
-  /// The smallest number of draws from which this many queries may come.
+  /// The smallest number of draws that could have made this many queries.
   [[nodiscard]] std::uint64_t draws(std::uint64_t queries) const { return queries / repeats; }
   /// The proportion of the draws that fail.
   [[nodiscard]] Proportion proportion(std::uint64_t failures, std::uint64_t queries) const {
@@ -140,7 +141,7 @@ Chances chances_of(const Sort& sort, const Statistics& now, const Statistics& be
   return sum;
 }
 
-/// The number of failures of a sort in cases and meshes, which are not random samples.
+/// The number of failures of a sort in queries that are no random samples: cases and meshes.
 std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   std::uint64_t sum = 0;
   for (const auto& [key, counts] : statistics.counts)
@@ -148,7 +149,7 @@ std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   return sum;
 }
 
-/// The probability that a signature is seen at least as often as now, if nothing has changed since `before`.
+/// The probability, if nothing has changed since `before`, of seeing a signature at least as often as now.
 double chance_of_more(const Signature& signature, const Statistics& now, const Statistics& before) {
   const Chances chances = chances_of({signature.what, signature.subject}, now, before);
   if (!chances.known()) return 1;
@@ -157,7 +158,7 @@ double chance_of_more(const Signature& signature, const Statistics& now, const S
       .more;
 }
 
-/// The probability that a failure which was seen `before` times is not seen now.
+/// The probability, if nothing has changed, that a failure that was seen `before` times is not seen now.
 double chance_of_none(std::uint64_t before, const Chances& chances) {
   if (!chances.known()) return 1;
   return fisher_test(chances.proportion(0, chances.now(chances.least)),
@@ -173,8 +174,8 @@ std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statis
   return seen;
 }
 
-/// The sum of the campaigns, without those in which a signature was rarer than in the last one by more than
-/// chance explains.
+/// The sum of the campaigns of a baseline, except those in which a signature was rarer than in the last
+/// campaign by more than chance explains.
 Statistics without_rarer(const Signature& signature, std::span<const Campaign> baseline, double risk) {
   Statistics sum;
   for (const Campaign& each : baseline)

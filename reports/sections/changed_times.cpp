@@ -23,9 +23,10 @@ using Logs = std::map<CountsKey, double>;
 /// A subject's families are compared with each other if there are at least this many pairs of family and
 /// kind.
 constexpr std::size_t fewest_families = 8;
-/// Assumed standard deviations of log(time now / time before) if nothing has changed, in addition to the
-/// spread of a family's batches: for a family compared with the subject's other families (at least this
-/// much), for a subject compared with other subjects, and for a time that nothing can be compared with.
+/// Assumed standard deviations of log(time now / time before) if nothing has changed; the spread of a
+/// family's batches comes on top. The first is the least value for a family, which is compared with the
+/// subject's other families. The second is for a subject, which is compared with other subjects. The third
+/// is for a time without any other to compare.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
@@ -37,7 +38,7 @@ bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_fami
 
 double square(double x) { return x * x; }
 
-/// The median; for an even number of values, whichever of the two middle ones is nearer to 0.
+/// The median. For an even number of values, it is the one of the two middle values that is nearer to 0.
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double low = values[(values.size() - 1) / 2];
@@ -67,7 +68,7 @@ double usual_variance(std::vector<double> values) {
 /// An estimate of a variance.
 struct Variance {
   double value = 0;
-  double weight = 0;  ///< its square divided by its degrees of freedom
+  double weight = 0;  ///< the square of `value` divided by the estimate's degrees of freedom
 
   Variance() = default;
   Variance(double v, double degrees_of_freedom) : value(v), weight(square(v) / degrees_of_freedom) {}
@@ -83,19 +84,18 @@ struct Variance {
     product.weight = square(factor) * weight;
     return product;
   }
-  /// Degrees of freedom of a sum, by Welch and Satterthwaite.
+  /// The degrees of freedom; for a sum of variances, the approximation of Welch and Satterthwaite.
   [[nodiscard]] double degrees_of_freedom() const { return std::min(square(value) / weight, 1e6); }
 };
 
-/// The logarithm of the time per query in ns, averaged over all batches, weighted by their numbers of
-/// queries.
+/// The logarithm of the time per query in ns: a mean over all batches, weighted by their numbers of queries.
 struct LogTime {
   double mean = 0;
   Variance variance =
-      {};  ///< of the mean, if the variance of a batch's time is inversely proportional to its queries
+      {};  ///< of the mean; takes a batch's variance as inversely proportional to its number of queries
 };
 
-/// Nothing if there are fewer than two batches.
+/// The mean over the batches of a subject; nothing for fewer than two batches.
 std::optional<LogTime> log_time(const SubjectTimes& times) {
   constexpr double ps_per_ns = 1000;
   double queries = 0;
@@ -128,17 +128,16 @@ LogTimes log_times(const Statistics& statistics) {
   return times;
 }
 
-/// Logarithms of the ratios of a time now to its value in each earlier campaign, each as the sum of two
+/// Logarithms of the ratios time now / time before, one for each earlier campaign. Each is the sum of two
 /// parts.
 struct Ratios {
-  std::vector<double> common = {};  ///< the part that other times share, such as that of a busy machine
+  std::vector<double> common = {};  ///< the part shared with other times, as on a busy machine
   std::vector<double> own = {};     ///< the rest
   Variance sampling = {};           ///< sum of the variances of the earlier times
 
   [[nodiscard]] double change() const { return mean(own); }
   [[nodiscard]] double campaigns() const { return static_cast<double>(own.size()); }
-  /// The variance of the difference between a time and its mean in the earlier campaigns, divided by the
-  /// variance of a single time.
+  /// The variance of (time now - mean of the earlier times), divided by the variance of a single time.
   [[nodiscard]] double of_difference() const { return 1 + 1 / campaigns(); }
 };
 
@@ -204,7 +203,7 @@ class Times {
     place.sampling += variance;
   }
 
-  /// The part of the variance of a change that follows from the spread among batches.
+  /// The variance of a change that the spread among batches explains.
   [[nodiscard]] Variance sampling(const CountsKey& key) const {
     Variance sum;
     if (is_whole(key)) {
@@ -218,7 +217,8 @@ class Times {
     return sum;
   }
 
-  /// The additional variance that is assumed if the subject has too few families to estimate it from.
+  /// The additional variance of a change that no spread among families can estimate: that of a whole
+  /// subject, or of a subject with too few families.
   [[nodiscard]] Variance assumed_spread(const Ratios& ratios) const {
     const double spread = families_.size() > 1 ? spread_of_subject : spread_of_machine;
     return {square(spread) * ratios.of_difference() / 2, HUGE_VAL};

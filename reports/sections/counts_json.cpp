@@ -20,7 +20,8 @@ ordered_json value_json(std::uint64_t count) { return count; }
 
 ordered_json value_json(const Histogram& histogram) { return histogram.bins; }
 
-/// The cases as JSON; `key` names the quantity in which they are extreme.
+/// The cases as JSON. Each has its `ratio` under `key`, which names the quantity in which the cases are
+/// extreme.
 ordered_json cases_json(const std::vector<FarCase>& cases, const char* key) {
   ordered_json json = ordered_json::array();
   for (const FarCase& far : cases)
@@ -28,7 +29,7 @@ ordered_json cases_json(const std::vector<FarCase>& cases, const char* key) {
   return json;
 }
 
-/// All times except ns_per_query.
+/// A subject's run times, except ns_per_query.
 ordered_json value_json(const SubjectTimes& times) {
   ordered_json json;
   json["timed_queries"] = times.queries();

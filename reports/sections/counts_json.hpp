@@ -14,10 +14,10 @@ nlohmann::ordered_json or_null(const std::optional<double>& number);
 /// Adds measures of a sum of counters to an object, under their keys.
 void add_measures(nlohmann::ordered_json& json, const MeasureKeys& measures, const CountsSum& sum);
 
-/// An object with the measures that reports show of every sum: rate_measures().
+/// An object with rate_measures(), which reports show for every sum.
 nlohmann::ordered_json rates_json(const CountsSum& sum);
 
-/// rates_json with the other counters added.
+/// The object of rates_json, with all other counters added.
 nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);

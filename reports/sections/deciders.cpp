@@ -27,14 +27,14 @@ constexpr std::size_t decider_count = 4;
 /// of the last three names belongs to that decider; every other stage or rejection belongs to "algorithm".
 constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer", "exact"};
 
-/// The queries of a family, of all kinds together, by what decided them.
+/// A subject's queries of a family, all kinds together, by the decider that decided them.
 struct DeciderRow {
   std::string subject;
   std::string family;  ///< "" for all families; a scene is one family with all its steps
   std::array<std::uint64_t, decider_count> queries{};
   std::optional<double> ns_per_query;       ///< nothing if the subject was not timed
-  std::map<std::string, double> time_over;  ///< time divided by that of the subject in the key, over the same
-                                            ///< families and kinds
+  std::map<std::string, double> time_over;  ///< time divided by that of another subject, the key, over the
+                                            ///< families and kinds that have both times
 
   [[nodiscard]] std::uint64_t all() const;
 };
@@ -61,8 +61,8 @@ std::string row_family(const std::string& family) {
   return family.starts_with("scene:") ? scene_of(family) : shown_family(family);
 }
 
-/// The run time of a subject divided by that of another, over the kinds and families that are shown and that
-/// have times of both; nothing if there are none.
+/// The run time of a subject divided by that of another subject, over the kinds and families for which
+/// `is_shown` is true and both have times; nothing if there are none.
 template <class IsShown>
 std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
                                 const std::string& other, const IsShown& is_shown) {
@@ -80,7 +80,8 @@ std::optional<double> time_over(const Statistics& statistics, const std::string&
   return ns && ns_of_other ? std::optional(*ns / *ns_of_other) : std::nullopt;
 }
 
-/// The row of a subject's family, or of all its families if `family` is "". `sum` counts the row's queries.
+/// The row of a subject for a family, or for all families if `family` is "". `sum` has the counters of the
+/// row.
 DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family,
                const CountsSum& sum) {
   const auto shown = [&](const CountsKey& key) { return family.empty() || row_family(key.family) == family; };
@@ -95,8 +96,8 @@ std::uint64_t DeciderRow::all() const {
   return std::accumulate(queries.begin(), queries.end(), std::uint64_t{0});
 }
 
-/// The rows of each subject for which both its algorithm and another stage decide something: one for all
-/// families, then one for each.
+/// Rows for each subject of which the algorithm decides some queries and another decider others: one row for
+/// all families, then one for each family.
 std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
   const auto by_family = sums_by(
       statistics, [](const CountsKey& key) { return std::pair(key.subject, row_family(key.family)); });

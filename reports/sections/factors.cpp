@@ -59,8 +59,9 @@ struct Row {
 
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
-/// The range of a factor for all kinds; nothing if they differ, or if there is none. Ranges of all values
-/// that a kind was asked about do not differ. Kinds with too few queries do not count beside others.
+/// The range of a factor that all kinds have in common; nothing if their ranges differ or if no kind has
+/// one. Two kinds that are right at every value they were asked about do not differ. A kind with too few
+/// queries is left out, unless all kinds have too few.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   const bool has_enough = std::ranges::any_of(
@@ -80,13 +81,13 @@ std::optional<RightRange> common(const Ranges& ranges, const std::string& factor
   return all;
 }
 
-/// The range of a factor for a kind; nothing if there is none.
+/// The range of a factor for a kind; nothing if the kind has none.
 std::optional<RightRange> of_kind(const Ranges& ranges, const std::string& factor, Kind kind) {
   const auto found = ranges.find({factor, kind});
   return found == ranges.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// One row for each subject whose ranges are the same for all kinds, and one for each kind of the others.
+/// One row for each subject whose ranges are the same for all kinds. Other subjects have a row for each kind.
 std::vector<Row> rows_of(const Statistics& statistics) {
   std::map<std::string, Ranges> subjects;
   for (const RightRange& each : right_ranges(statistics.factors))
@@ -120,14 +121,15 @@ std::string values_of(const RightRange& range) {
                          : "no range";
 }
 
-/// What is wrong at all other values: "misses 58 of 310, reports 90 % of the rest"; "" if nothing is.
+/// What is wrong at the values outside the range, such as "misses 58 of 310, reports 90 % of the rest"; ""
+/// if nothing is.
 std::string wrong_elsewhere(const RightRange& range) {
   const FactorCounts& counts = range.elsewhere;
   std::string wrong;
   if (counts.false_negatives > 0)
     wrong = fmt::format("misses {} of {}", with_separators(counts.false_negatives),
                         with_separators(counts.collisions));
-  // A CCD that makes room for rounding may report up to a third of the rest everywhere.
+  // A CCD that allows for rounding errors may report up to a third of the rest at any value.
   if (3 * counts.false_positives > counts.others)
     wrong += fmt::format("{}reports {} of the rest", wrong.empty() ? "" : ", ",
                          percent(counts.false_positives, counts.others));

@@ -15,7 +15,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The text of the line for each fate.
+/// The first cell of the row for each fate.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
@@ -48,7 +48,7 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
 
 using Row = std::vector<std::string>;
 
-/// A row with the numbers of both kinds and their percentages of `all`.
+/// A row with the numbers of both kinds, `parts`, and their percentages of `all`.
 Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
   Row cells{std::string(what)};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -58,7 +58,7 @@ Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<st
   return cells;
 }
 
-/// Adds rows on the work that the asked pairs need, for subjects that report it and for the oracle.
+/// Adds rows that say how much work the asked pairs need, for the oracle and for the subjects that report it.
 void add_needs(const ScenePairs& scene, std::array<std::uint64_t, 2> asked, std::vector<Row>& rows) {
   static const std::map<Rejection, std::string_view> left_out{
       {Rejection::planes, "planes separate the primitives, nothing else is computed"},

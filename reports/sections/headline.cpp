@@ -27,12 +27,12 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The names of subjects, or their number if there are many.
+/// The names of subjects, or only their number if there are more than four.
 std::string subjects(const std::vector<std::string>& names) {
   return names.size() <= 4 ? listed(names) : fmt::format("{} subjects", names.size());
 }
 
-/// @param asked number of subjects of the campaign
+/// What is new since the baseline. `asked` is the number of subjects of the campaign.
 std::string since_text(const Changes& since, std::size_t asked) {
   if (asked != 0 && since.absent_subjects.size() == asked) return "no subject is in the baseline";
   std::vector<std::string> news;
@@ -56,7 +56,7 @@ std::string since_text(const Changes& since, std::size_t asked) {
          (gone == 0 ? "" : ", and " + counted(gone, "way to fail is gone", "ways to fail are gone"));
 }
 
-/// "a and b failed ordinary queries": subjects that failed in the same class.
+/// "a and b failed ordinary queries", for subjects that failed in the same class.
 std::string group_text(const std::vector<const SubjectVerdict*>& group) {
   std::vector<std::string> names;
   for (const SubjectVerdict* each : group) names.push_back(each->subject);
@@ -69,7 +69,7 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
 bool is_unjudged(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::unjudged); }
 
 /// Says which subjects failed, which were asked nothing, and which did not fail. If only one subject failed,
-/// it says how. If several failed, it says in which class of queries, the least exotic class first.
+/// says how it failed. If several failed, says in which class of queries, the least exotic class first.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
   std::vector<std::string> unjudged;
@@ -97,7 +97,7 @@ std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// The reasons for an alarm, as Headline::alarms describes them.
+/// The content of Headline::alarms.
 std::vector<std::string> alarms_of(const std::vector<SubjectVerdict>& verdicts, const std::string& complaint,
                                    const std::optional<Changes>& since, const Failures& failing) {
   std::vector<std::string> alarms;

@@ -1,4 +1,4 @@
-// The verdict in one line, and the first table of the page, which has a row for each subject.
+// The verdict on a campaign in one line, and the page's first table, which has a row for each subject.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,15 +20,15 @@ struct Headline {
   std::vector<std::string> alarms;
 };
 
-/// Says which subjects failed and in which class of queries, how many queries were asked, and, with a
-/// baseline, whether anything is new. `failing` are the failures that count.
+/// Says which subjects failed and in which class of queries, how many queries were asked, and, if there is a
+/// baseline, whether anything is new. Only the failures in `failing` count.
 Headline headline(const Statistics& statistics, const std::optional<Changes>& since,
                   const Failures& failing = usual_failures());
 
-/// An object for each subject, in the order of their names. It has the subject's verdict; its failures, the
-/// gravest first; its place on the ladder of precisions; its rates over all kinds, as a whole and class by
-/// class; its run times; the number of changes since the baseline; and the index of its simplest failure
-/// among the findings that are shown (null without findings).
+/// A list with an object for each subject, in the order of their names. An object has the subject's verdict;
+/// its failures, the gravest first; its place on the ladder of precisions; its rates over all kinds, for all
+/// classes together and for each class; its run times; the number of changes since the baseline; and the
+/// index of its simplest failure in `findings` (null without findings).
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                                       const std::optional<Changes>& since,
                                       const Failures& failing = usual_failures());

@@ -29,12 +29,12 @@ constexpr int finest = -127;
 constexpr int coarsest = -23;
 constexpr int double_exponent = -52;
 
-/// A subject of the ladder; distances in units of B.
+/// A subject of the ladder. Distances are in units of B.
 struct Rung : LadderPlace {
   std::string subject;
   CountsSum sum;  ///< over all families and kinds
 
-  /// The distance bound.
+  /// The distance bound that the subject claims.
   [[nodiscard]] double claimed() const { return *unit; }
   /// Farthest distance divided by claimed distance; 0 without false positives.
   [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
@@ -42,18 +42,18 @@ struct Rung : LadderPlace {
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// The farthest distance of an algorithm as a power of ε: a line fitted to logarithms by least squares, for
-/// the queries of one origin or of all.
+/// A fit of an algorithm's farthest distances by a power of ε: a line through their logarithms by least
+/// squares, for the queries of one origin or of all origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
-  double half_width_95 = 0;                  ///< half the width of its 95 % confidence interval (Student's t)
+  double half_width_95 = 0;                  ///< half-width of the exponent's 95 % confidence interval
   int points = 0;                            ///< number of subjects
   int precisions = 0;                        ///< number of different ε
   double least_part = 0, greatest_part = 0;  ///< range of Rung::part()
 
-  /// Whether the farthest false positives almost reach the claimed distances. Then the fit only repeats the
-  /// exponent in the formula of the claim.
+  /// Whether the farthest false positives almost reach the claimed distances. If so, the fit only repeats
+  /// the exponent in the formula of the claim.
   [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 
@@ -63,8 +63,8 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Whether the farthest ratio of a rung is known. If it is below the lowest border of the histogram, only an
-/// upper bound is known.
+/// Whether the farthest ratio of a rung is known, not only an upper bound of it, as below the histogram's
+/// lowest border.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -85,7 +85,7 @@ LadderPlace place_of(const std::string& subject) {
                     *exponent, std::nullopt};
   if (!given_bound.empty()) return place;
   const auto name = algorithm.substr(0, algorithm.find(':'));  // without options
-  // The first three claim no bound; wang's is their unit.
+  // These three claim no bound, so wang's bound is their unit.
   if (name == "basic" || name == "basic-plain" || name == "bridson")
     place.unit = claimed_distance("wang", double_exponent);
   else if (name == "wang-tight")
@@ -104,11 +104,11 @@ nlohmann::ordered_json place_json(const LadderPlace& place) {
 
 namespace {
 
-/// The rungs of wang and wang-tight over the scalars in the statistics, by ascending precision. Counts the
-/// queries of one origin (family.hpp), or of all origins if `only` is "".
+/// The rungs of wang and wang-tight, one for each scalar in the statistics, by ascending precision. Counts
+/// only queries of the origin `only` (family.hpp), or of all origins if it is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
-  // The power of ε is about the bound 41 B ε^¼ of pairs of meshes.
+  // The fits test the exponent of the bound 41 B ε^¼, which holds for pairs of meshes.
   for (const auto& [key, counts] : statistics.counts)
     if (is_of_meshes(key.kind) && (only.empty() || origin(key.family) == only))
       by_subject[key.subject].add(key.family, counts);
@@ -146,8 +146,8 @@ std::pair<double, double> slope(const std::vector<LogPoint>& points) {
   return {xy / xx, std::sqrt(residual / (n - 2) / xx)};
 }
 
-/// Fits an algorithm's rungs with ε from 2^-127 to 2^-23. Rungs whose farthest false positive is below the
-/// histogram's lowest border are left out. Nothing for fewer than three values of ε.
+/// Fits those rungs of an algorithm that have ε from 2^-127 to 2^-23 and a measured farthest false positive
+/// (is_measured). Nothing for fewer than three values of ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
   std::vector<LogPoint> points;
   std::set<int> precisions;
@@ -170,7 +170,7 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
   return line;
 }
 
-/// For each algorithm, the fit over all origins, and the fit for each single origin.
+/// The fits of each algorithm: one over all origins, and one for each origin.
 std::vector<Fit> fits(const Statistics& statistics) {
   std::set<std::string> origins{""};
   for (const auto& [key, counts] : statistics.counts) origins.emplace(origin(key.family));

@@ -12,8 +12,8 @@ struct LadderPlace {
   std::string algorithm;  ///< with options, and a bound that the user gave: "wang-eps:h=0.001@0.5"
   std::string scalar;
   int epsilon_exponent = 0;
-  /// The bound by which the distances of false positives are divided, itself in units of B; nothing if it is
-  /// not known.
+  /// The bound by which the distances of false positives are divided. The bound is in units of B; nothing if
+  /// it is not known.
   std::optional<double> unit;
 };
 

@@ -26,7 +26,7 @@ Value of(const CountsSum& sum) {
   return as_value(std::invoke(member, sum.counts));
 }
 
-/// The bin of a quantile, which the member function `quantile` of Counts computes.
+/// The bin of a quantile. `quantile` is the member function of Counts that computes it.
 template <auto quantile, int hundredths>
 Value quantile_of(const CountsSum& sum) {
   return std::invoke(quantile, sum.counts, hundredths / 100.0);
@@ -63,7 +63,7 @@ std::string late_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.late);
 }
 
-/// Likewise for steps with contact.
+/// The number of committed steps with contact; "-" if no time was promised to be a lower bound.
 std::string committed_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.committed);
 }

@@ -1,6 +1,6 @@
-// The table of measures: each number that reports compute from a subject's counters, with its names in files
-// and tables. A section of a report sums counters by some key (sums_by), and shows a list of measures of each
-// sum.
+// The table of measures. A measure is a number that reports compute from a subject's counters; the table has
+// its names in files and tables. A section of a report sums counters by some key (sums_by), and shows some
+// measures of each sum.
 #pragma once
 
 #include <cstddef>
@@ -26,11 +26,11 @@ struct Measure {
   std::string_view key;              ///< in report.json
   Value (*value)(const CountsSum&);  ///< as files show it
   std::string_view heading = "";     ///< in tables on the terminal
-  std::string_view csv_after = "";   ///< CSV files show it after this counter; "" if they do not
-  std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the value
+  std::string_view csv_after = "";   ///< the counter after which CSV files show it; "" if they do not show it
+  std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the text of the value
 };
 
-/// The measures that report.json shows of every sum, in its order.
+/// The measures that report.json shows for every sum, in the order of report.json.
 std::span<const Measure> rate_measures();
 
 /// The measure with this key: one of rate_measures(), or one of the few that report.json shows only in some
@@ -43,7 +43,7 @@ using MeasureKeys = std::vector<std::string_view>;
 /// The headings of a table on the terminal: the given cells, then the measures.
 std::vector<std::string> headings(std::vector<std::string> cells, const MeasureKeys& measures);
 
-/// A row of such a table.
+/// A row under these headings: the given cells, then the measures of a sum.
 std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKeys& measures,
                                 const CountsSum& sum);
 

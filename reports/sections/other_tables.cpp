@@ -60,7 +60,7 @@ std::string load_environments(const std::filesystem::path& file) {
         row[key] = each.at(key).get<std::uint64_t>();
       row["verdict"] = row["missed"] > 0 ? "misses" : row["faults"] > 0 ? "gives no answer" : "keeps it";
       row["first"] = each.at("first");
-      if (!row["first"].is_null()) row["first"].get_ref<const std::string&>();  // throws for anything else
+      if (!row["first"].is_null()) row["first"].get_ref<const std::string&>();  // or throws
     }
   });
   return rows.empty() ? "" : json_text(rows);

@@ -1,4 +1,4 @@
-// Tables of other commands that reports show: how soon hunts find defects, and environments.
+// Tables that other commands write and reports show: how soon hunts find defects, and CCDs in environments.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace nearmiss {
 /// One way to hunt for one known defect, and how long it took to find it.
 struct Hunt {
   std::string subject, way;
-  std::string time = {};   ///< its limit: "60s"
-  std::uint64_t seed = 0;  ///< of the queries
+  std::string time = {};   ///< time limit of the hunt: "60s"
+  std::uint64_t seed = 0;  ///< seed of the queries
   /// The failure that was found, if any; without a failure, the members below are meaningless.
   std::optional<std::string> failure = {};  ///< "false-negative", "refuted-bound" or "late"
   double seconds = 0;
@@ -24,13 +24,13 @@ struct Hunt {
 
 nlohmann::ordered_json hunts_json(const std::vector<Hunt>& hunts);
 
-/// Reads the file that nearmiss power --json writes. Throws Error.
+/// Reads the file that nearmiss power --json writes. Throws Error if it cannot be read or has other content.
 std::vector<Hunt> load_hunts(const std::filesystem::path& file);
 
-/// Reads the table that tools/environments writes: the results of CCDs in environments, which are a compiler,
-/// flags, and the processor's mode of arithmetic. Returns it as JSON with a verdict for each row: the
-/// guarantee is that no collision is missed, and "gives no answer" means that some queries got no answer.
-/// Returns "" for an empty table. Throws Error.
+/// Reads the table that tools/environments writes: results of CCDs in environments. An environment is a
+/// compiler, its flags, and the processor's mode of arithmetic. Returns the table as JSON with a verdict for
+/// each row on the guarantee that no collision is missed; "gives no answer" means that some queries got no
+/// answer. Returns "" for an empty table. Throws Error if the file cannot be read or has other content.
 std::string load_environments(const std::filesystem::path& file);
 
 }  // namespace nearmiss

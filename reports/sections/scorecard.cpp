@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// The numbers of a subject's ways to fail, rates and run times that have changed.
+/// How many of a subject's ways to fail, rates and run times have changed.
 ordered_json changes_of(const std::string& subject, const Changes& since) {
   const auto of_subject = [&](const auto& each) { return each.subject == subject; };
   const auto number = [&](const std::vector<Signature>& signatures) {
@@ -51,8 +51,8 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of the failure with the least exotic query, or of the gravest of several. Failures that count
-/// come before all others.
+/// The index of a subject's failure with the least exotic query; among equally exotic ones, of the gravest.
+/// A failure that counts comes before any that does not.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings,
                                const Failures& failing) {
   const auto rank = [&](const Finding& finding) {

@@ -9,12 +9,13 @@
 
 namespace nearmiss {
 
-/// A line with the verdict on each subject (verdicts.hpp), where `failing` are the failures that count, and a
-/// line for each pair of versions; and the tolerances that were measured.
+/// A line with the verdict on each subject (verdicts.hpp), a line for each pair of versions, and the
+/// tolerances that were measured. Only the failures in `failing` count.
 std::string summary_lines(const Statistics& statistics, const Failures& failing = usual_failures());
-/// The same lines. Then come a table with a row for each subject and kind, one by class with
-/// the times of impact, one by class, the sizes at which subjects are right, what misses have in common, and
-/// the oracle's counters.
+/// The lines of summary_lines on subjects and versions. Then come the sizes at which subjects are right; a
+/// table with a row for each subject and kind; a table of times of impact and one of other counters, both
+/// with a row for each subject, kind and class; what misses have in common; the oracle's counters; and the
+/// measured tolerances.
 std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());
 
 /// At which lengths of edges, and how far from the origin, each subject is right (right_ranges): a row for
@@ -22,10 +23,11 @@ std::string summary_table(const Statistics& statistics, const Failures& failing 
 std::string sizes_table(const Statistics& statistics);
 nlohmann::ordered_json sizes_json(const Statistics& statistics);
 
-/// "89 % of the missed ones have scale=1e-6, and 20 % of all"
+/// "89 % of the missed ones have scale=1e-6, and 20 % of all": shares of the missed collisions and of all
+/// collisions
 std::string to_text(const CommonFactors& common);
-/// The factors that missed collisions have in common: a line, or an object, for each subject, kind and family
-/// with factors and misses.
+/// The factors that missed collisions have in common: a line (or an object in JSON) for each subject, kind
+/// and family whose queries have factors and that has misses.
 std::string common_factors_lines(const Statistics& statistics);
 nlohmann::ordered_json common_factors_json(const Statistics& statistics);
 
@@ -48,26 +50,27 @@ std::string simulation_tables(const Statistics& statistics);
 /// entry for each step, and the list "step" with the numbers of the steps.
 nlohmann::ordered_json simulations_json(const Statistics& statistics);
 
-/// A table for each sweep and subject with a row for each value, then one for each sweep of an option with a
-/// row for each class and value, and its cliff: the neighbouring values between which the rate of misses
-/// changes most.
+/// A table for each sweep and subject, with a row for each value. Then a table for each sweep of an option,
+/// with a row for each class and value, and with the sweep's cliff: the neighbouring values between which
+/// the rate of misses changes most.
 std::string sweep_tables(const Statistics& statistics);
 /// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
 /// increasing order.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 /// An object with a list for each pattern NAME:KEY=*, in the order of classes and values.
 nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
-/// An object for each cliff.
+/// A list with an object for each cliff.
 nlohmann::ordered_json cliffs_json(const Statistics& statistics);
 
-/// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. For each of
-/// them, these have a row for all families, then one for each family, which say which stage decides, and its
-/// time divided by that of wang and of exact, if these are in the statistics.
+/// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. The tables
+/// have rows for each such subject, one for all families, then one for each family. A row says how many
+/// queries each stage decides, and gives the subject's run time divided by that of wang and by that of
+/// exact, if they have times.
 std::string decider_tables(const Statistics& statistics);
 nlohmann::ordered_json deciders_json(const Statistics& statistics);
 
-/// The ladder of precisions, if an algorithm has at least two: a row for each rung, and the fits over all
-/// origins.
+/// The ladder of precisions, with a row for each rung, and the fits over all origins; "" unless an algorithm
+/// has at least two precisions.
 std::string ladder_table(const Statistics& statistics);
 /// An object with "rungs" and "fits".
 nlohmann::ordered_json ladder_json(const Statistics& statistics);
@@ -79,7 +82,7 @@ nlohmann::ordered_json ladder_json(const Statistics& statistics);
 ///                         for a sound lower bound this magnitude is how early the time is
 ///   "front_by_distance"   the Pareto front by the farthest distance
 ///   "front_by_rate"       the Pareto front by the rate of false positives
-///   "front_by_earliness"  that by the 99 % quantile of earliness, among subjects with lower bounds as times
+///   "front_by_earliness"  the Pareto front by the 99 % quantile of earliness, for times that are bounds
 ///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
 ///                         B, because fractions of different bounds cannot be compared, and the
 ///                         "paper_bound" of double

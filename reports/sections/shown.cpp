@@ -18,14 +18,14 @@ namespace nearmiss {
 
 namespace {
 
-/// A file name as a machine that ignores case sees it.
+/// A file name as it is compared where upper and lower case are the same.
 std::string without_case(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return name;
 }
 
-/// Gives each file a name of its own, also on a machine that ignores case.
+/// Gives each file a name of its own, even where upper and lower case are the same.
 class OwnNames {
  public:
   /// NAME.case, or NAME-2.case, NAME-3.case ... if NAME.case is taken.
@@ -54,7 +54,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  std::map<std::string, std::size_t> number;  // files so far, by their names without number and case
+  std::map<std::string, std::size_t> number;  // of files so far, by case-folded name
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (first.take(finding))
@@ -94,7 +94,7 @@ const Run* run_of(const Campaign& campaign, const Finding& finding) {
   return nullptr;
 }
 
-/// How the command line of the machine that ran it names a subject's plug-in; nothing for a built-in subject.
+/// The argument that names a subject's plug-in on the machine that ran it; nothing for a built-in subject.
 std::optional<std::string> plugin_text(const Run& run, const std::string& subject) {
   for (const Shard& shard : run.shards)
     if (const auto text = shard.environment.find(std::string(about_plugin) + subject);
@@ -103,8 +103,8 @@ std::optional<std::string> plugin_text(const Run& run, const std::string& subjec
   return std::nullopt;
 }
 
-/// How the command line names a subject of a run, with the bound of the scene if the subject was asked with
-/// it.
+/// The argument that names a subject of a run. It includes the scene's bound if the subject was asked with
+/// that bound.
 std::string text_of(const Run& run, std::string subject) {
   if (is_beyond_contract(subject)) subject.resize(subject.size() - beyond_contract.size());
   const auto renamed = run.info.find(std::string(about_subject) + subject);

@@ -23,13 +23,13 @@ struct ShownFinding {
   Exported shrunk, original;
 };
 
-/// The first findings of each signature and class (FirstFindings); findings.csv has all findings. The files
-/// are numbered separately for each kind of failure and each subject. Subjects whose file names are equal,
-/// apart from upper and lower case, share the numbers.
+/// The first findings of each signature and class (FirstFindings); findings.csv has all findings. The
+/// numbers in file names start at 1 for each kind of failure and each subject; subjects whose file names
+/// differ only in case share numbers.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
-/// The command that replays a finding in the report's folder, with the run's limits and bound. A plug-in's
-/// path is that of the machine that found it.
+/// The command that replays a finding from within the report's folder, with the run's limits and bound. If
+/// the subject is a plug-in, its path is the one on the machine that found the finding.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
 /// The farthest false positive of one subject, kind and family.

@@ -22,14 +22,14 @@ struct Whole {
   SimulatedStep sum, last;
   std::uint64_t most_tangled = 0, most_picojoules = 0;
   std::uint64_t subject_ns = 0;                ///< the time that the subject took for all its answers
-  std::optional<std::uint64_t> first_tangled;  ///< the number of the step
+  std::optional<std::uint64_t> first_tangled;  ///< the number of the first step with tangles
 
   void add(std::uint64_t number, const SimulatedStep& step) {
     ++steps;
     last = step;
     most_picojoules = std::max(most_picojoules, step.picojoules);
     SimulatedStep counts = step;
-    counts.picojoules = 0;  // energies are no counts
+    counts.picojoules = 0;  // a sum of the steps' energies means nothing
     sum.merge(counts);
     most_tangled = std::max(most_tangled, step.tangled);
     if (step.tangled > 0 && !first_tangled) first_tangled = number;

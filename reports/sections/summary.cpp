@@ -89,8 +89,8 @@ constexpr const char* footnotes =
 /// A table followed by an empty line; "" for an empty table.
 std::string spaced(const std::string& text) { return text.empty() ? "" : text + "\n"; }
 
-/// A table with a row for each subject, kind and class: the sort of its times, how many of them are late or
-/// stuck at 0, and how early or late they are; "" if no subject gives times.
+/// A table with a row for each subject, kind and class. A row has the sort of the subject's times, how many
+/// of them are late or stuck at 0, and how early or late they are. "" if no subject gives times.
 std::string time_table(const Statistics& statistics) {
   auto sums = by_class(statistics);
   std::erase_if(sums, [](const auto& each) {

@@ -24,10 +24,10 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Sums of counters over all kinds, by the value of the parameter.
+/// Sums of counters over all kinds, by the value of a sweep's parameter.
 using Sweep = std::map<double, CountsSum>;
 
-/// Likewise, by class of families and value of the option.
+/// Sums of counters over all kinds, by class of families and value of a subject's option.
 using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
 /// Two neighbouring values of an option, and the misses among the collisions with each of them.
@@ -37,7 +37,7 @@ struct Cliff {
   Proportion missed, missed_next;
 };
 
-/// A place in a sweep: what is swept, and the value there.
+/// A step of a sweep: the family or the option that is swept, and its value in this step.
 struct Step {
   std::string of;
   double value;
@@ -58,7 +58,7 @@ std::string title_of_sweep(std::string_view family) {
   return of.text();
 }
 
-/// A step for each option of the subject that is a number.
+/// A step for each option of the subject whose value is a number.
 std::vector<Step> steps_of_options(std::string_view subject) {
   std::vector<Step> steps;
   for (auto at = subject.find(':'); at != std::string_view::npos; at = subject.find(':', at + 1)) {
@@ -79,8 +79,8 @@ bool has_one_value(const OptionSweep& sweep) {
   return values.size() == 1;
 }
 
-/// The sweeps in a campaign by family, NAME or NAME~SEPARATION, and by subject: families NAME@VALUE and
-/// NAME@VALUE~SEPARATION with at least two values.
+/// The sweeps in a campaign, by family (NAME or NAME~SEPARATION) and subject. A sweep is a set of families
+/// NAME@VALUE, or NAME@VALUE~SEPARATION, with at least two values.
 std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& statistics) {
   std::map<std::pair<std::string, std::string>, Sweep> found;
   for (const auto& [key, counts] : statistics.counts)
@@ -90,8 +90,8 @@ std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& st
   return found;
 }
 
-/// The sweeps of options in a campaign by pattern: subjects NAME:KEY=NUMBER with at least two different
-/// numbers have the pattern NAME:KEY=*.
+/// The sweeps of options in a campaign, by pattern. Subjects NAME:KEY=NUMBER with at least two different
+/// numbers are a sweep with the pattern NAME:KEY=*.
 std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics) {
   std::map<std::string, OptionSweep> found;
   for (const auto& [key, counts] : statistics.counts)
@@ -105,8 +105,8 @@ Proportion missed(const CountsSum& sum) { return {sum.counts.false_negatives, su
 
 double difference(const Cliff& cliff) { return std::abs(cliff.missed.rate() - cliff.missed_next.rate()); }
 
-/// The neighbouring values between which the rate of misses changes most, in the least exotic class in which
-/// a rate changes by more than chance explains; nothing without such a change.
+/// The neighbouring values between which the rate of misses changes most. Takes the least exotic class in
+/// which the rate changes by more than chance explains; nothing without such a class.
 std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   constexpr double improbable = 1e-3;
   std::optional<Cliff> best;
@@ -115,7 +115,7 @@ std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
     const auto& [next, next_sum] = *std::next(at);
     if (next.first != key.first || (best && best->of != key.first)) continue;
     if (key.second < 0 && next.second >= 0)
-      continue;  // -1 often means no limit, so 100 is no neighbour of it
+      continue;  // a negative value often means no limit, so a positive one is not its neighbour
     const Cliff cliff{key.first, key.second, next.second, missed(sum), missed(next_sum)};
     const bool is_there = cliff.missed.total > 0 && cliff.missed_next.total > 0 &&
                           fisher_test(cliff.missed_next, cliff.missed).either() < improbable;
@@ -124,7 +124,7 @@ std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   return best;
 }
 
-/// "cliff: at 1000, 30 % of the collisions in ordinary families are missed, at 10000 0 %"
+/// "cliff: at 1000, 30 % of the collisions in ordinary families are missed, at 10000 0 %".
 std::string to_text(const Cliff& cliff) {
   const auto share = [](const Proportion& part) {
     return part.count == 0 ? std::string("none") : percent(part.count, part.total);

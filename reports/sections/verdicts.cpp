@@ -93,7 +93,7 @@ Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& f
   });
 }
 
-/// How often a subject failed in this way on queries of a class; 0 if that is not counted.
+/// How often a subject failed in this way on queries of a class; 0 if the counters do not say.
 std::uint64_t count_of(const Counts& counts, const FailureInfo& failure, QueryClass of) {
   return failure.by_class == nullptr ? 0 : (counts.*failure.by_class)[static_cast<std::size_t>(of)];
 }
@@ -111,9 +111,9 @@ std::string class_and_kind(QueryClass of, Kind kind) {
                                         : fmt::format("{} {}", name(of), short_name(kind));
 }
 
-/// "53 of 504 ordinary vt collisions": how often a subject failed in families of a class, for each kind that
-/// failed there; if the classes of queries are `known`, only for each kind that failed on queries of this
-/// class. Returns "" if there is no such kind, and adds these kinds to `said`.
+/// "53 of 504 ordinary vt collisions": how often a subject failed in families of the class `in`, for each
+/// kind with such failures. If the classes of queries are `known`, only for kinds with failures on queries
+/// of this class. Adds these kinds to `said`. "" if there is no such kind.
 std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
@@ -133,7 +133,7 @@ std::string said_of_families(const Parts& parts, const FailureInfo& failure, Que
 }
 
 /// "12 ordinary vt collisions in degenerate families": on how many queries of a class a subject failed, for
-/// each kind that is not in `said`; "" if there is none.
+/// each kind that is not in `said`. "" if there is no such kind.
 std::string said_of_queries(const Parts& parts, const FailureInfo& failure, QueryClass of,
                             const std::set<Kind>& said) {
   std::map<Kind, std::uint64_t> by_kind;
@@ -156,9 +156,9 @@ std::string said_of_queries(const Parts& parts, const FailureInfo& failure, Quer
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// The least exotic class of the queries on which a subject failed in this way, and how often it did: "missed
-/// 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate families". If the class of
-/// the queries is not known, the class is that of their families.
+/// The least exotic class of the queries on which a subject failed in this way, and how often it failed
+/// there: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate families".
+/// If the classes of the queries are not known, uses the classes of their families.
 std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const FailureInfo& failure) {
   const auto of_queries = class_of_queries(subject, failure);
   const QueryClass of = of_queries.value_or(least_exotic_part(subject.parts, failure)->first);
@@ -169,7 +169,7 @@ std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const Failu
   return {of, fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere)};
 }
 
-/// Puts the failures that count into words, each for the least exotic class in which it was seen.
+/// Puts the failures that count into words, each with the least exotic class in which it was seen.
 void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
@@ -220,7 +220,7 @@ std::string false_positive_text(const Counts& counts) {
   return text + ", the farthest " + times_the_bound(counts.max_ratio(), counts.distance_unit());
 }
 
-/// Why nothing is known of a subject.
+/// Says why nothing is known about a subject.
 std::string unjudged_text(const Counts& counts) {
   if (counts.queries == 0) return "NOT ASKED: it decides no query of this sort";
   if (failure_info(FailureKind::slow).count(counts) == 0)
@@ -266,8 +266,8 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
   return parts;
 }
 
-/// The text of a verdict on a subject that answered. Its parts are separated by commas, or by semicolons if
-/// one of them is a list of classes, which has semicolons itself.
+/// The text of a verdict on a subject that answered. Commas separate the parts of the text; if one of the
+/// parts is a list of classes, which itself has semicolons, semicolons do.
 std::string answered_text(const Failures& failures, const OfSubject& subject) {
   const bool has_list = !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::unsafe_step,
                                               FailureKind::beyond_bound, FailureKind::fault})

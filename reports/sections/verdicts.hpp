@@ -17,24 +17,24 @@ struct SubjectVerdict {
   Failures failures;  ///< all failures of the subject
   bool clean = true;  ///< whether none of `failures` counts
   std::string text;   ///< "no miss in 1,234 collisions" and so on
-  /// For each failure that counts: how the subject failed in the least exotic class with this failure, such
-  /// as "missed 53 of 504 ordinary vt collisions".
+  /// For each failure that counts, how the subject failed in the least exotic class that has this failure:
+  /// "missed 53 of 504 ordinary vt collisions".
   std::map<FailureKind, std::string> said;
   QueryClass least_exotic = QueryClass::unclassified;  ///< the least exotic class with a failure that counts
 
-  /// Among the failures that count, the gravest one in the least exotic class, in words; "" if none counts.
+  /// In words, the gravest of the failures that count in the class `least_exotic`; "" if no failure counts.
   std::string first = {};
 };
 
-/// A verdict on each subject, in the order of their names. `failing` are the failures that count.
+/// A verdict on each subject, in the order of their names. Only the failures in `failing` count.
 std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics,
                                              const Failures& failing = usual_failures());
 
-/// The failures of the oracle, in a line; "" without failures.
+/// The oracle's failures in one line; "" if it did not fail.
 std::string oracle_complaint(const Statistics& statistics);
 
-/// A line for each subject, " ok  NAME: ...", "FAIL NAME: ..." or, beyond a contract, " --  NAME: ...", and one
-/// for the oracle if it failed.
+/// A line for each subject, " ok  NAME: ...", "FAIL NAME: ..." or, for a subject beyond its contract,
+/// " --  NAME: ..."; and a line for the oracle if it failed.
 std::string verdict_lines(const Statistics& statistics, const Failures& failing);
 
 }  // namespace nearmiss

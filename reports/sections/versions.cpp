@@ -22,7 +22,7 @@ namespace {
 /// A number that is shown for each pair of versions.
 struct VersionMeasure {
   std::string_view key;   ///< in report.json
-  std::string_view text;  ///< follows the number; "" if the terminal does not show it
+  std::string_view text;  ///< the words that follow the number; "" if the terminal does not show the number
   std::uint64_t (*value)(const VersionCounts&);
 };
 
@@ -54,7 +54,7 @@ std::string in_words(const VersionCounts& counts, bool shows_zeros) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// Whether a subject was asked queries of a kind that its contract allows.
+/// Whether a subject was asked any queries of a kind; queries that its contract excludes do not count.
 bool was_asked(const std::string& subject, Kind kind, const Statistics& statistics) {
   return std::any_of(statistics.counts.begin(), statistics.counts.end(), [&](const auto& each) {
     const auto& [key, counts] = each;
@@ -63,8 +63,8 @@ bool was_asked(const std::string& subject, Kind kind, const Statistics& statisti
   });
 }
 
-/// "; ee not compared, because old was not asked about it", for each kind that only one of two versions was
-/// asked about.
+/// "; ee not compared, because old was not asked about it", for each kind that only one of the two versions
+/// was asked.
 std::string not_compared(const Versions& versions, const Parts& parts, const Statistics& statistics) {
   std::map<Kind, std::uint64_t> compared;
   for (const auto& [part, counts] : parts) compared[part.second] += counts.queries();

@@ -13,8 +13,8 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<>;
 
-/// Boost's functions do not converge for many more trials. Fewer trials with the same rate have wider intervals,
-/// and larger p-values.
+/// The most trials for which Boost's functions converge reliably. Scaling more trials down to this number
+/// only widens intervals and raises p-values.
 constexpr double most_trials = 0x1p40;
 
 /// Trials and successes, scaled down to at most `most_trials`.

@@ -21,8 +21,8 @@ struct ConfidenceInterval {
   bool operator==(const ConfidenceInterval&) const = default;
 };
 
-/// The two-sided confidence interval of Clopper and Pearson: the probability that the true rate is below it
-/// is at most `risk` / 2, and likewise above it. [0, 1] if total is 0.
+/// The two-sided confidence interval of Clopper and Pearson. The true rate is below the interval with a
+/// probability of at most `risk` / 2, and above it with at most the same probability. [0, 1] if total is 0.
 ConfidenceInterval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk = 0.05);
 
 /// The 0.975 quantile of Student's t-distribution.
@@ -42,27 +42,29 @@ struct Proportion {
   }
 };
 
-/// The p-values of a test of the hypothesis that two proportions, `now` and `before`, have the same rate.
+/// The one-sided p-values of a test whether two proportions, `now` and `before`, have the same rate. If they
+/// do:
 struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count
 
-  /// The two-sided p-value: twice the smaller of these probabilities, at most 1.
+  /// The two-sided p-value: twice the smaller of both probabilities, but at most 1.
   [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
 };
 
-/// The level of each of several tests that share a risk (Bonferroni).
+/// The significance level of each of several tests that share a risk (Bonferroni).
 double level_of(double risk, std::size_t tests);
 
-/// Fisher's exact test, given the sum of both counts. If the sum of the totals exceeds 2^31, or the sum of
-/// the counts a million, a binomial distribution replaces the hypergeometric one; its p-values are larger.
+/// Fisher's exact test, which takes the sum of both counts as given. If the totals add up to more than 2^31,
+/// or the counts to more than a million, it uses a binomial distribution, with larger p-values, in place of
+/// the hypergeometric one.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);
 
-/// An exact test like fisher_test, for the sum over several pairs {now, before}, each with its own rate.
-/// Given the sum of a pair's counts, now.count is a sum of independent trials with mean probability now.total
-/// / (now.total + before.total). Hoeffding's theorem (1956) bounds the tails of the sum over all pairs at a
-/// distance of more than 1 from the expectation: they are at most those of a binomial distribution with the
-/// same number of trials and the mean of their probabilities.
+/// An exact test like fisher_test for several pairs {now, before} together, each with a rate of its own.
+/// Given the sum of a pair's counts, now.count is a sum of independent trials with mean probability
+/// now.total / (now.total + before.total). Consider the binomial distribution with the number of trials of
+/// all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), its tails are at least
+/// those of the sum over all pairs, at a distance of more than 1 from the expectation.
 ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
 
 }  // namespace nearmiss

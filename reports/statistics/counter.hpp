@@ -1,7 +1,7 @@
-// Declarations of counters. A counter is declared once: its name, its member, and where files show it.
-// Merging (merge_counters), the store (store/values.hpp), report.json (sections/counts_json.hpp) and
-// statistics.csv (csv.hpp) go through the declarations. sections/measures.hpp declares what reports compute
-// from counters.
+// Declarations of counters. One declaration has all that a counter needs: its name, its member, and where
+// files show it. Merging (merge_counters), the store (store/values.hpp), report.json
+// (sections/counts_json.hpp) and statistics.csv (csv.hpp) go through the declarations. sections/measures.hpp
+// declares what reports compute from counters.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace nearmiss {
 
-/// A counter, or a list of cases that merges like one.
+/// A counter, or another member that merges as a counter does, such as a histogram or a list of cases.
 template <class Owner, class Member>
 struct Counter {
   std::string_view name;  ///< key in the store, and column of statistics.csv
@@ -37,7 +37,7 @@ struct NamedCounts {
   std::string_view
       json_key;  ///< key of an object with an entry for each name; "" if the entries are in the object of
                  ///< the owner
-  std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv, for members of Counts
+  std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv; for members of Counts
   std::size_t first = 0;          ///< index of the first entry that is counted and shown
   bool shows_zeros = false;       ///< whether report.json shows zero entries
 };
@@ -48,8 +48,8 @@ constexpr void for_each_counter(const Use& use) {
   std::apply([&](const auto&... counters) { (use(counters), ...); }, Owner::counters());
 }
 
-/// Whether every member of `Owner` is a declared counter. Members must be aligned so that there is no
-/// padding.
+/// Whether every member of `Owner` is a declared counter. `Owner` must have no padding, because sizes are
+/// compared.
 template <class Owner>
 constexpr bool declares_all_members() {
   std::size_t declared = 0;
@@ -58,7 +58,7 @@ constexpr bool declares_all_members() {
   return declared == sizeof(Owner);
 }
 
-/// The largest sum of counts or of nanoseconds (36 years). A few such sums add up without overflow.
+/// The largest sum of counts, or of nanoseconds (36 years). A few sums of this size add up without overflow.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
 /// Throws Error if the sum is greater than largest_count.

@@ -1,4 +1,5 @@
-// Counters of a subject and of the oracle; each is declared once, in counters().
+// The counters of a subject, and those of the oracle. Counts::counters() and OracleCounts::counters()
+// declare them.
 #pragma once
 
 #include <algorithm>
@@ -21,38 +22,39 @@
 
 namespace nearmiss {
 
-/// A query that is kept because its answer is among the most extreme: a false positive whose primitives are
-/// farthest apart, or the earliest or the latest time.
+/// A query that is kept because its answer is among the most extreme: a false positive with the farthest
+/// primitives, or the earliest or the latest time.
 struct FarCase {
-  double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or the error of the time
+  double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or |time - t*|
   Query query;
   std::string provenance;  ///< "family:seed:index", or the file and line
 
   bool operator==(const FarCase&) const = default;
 };
 
-/// Adds cases and keeps the farthest, at most Counts::far_cases.
+/// Adds cases, and keeps the farthest of all: at most Counts::far_cases.
 void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 
-/// Adds a case if it is among the farthest.
+/// Adds a query to the kept cases if it is among the farthest.
 void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
                    const std::function<std::string()>& provenance);
 
-/// How the time that a subject gave for a true collision compares with t*, the earliest time.
+/// How the time that a subject gave for a true collision compares with t*, the exact earliest time.
 struct TimeError {
   double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
-  double after = 0;  ///< time - t* if that is positive, likewise
-  /// How early the time is, as a distance: an upper bound of how far a vertex of one primitive moves between
-  /// `time` and t*, relative to a vertex of the other, divided by the pair's bound B; rounded.
+  double after = 0;  ///< time - t* if that is positive, as precise as Outcome::ratio
+  /// How early the time is, as a distance divided by the pair's bound B, rounded. The distance is an upper
+  /// bound of how far a vertex of one primitive moves relative to a vertex of the other between the time and
+  /// t*.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below h, before a promised lower bound
   bool stuck = false;     ///< the time is 0, and t* is not
-  /// The time is promised and sound, but the step to it, rounded (fuzz/trial/committed.hpp), has contact, or a
-  /// distance below h, before its end.
+  /// The time is promised and not late, but the rounded step to it (fuzz/trial/committed.hpp) has contact,
+  /// or a distance below h, before its end.
   bool committed = false;
   bool unsafe_step = false;     ///< `committed`, although the subject promises that this step is free
-  bool touches_at_end = false;  ///< as `committed`, but there is contact only at the end of that step
+  bool touches_at_end = false;  ///< as `committed`, but the step has contact only at its end
 
   bool operator==(const TimeError&) const = default;
 };
@@ -61,13 +63,14 @@ struct TimeError {
 struct Outcome {
   Verdict verdict;
   bool collision = false;
-  /// For a false positive: the certified distance over [0, 1] divided by the claimed bound, rounded up
-  /// without leaving its Histogram bin. The relative error is at most 1/1000 if the case may be among the
-  /// farthest and is not in the first bin.
+  /// For a false positive: the certified smallest distance over [0, 1] divided by the claimed bound, rounded
+  /// up within its Histogram bin. The relative error is at most 1/1000 for a ratio above the first bin if
+  /// the case may be among the farthest.
   double ratio = 0;
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   double bound = 0;            ///< the claimed bound, if it is refuted
-  /// Whether the subject claims no bound, so that wang's bound for the same pair divides the distance.
+  /// Whether the subject claims no bound; if so, `ratio` is the distance divided by wang's bound for the
+  /// same pair.
   bool measured_by_wang = false;
   std::string fault_text = {};                        ///< what an exception said
   std::optional<TimeError> time = {};                 ///< for a true positive with a time
@@ -111,7 +114,7 @@ struct Counts {
   std::vector<FarCase> earliest;  ///< the times that are the earliest before t*, at most far_cases
   std::vector<FarCase> latest;    ///< the times that are the latest after t*, at most far_cases
 
-  /// Whether no counter exceeds the one of which it counts a part.
+  /// Whether no counter exceeds the counter of which it counts a part.
   [[nodiscard]] bool is_possible() const;
 
   /// Lists every counter. To add a counter, declare it here and count it in add().
@@ -185,7 +188,7 @@ struct Counts {
     return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
-  /// The error of the earliest time, and of the latest one; 0 if there is none.
+  /// The largest t* - time, and the largest time - t*; 0 if no time is early, or none is after t*.
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
   /// The ratio that another case must reach to be kept in a list: 0 until the list is full.
@@ -197,18 +200,18 @@ struct Counts {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
   }
-  /// The sort of the subject's times: lower bounds if all of them were promised to be, otherwise estimates.
+  /// The sort of the subject's times: lower bounds if it promised that all of them are, estimates otherwise.
   [[nodiscard]] TimeSort time_sort() const {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
   }
-  /// The bin of a quantile of earliness: the smallest error that is not exceeded by a fraction `part` of the
-  /// times that are not after t*. The bin's upper end is at most the largest error.
+  /// The bin of a quantile of t* - time, over the times that are not after t*: a fraction `part` of them
+  /// have at most this error. The bin's upper end is at most the largest error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
   }
-  /// The bin of a quantile of |time - t*|, over all times.
+  /// The bin of a quantile of |time - t*|, over all given times.
   [[nodiscard]] Bin time_error_quantile(double part) const;
   [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
   /// The bin of a quantile of distance / bound: a fraction `part` of the false positives have at most this
@@ -231,15 +234,15 @@ struct OracleCounts {
   std::uint64_t collisions = 0;
   std::array<std::uint64_t, filter_stage_count>
       by_stage{};                         ///< queries by the stage of the filter that decided
-  std::uint64_t near_bounds = 0;          ///< queries decided near the filter's bounds; not in all campaigns
+  std::uint64_t near_bounds = 0;          ///< queries decided near the filter's bounds, if counted
   std::uint64_t compared = 0;             ///< queries decided by all exact methods
   std::uint64_t compared_collisions = 0;  ///< collisions among `compared`
   std::uint64_t missed_by_parity = 0;     ///< collisions among `compared` that have an even number of roots
   std::uint64_t compared_times =
-      0;  ///< earliest times among `compared` that a second method has confirmed or contradicted
+      0;  ///< earliest times of `compared` queries that a second method has confirmed or contradicted
   std::uint64_t ties = 0;  ///< queries whose smallest distance is exactly the separation
   std::uint64_t certified =
-      0;  ///< recorded truths whose certificate was accepted, if certificates are demanded
+      0;  ///< recorded truths with an accepted certificate, if the campaign demands certificates
 
   static constexpr auto counters() {
     return std::tuple{Counter{"queries", &OracleCounts::queries},

@@ -6,15 +6,15 @@
 
 namespace nearmiss {
 
-/// Distances are given as fractions of the bound that the subject claims. If it claims none, they are
-/// fractions of wang's bound for the same pair, which is a unit of length and no claim.
+/// The bound by which distances are divided: the bound that the subject claims. If it claims none, wang's
+/// bound for the same pair, which then is only a unit of length.
 enum class DistanceUnit : std::uint8_t {
   claimed_bound,
   wangs_bound,
   both,  ///< runs with different versions of a subject were added up
 };
 
-/// As files name it.
+/// The name of a unit in files.
 constexpr std::string_view name(DistanceUnit unit) {
   switch (unit) {
     case DistanceUnit::claimed_bound:

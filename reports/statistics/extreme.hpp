@@ -14,29 +14,29 @@ namespace nearmiss {
 /// The most extreme query that was found for one tolerance, or for one group of tests.
 struct Extreme {
   enum class Of : std::uint8_t {
-    accepting_tolerance,  ///< the largest factor with which a collision is missed; 0 if no factor misses one
-    keeping_tolerance,    ///< for a tolerance that keeps degenerate primitives out, the smallest factor
-                          ///< with which a collision is missed; infinity if no factor misses one
-    distance,  ///< the largest distance / bound of a false positive of these tests; 0 without false positives
+    accepting_tolerance,  ///< the largest factor with which a collision is missed; 0 if none is missed
+    keeping_tolerance,    ///< for a tolerance that keeps degenerate primitives out: the smallest factor with
+                          ///< which a collision is missed; infinity if none is missed
+    distance,             ///< the largest distance / bound of these tests' false positives; 0 without any
   };
 
   Of of{};
   std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< a factor multiplies only this tolerance; all others are the paper's
+  double value = 0;           ///< factor of this tolerance (the others are the paper's), or distance / bound
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried
 
   [[nodiscard]] bool found() const { return !provenance.empty(); }
 
-  /// Keeps the more extreme of two queries for the same tolerance or tests. If both are equally extreme,
-  /// keeps the query with the lesser provenance. Adds up the numbers of queries.
+  /// Merges what was found for the same tolerance or tests: keeps the more extreme query or, if both are
+  /// equally extreme, the one whose provenance comes first, and adds up the numbers of queries.
   void merge(const Extreme& other);
 
   bool operator==(const Extreme&) const = default;
 };
 
-/// The state before anything is found.
+/// The result of a search that has found nothing yet.
 Extreme nothing_found(Extreme::Of of, std::string name);
 
 /// Names of the values of Extreme::Of in files and reports, in order.

@@ -15,8 +15,8 @@ double ratio(std::uint64_t part, std::uint64_t of) {
   return static_cast<double>(part) / static_cast<double>(of);
 }
 
-/// Whether a comes before b: its lift is larger, or the lifts are equal and a wins the tie (see
-/// common_factors).
+/// Whether a is the better answer of common_factors than b: by a larger lift or, at equal lifts, by the
+/// rules there.
 bool is_better(const CommonFactors& a, const CommonFactors& b) {
   const auto merit = [](const CommonFactors& each) {
     const bool is_single = each.key.values.find(' ') == std::string::npos;
@@ -50,7 +50,7 @@ double CommonFactors::share_of_collisions() const { return ratio(with.collisions
 
 namespace {
 
-/// FACTOR and x of "FACTOR=2^x"; nothing for any other text.
+/// FACTOR and x of a text "FACTOR=2^x"; nothing for any other text.
 std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
   constexpr std::string_view between = "=2^";
   const auto at = value.find(between);
@@ -67,7 +67,7 @@ std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
 std::vector<CommonFactors> common_factors(const FactorTable& table) {
   std::vector<CommonFactors> best;
   for (const auto& [key, with] : table) {
-    // right_ranges() tells what depends on a power of two.
+    // right_ranges() covers the factors that are powers of two.
     if (key.values.empty() || with.false_negatives == 0 || power(key.values)) continue;
     FactorKey all = key;
     all.values.clear();
@@ -87,7 +87,7 @@ std::vector<CommonFactors> common_factors(const FactorTable& table) {
 
 namespace {
 
-/// The answers by x, of a factor whose values are powers 2^x.
+/// For a factor with values 2^x: the answers by x.
 using Powers = std::map<int, FactorCounts>;
 
 double false_positive_rate(const FactorCounts& counts) {
@@ -96,7 +96,7 @@ double false_positive_rate(const FactorCounts& counts) {
 
 constexpr double improbable = 1e-4;
 
-/// The answers at one value 2^x, and what is wrong with them.
+/// The answers at one value 2^x, and whether they have misses or too many false positives.
 struct Level {
   int x;
   FactorCounts counts;
@@ -112,8 +112,9 @@ FactorCounts sum_of(std::span<const Level> levels) {
   return sum;
 }
 
-/// The answers at five neighbouring values without misses, or at all if there are fewer, with the lowest rate of
-/// false positives. (A CCD that misses everything has none.)
+/// Of all runs of five successive values without misses, the answers of the one with the lowest rate of
+/// false positives. If fewer than five values have no misses, their answers. (Values with misses do not
+/// count: a CCD that misses everything has no false positives.)
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
   std::erase_if(levels, [](const Level& each) { return each.misses; });
@@ -126,8 +127,8 @@ FactorCounts best_answers(std::vector<Level> levels) {
   return best;
 }
 
-/// Whether most of the queries that do not collide are reported, or by a quarter more of them than at best,
-/// and not by chance.
+/// Whether more than three quarters of the queries that do not collide are reported; or a share that exceeds
+/// the share in `best` by more than a quarter of these queries, and by more than chance explains.
 bool reports_more(const FactorCounts& counts, const FactorCounts& best) {
   constexpr double more = 0.25, most = 0.75;
   const double rate = false_positive_rate(counts);
@@ -159,8 +160,9 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
   return longest;
 }
 
-/// Whether chance may explain that none of these collisions is missed: at the rate of misses among some of the
-/// levels that come next, `outside` in the order of their distance, if the nearest one has misses.
+/// Whether chance may explain that none of the collisions at some levels is missed. Assumes the rate of
+/// misses at the nearest levels outside: one, two and so on. `outside` has these levels, nearest first;
+/// without misses at the nearest, the answer is no.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

@@ -1,6 +1,6 @@
 // Answers by the factors of queries. Families such as `crossed` build each query from factors, such as its
-// scale, and note the value of each factor: "scale=1e-3". They show what the missed collisions of a subject
-// have in common, and at which sizes it is right.
+// scale, and note the value of each factor: "scale=1e-3". The counts of these values show what a subject's
+// misses have in common, and at which sizes the subject is right.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace nearmiss {
 
-/// Identifies the queries with some values of factors, among those of a family that a subject answered.
+/// Identifies the queries of a family that a subject answered and that have given values of factors.
 struct FactorKey {
   std::string subject;
   Kind kind{};
@@ -51,41 +51,44 @@ static_assert(declares_all_members<FactorCounts>());
 
 using FactorTable = std::map<FactorKey, FactorCounts>;
 
-/// Counts an answer, given the query's value of each factor: once among all queries, once for each value,
-/// and once for each pair of values. key.values must be empty.
+/// Counts an answer: once among all queries, once for each value of a factor that the query has, and once
+/// for each pair of these values. key.values must be empty.
 void count_answer(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
                   bool collides, bool reported);
 
 /// A value of one factor, or values of two factors, that many of a subject's misses have.
 struct CommonFactors {
   FactorKey key;
-  FactorCounts with;  ///< the collisions that have the values
+  FactorCounts with;  ///< the answers to queries that have the values
   FactorCounts all;
 
   [[nodiscard]] double share() const;  ///< share of the misses that have the values
   [[nodiscard]] double share_of_collisions() const;
 };
 
-/// For each subject, kind and family with misses: among the values and pairs of values that at least half of
-/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). If several have
-/// the same lift, the one that more misses have wins; then a single value rather than a pair; then the first
-/// in alphabetical order.
+/// For each subject, kind and family with misses: of the values and pairs of values that at least half of
+/// the misses have, the one with the largest lift, which is share() / share_of_collisions(). Ties go to the
+/// value or pair that more misses have, then to a single value rather than a pair, then to the first in
+/// alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
-/// The values of a factor "FACTOR=2^x" at which a subject is right: it misses nothing, and reports at most three
-/// quarters of the queries that do not collide, and not a quarter more of them than at best.
+/// The values of a factor "FACTOR=2^x" at which a subject is right. There it misses nothing, and reports at
+/// most three quarters of the queries that do not collide; and its rate of false positives exceeds the rate
+/// at its best values by at most a quarter.
 struct RightRange {
   std::string subject;
   Kind kind{};
   std::string factor;
-  /// The first and the last x of the longest run of neighbouring values at which it is right. Nothing if there
-  /// is none; if the misses next to the run are so rare that chance explains the run; or if `too_few`.
+  /// The first and the last x of the longest run of neighbouring values at which the subject is right.
+  /// Nothing if there is no such run, if the misses next to it are so rare that chance explains the run, or
+  /// if `too_few`.
   std::optional<std::pair<int, int>> exponents;
   bool too_few = false;    ///< whether there are fewer than two collisions for each value
   FactorCounts elsewhere;  ///< the answers at all other values
 };
 
-/// For each subject, kind and factor that is a power of two, in alphabetical order of subjects and factors.
+/// A range for each subject, kind and factor whose values are powers of two, in alphabetical order of
+/// subjects and factors.
 std::vector<RightRange> right_ranges(const FactorTable& table);
 
 }  // namespace nearmiss

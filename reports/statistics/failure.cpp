@@ -10,8 +10,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Queries that a subject did not answer because it was slow: those over the time limit, and those that were
-/// not asked because of these.
+/// The number of queries that a subject did not answer because it was slow: those over the time limit, and
+/// those that it was not asked after several of them.
 std::uint64_t slow(const Counts& counts) {
   return counts.without_answer(Fault::time) + counts.without_answer(Fault::not_asked);
 }
@@ -20,7 +20,8 @@ std::uint64_t beyond(const Counts& counts) { return counts.without_answer(Fault:
 
 std::uint64_t faulty(const Counts& counts) { return counts.faults_total() - slow(counts) - beyond(counts); }
 
-/// 1 if nothing is known of the subject: it was asked nothing, or answered nothing in time.
+/// 1 if nothing is known about the subject because it was asked nothing or answered nothing in time; 0
+/// otherwise.
 std::uint64_t unjudged(const Counts& counts) {
   return counts.queries == slow(counts) + beyond(counts) ? 1 : 0;
 }
@@ -121,7 +122,7 @@ bool is_slow(std::string_view signature) {
 using What = Finding::What;
 using FailureAndFinding = std::pair<FailureKind, What>;
 
-/// The sort of finding that each kind of failure makes, unless it makes none.
+/// The sort of finding that each kind of failure makes, for the kinds that make findings.
 constexpr std::array<FailureAndFinding, 9> findings{{
     {FailureKind::oracle_disagreement, What::oracle_disagreement},
     {FailureKind::wrong_truth, What::truth_mismatch},

@@ -1,5 +1,6 @@
-// What counts as a failure, and how grave it is: the one place that says so. Findings, exit codes, verdicts,
-// the headline, the comparison with a baseline, nights, Pareto fronts and the power of a hunt derive from it.
+// What counts as a failure, and how grave it is. Only this file decides that: findings, exit codes,
+// verdicts, the headline, the comparison with a baseline, nights, Pareto fronts and the power of a hunt
+// follow it.
 #pragma once
 
 #include <array>
@@ -20,11 +21,11 @@ enum class FailureKind : std::uint8_t {
   wrong_truth,          ///< the oracle disagrees with a recorded truth
   miss,                 ///< a collision was not reported
   late,                 ///< contact, or a distance below h, before a promised lower bound
-  unsafe_step,   ///< likewise in the step to a sound one, rounded, although that is promised to be free
+  unsafe_step,   ///< contact in the rounded step to a sound lower bound, though the subject promised it free
   beyond_bound,  ///< a false positive is farther away than claimed
   fault,         ///< there is no answer, for a reason other than time or a contract
   unjudged,      ///< the subject was not asked any query, or did not answer any in time
-  committed,     ///< contact in the step to a sound lower bound, rounded, of which nothing is promised
+  committed,     ///< contact in the rounded step to a sound lower bound, with no promise about that step
   unknown,       ///< the subject could not tell
   contract,      ///< a query was not asked, because it breaks the subject's contract
   slow,          ///< a query took longer than the time limit, or was not asked after several that did
@@ -35,12 +36,12 @@ struct FailureInfo {
   FailureKind kind;
   std::string_view name;  ///< in files, in reports, and for --fail-on
   bool on_request;        ///< whether it counts only on request
-  /// In "missed 3 of 50 ordinary vt collisions", the verb, and the noun for one and for many; "" for the
-  /// oracle.
+  /// The words for "missed 3 of 50 ordinary vt collisions": the verb, and the singular and the plural of the
+  /// noun; "" for failures of the oracle.
   std::string_view verb, one, many;
   std::uint64_t (*count)(const Counts&);  ///< how often a subject failed in this way, out of `total`
   std::uint64_t (*total)(const Counts&);
-  QueryClassCounts Counts::*by_class = nullptr;  ///< how often by the class of the query, if that is counted
+  QueryClassCounts Counts::*by_class = nullptr;  ///< `count` by the class of the query; null if not counted
 };
 
 /// The row of a kind of failure.
@@ -50,19 +51,19 @@ inline std::string_view name(FailureKind kind) { return failure_info(kind).name;
 /// Kinds of failure, the gravest first.
 using Failures = std::set<FailureKind>;
 
-/// All kinds of failure; and those that count without a request (--fail-on).
+/// all_failures() has all kinds of failure, usual_failures() those that count without a request (--fail-on).
 const Failures& all_failures();
 const Failures& usual_failures();
 
 /// The kinds of failure that are in both sets.
 Failures in_common(const Failures& some, const Failures& others);
 
-/// Whether a failure breaks a promise about collisions. Such a failure always raises an alarm, even if the
-/// baseline has it, too.
+/// Whether a failure breaks a promise about collisions. Such a failure raises an alarm even if the baseline
+/// has it.
 constexpr bool breaks_promise(FailureKind kind) { return kind <= FailureKind::beyond_bound; }
 
-/// How an answer fails; nothing if it does not fail, or if the query was not asked because earlier ones were
-/// slow.
+/// How an answer fails; nothing if it does not fail, or if the query was not asked because earlier queries
+/// were slow.
 std::optional<FailureKind> failure_of(const Outcome& outcome);
 
 /// The kind of failure that a signature shows.
@@ -70,19 +71,21 @@ FailureKind failure_of(const Signature& signature);
 /// The sort of finding that a failure makes; nothing if it makes none.
 std::optional<Finding::What> finding_of(FailureKind kind);
 
-/// The end of the name of a subject that is asked only queries that break its contract. It has promised nothing
-/// about these, so its failures are shown, but they neither count nor raise an alarm.
+/// The end of the name of a subject that is asked only queries that break its contract. The subject promises
+/// nothing about such queries, so reports show its failures, but these neither count nor raise an alarm.
 inline constexpr std::string_view beyond_contract = " (beyond contract)";
 inline bool is_beyond_contract(std::string_view subject) { return subject.ends_with(beyond_contract); }
 
-/// The failures in a subject's counters. Beyond a contract, queries that are not asked are no failure.
+/// The failures in a subject's counters. For a subject beyond its contract, queries that it was not asked
+/// are no failure.
 Failures failures_of(const std::string& subject, const Counts& counts);
 
-/// The failures of each subject, an empty set if it has none; and those of the oracle, under the name "", if
-/// it failed.
+/// The failures of each subject, also if it has none; and the oracle's failures, under the name "", if it
+/// failed.
 std::map<std::string, Failures> failures_by_subject(const Statistics& statistics);
 
-/// Whether one of `failing` is in the statistics, beyond contracts excepted. Exit code 1 means this.
+/// Whether the oracle, or a subject within its contract, has one of the failures in `failing`. If so,
+/// commands exit with code 1.
 bool has_failed(const Statistics& statistics, const Failures& failing = usual_failures());
 
 }  // namespace nearmiss

@@ -51,7 +51,8 @@ std::string scene_of(const std::string& step) { return step.substr(0, step.rfind
 
 namespace {
 
-// The families of each class, before and after a blank. The only place that says which class a family has.
+// The names of the families of each class, each between two blanks. Only this table says which class a
+// family has.
 constexpr std::array<std::string_view, 3> classes{
     " near near-within v-drifting v-rest-angle v-rest-ratio rest rest-units rest-distant uniform "
     "uniform-end uniform-slow mesh floats kilometres metres units distant v-small-integer "
@@ -78,11 +79,11 @@ QueryClass class_in_table(std::string_view name) {
 
 QueryClass class_of(std::string_view family) {
   if (family.starts_with("scene:")) return QueryClass::ordinary;
-  if (family.starts_with("sim:"))  // those with options or sizes were not counted
+  if (family.starts_with("sim:"))  // with options or sizes, their class is not known
     return family.find_first_of("@~:", 4) == std::string_view::npos ? QueryClass::ordinary
                                                                     : QueryClass::unclassified;
   const FamilyName name(family);
-  // The vertices and edges of a family have its class, unless the table names them.
+  // A family of vertices and edges, v-NAME, has the class of NAME unless the table lists v-NAME.
   const QueryClass own = class_in_table(name.base);
   return own == QueryClass::unclassified ? class_in_table(name.root) : own;
 }

@@ -1,5 +1,5 @@
-// Families in reports: which are random samples, how near their queries are to those of a simulation, and
-// which are shown together as one.
+// Families in reports: which of them are random samples, how near their queries are to those of a
+// simulation, and which families a report shows as one.
 #pragma once
 
 #include <compare>
@@ -17,21 +17,23 @@ namespace nearmiss {
 /// Whether a family's queries are drawn at random. Cases and scenes are not.
 bool is_random(std::string_view family);
 
-/// The family under which a report shows queries. Directed searches for all subjects are shown as
-/// "search-miss", "search-far~drawn" and so on, other families under their own names.
+/// The family under which a report shows a family's queries. The directed searches of one sort, which are a
+/// family for each subject, are shown as one: "search-miss", "search-far~drawn" and so on. Other families
+/// keep their names.
 std::string shown_family(std::string_view family);
 
 /// The origin of queries: "directed search", or their family.
 std::string_view origin(std::string_view family);
 
-/// The name that the steps of a sweep share: all of them make the same random draws, and differ only in the
+/// The name that the steps of a sweep share, because they make the same random draws and differ only in the
 /// value of the parameter. For any other family, its own name.
 std::string draws_of(std::string_view family);
 
-/// How often a campaign asks a subject about one random draw, at most: the number of steps of the longest sweep.
+/// The most queries of a subject and kind that share one random draw: the number of steps of the longest
+/// sweep.
 std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject);
 
-/// Statistics in which families that are shown as one are added up.
+/// The statistics with the counters of all families added up that a report shows as one (shown_family).
 Statistics by_shown_family(const Statistics& statistics);
 
 /// The scene of "scene:NAME#STEP": "scene:NAME".

@@ -7,18 +7,18 @@
 
 namespace nearmiss {
 
-/// Prefixes of the families of directed searches. The name of the search's subject follows, and ~SEPARATION
-/// if the queries have a separation.
+/// Prefixes of the families of directed searches. The name of the search's subject follows; if the queries
+/// have a separation, then ~SEPARATION.
 inline constexpr std::string_view miss_search_family = "search-miss-";
 inline constexpr std::string_view far_search_family = "search-far-";
 inline constexpr std::string_view late_search_family = "search-late-";
 inline constexpr std::string_view early_search_family = "search-early-";
 
-/// Begins the name of a family whose queries are two vertices, or a vertex and an edge.
+/// Prefix of the families whose queries are two vertices, or a vertex and an edge.
 inline constexpr std::string_view vertices_prefix = "v-";
 
-/// The name of a family, taken apart: NAME, or NAME@VALUE with a fixed parameter, either followed by
-/// ~SEPARATION. Only this struct knows the form of names. The name must outlive its parts.
+/// The parts of a family's name: NAME, or NAME@VALUE with a fixed parameter; ~SEPARATION may follow either.
+/// Only this struct knows the form of names. The name must outlive its parts.
 struct FamilyName {
   std::string_view base;  ///< NAME; for a directed search, it includes the name of its subject
   std::string_view root;  ///< NAME without "v-"

@@ -23,7 +23,7 @@ struct Finding {
     oracle_disagreement,
     truth_mismatch,
     fault,
-    late,        ///< a time that is promised to be a lower bound is too late
+    late,        ///< a time is too late, although the subject promised a lower bound
     committed,   ///< such a time is sound, but the step to it, rounded, has contact before its end
     unsafe_step  ///< likewise, although the subject promises that this step is free
   };
@@ -35,8 +35,8 @@ struct Finding {
   std::string provenance;
   double ratio = 0;  ///< distance divided by bound, if a bound was refuted; time - t*, if the time is late
   std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
-  /// The simplest known query that fails in the same way and is of the class of `query`. It may be `query`
-  /// itself.
+  /// The simplest known query that fails in the same way and has the same class as `query`. It may be
+  /// `query` itself.
   Query shrunk = {};
   std::uint64_t place = 0;  ///< position of its case in the order of the whole campaign
   double time = 0;          ///< the subject's time for the shrunk query, if it has_time()
@@ -73,8 +73,8 @@ constexpr bool has_step(Finding::What what) {
 /// Whether a finding of this sort has the subject's time.
 constexpr bool has_time(Finding::What what) { return what == Finding::What::late || has_step(what); }
 
-/// Whether a finding of this sort is only shown: it breaks no promise, so it is no failure of a version, no new way
-/// to fail since a baseline, and nothing that a test of a user should fail for.
+/// Whether reports only show a finding of this sort. It breaks no promise, so it is no failure of a version,
+/// no new way to fail since a baseline, and no reason for a user's test to fail.
 constexpr bool is_only_shown(Finding::What what) { return what == Finding::What::committed; }
 
 /// A way to fail.
@@ -93,11 +93,12 @@ inline Signature signature_of(const Finding& finding) {
   return {finding.what, finding.subject, finding.signature};
 }
 
-/// Number of findings of each signature and class that are kept and shown; Statistics::seen counts all.
+/// Number of findings of each signature and class that are kept and shown; Statistics::seen counts all
+/// findings.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes findings in order and picks the first ones of each signature in each class of queries. Findings on
-/// which an earlier version of the CCD does not fail are counted separately.
+/// Takes findings in order, and picks the first ones of each signature in each class of queries. Counts
+/// findings separately if an earlier version of the CCD does not fail on them.
 class FirstFindings {
  public:
   /// Counts the finding. Returns its number among the findings of its signature and class, from 1 on.

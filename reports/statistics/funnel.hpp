@@ -1,4 +1,4 @@
-// Counts of the pairs of a scene: those that were left out, by reason, and those that subjects were asked
+// Counts of the pairs of a scene: how many were left out for which reason, and how many subjects were asked
 // about.
 #pragma once
 

@@ -17,8 +17,8 @@ double Histogram::border(std::size_t i) {
 
 namespace {
 
-/// Compares with the borders instead of taking a logarithm, so that a ratio of 1 is never counted below the
-/// bound.
+/// The bin of a ratio. Compares the ratio with the borders, because a rounded logarithm could count a ratio
+/// of 1 as one below the bound.
 std::size_t bin_of(double ratio) {
   static const auto borders = [] {
     std::array<double, Histogram::bin_count - 1> inner{};

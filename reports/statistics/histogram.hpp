@@ -15,9 +15,9 @@ struct Bin {
   bool operator==(const Bin&) const = default;
 };
 
-/// Counts numbers, such as the distances of false positives as fractions of the bound that the subject
-/// claims. The bins are log-spaced, four to a decade from 10^-16 to 10^1, with one more bin for all smaller
-/// numbers, including 0, and one for all larger numbers.
+/// Counts numbers, called ratios here because most are distances of false positives divided by the claimed
+/// bound. The bins are log-spaced, four to a decade from 10^-16 to 10^1. One more bin holds all smaller
+/// numbers, including 0, and one all larger numbers.
 struct Histogram {
   static constexpr int per_decade = 4;
   static constexpr int lowest_decade = -16;
@@ -34,8 +34,8 @@ struct Histogram {
   static double lower_border(double ratio);
   /// The number of ratios that are at least 1. This number is exact, because 1 is a border.
   [[nodiscard]] std::uint64_t at_least_one() const;
-  /// The bin of the smallest ratio that a fraction `part`, in (0, 1], of all ratios does not exceed; (0, 0)
-  /// if all bins are empty.
+  /// The bin of a quantile: of the smallest ratio r such that a fraction `part`, in (0, 1], of all ratios
+  /// are at most r. (0, 0) if all bins are empty.
   [[nodiscard]] Bin quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;

@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The first bin such that it and the bins before it contain a fraction `part` of all counts; the end if all
-/// bins are empty. `count_of` returns the count of a bin.
+/// An iterator to the bin at which the running sum of counts reaches a fraction `part` of all counts; the
+/// end of `bins` if all bins are empty. `count_of` returns the count of a bin.
 template <class Bins, class CountOf = std::identity>
 auto quantile_bin(const Bins& bins, double part, const CountOf& count_of = {}) {
   double all = 0;

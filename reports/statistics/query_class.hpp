@@ -13,9 +13,9 @@ namespace nearmiss {
 /// How near a query, or most queries of a family, are to those of a simulation. fuzz/families/README.md has
 /// the criterion.
 enum class QueryClass : std::uint8_t {
-  ordinary,     ///< what a simulation meets in every step
-  degenerate,   ///< what it meets now and then
-  extreme,      ///< what no simulation should send
+  ordinary,     ///< queries that a simulation makes in every step
+  degenerate,   ///< queries that a simulation makes now and then
+  extreme,      ///< queries that no simulation should make
   unclassified  ///< unknown, as for cases, directed searches, and families that this program does not know
 };
 
@@ -25,10 +25,10 @@ inline constexpr std::array<std::string_view, 4> class_names{"ordinary", "degene
 
 constexpr std::string_view name(QueryClass of) { return class_names[static_cast<std::size_t>(of)]; }
 
-/// A rank by which failures are shown, the lowest first: 0 for ordinary queries; 1 for degenerate ones in
-/// which no two vertices coincide at t = 0 or at t = 1; 2 for other degenerate ones; 3 for those with all
-/// vertices at one point for the whole step, such as 24 zeros; 4 for extreme queries in which no two vertices
-/// coincide at an end; 5 for other extreme ones; 6 for unclassified ones.
+/// The rank of a query by which reports sort failures, lowest first. Ordinary queries have rank 0.
+/// Degenerate queries have rank 1 if no two vertices coincide at t = 0 or at t = 1, 3 if all vertices stay
+/// at one point (such as 24 zeros), and 2 otherwise. Extreme queries have rank 4 if no two vertices coincide
+/// at t = 0 or at t = 1, and 5 otherwise. Unclassified queries have rank 6.
 int exoticness(const Query& query, QueryClass of);
 
 }  // namespace nearmiss

@@ -10,20 +10,21 @@
 
 namespace nearmiss {
 
-/// The results of a step. The subject's answers are counted over all rounds of the step.
+/// The results of a step. The solver may ask the subject in several rounds of one step; the answers of all
+/// rounds count.
 struct SimulatedStep {
   std::uint64_t queries = 0;  ///< pairs that the subject answered
   std::uint64_t unanswered =
-      0;  ///< pairs that it does not decide, that its contract excludes, or without answer
+      0;  ///< pairs that the subject does not decide, that its contract excludes, or without answer
   std::uint64_t collisions = 0;
   std::uint64_t positives = 0;
   std::uint64_t false_negatives = 0;
   std::uint64_t false_positives = 0;
   std::uint64_t rounds = 0;
-  std::uint64_t unresolved = 0;  ///< pairs that it reported in the motion that was made in the end
-  std::uint64_t tangled = 0;     ///< pairs of an edge and a triangle that pass through each other afterwards
-  std::uint64_t picojoules = 0;  ///< kinetic energy afterwards
-  std::uint64_t solver_ns = 0;   ///< time of the simulation without the subject
+  std::uint64_t unresolved = 0;  ///< pairs that the subject reported in the motion of the last round
+  std::uint64_t tangled = 0;     ///< pairs of an edge and a triangle that intersect after the step
+  std::uint64_t picojoules = 0;  ///< kinetic energy after the step
+  std::uint64_t solver_ns = 0;   ///< run time of the step without the subject's
 
   static constexpr auto counters() {
     return std::tuple{Counter{"queries", &SimulatedStep::queries},

@@ -65,7 +65,7 @@ std::uint64_t Statistics::queries_of(const std::string& subject) const {
 
 namespace {
 
-/// The sum of `count` over all counters.
+/// The sum of `count` over the counters of all subjects, kinds and families.
 template <class Count>
 std::uint64_t sum_of(const std::map<CountsKey, Counts>& counts, const Count& count) {
   return std::accumulate(

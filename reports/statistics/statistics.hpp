@@ -1,5 +1,5 @@
-// The counters of a campaign. Merging statistics gives the same bytes, whatever the order and the number of
-// shards.
+// The counters of a campaign. Merging the statistics of its shards gives the same bytes for any number of
+// shards and in any order.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace nearmiss {
 struct CountsKey {
   std::string subject;
   Kind kind{};
-  /// A family of random queries; or a folder of cases, "NAME/", or a step of a scene, "scene:NAME#STEP".
+  /// A family of random queries, a folder of cases ("NAME/"), or a step of a scene ("scene:NAME#STEP").
   std::string family;
 
   bool operator==(const CountsKey&) const = default;
@@ -46,7 +46,7 @@ struct Statistics {
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
   std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
   SimulatedSteps simulated;                                     ///< steps of simulations
-  FactorTable factors;                      ///< collisions of the families whose queries have factors
+  FactorTable factors;                      ///< answers in the families whose queries have factors
   VersionTable versions;                    ///< compares versions of CCDs, query by query
   std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed in each way
   std::map<std::string, Extreme> extremes;  ///< by the name of the tolerance or of the tests
@@ -62,7 +62,7 @@ struct Statistics {
 
   void merge(const Statistics& other);
 
-  /// Sums over families; key.family is empty.
+  /// The counters of each subject and kind, summed over families; key.family is empty.
   [[nodiscard]] std::map<CountsKey, CountsSum> by_subject_and_kind() const;
   /// The oracle's counters summed over families and kinds.
   [[nodiscard]] OracleCounts oracle_total() const;

@@ -9,8 +9,8 @@
 
 namespace nearmiss {
 
-/// Adds up the counters for which `key_of` is the same. `key_of` is a function of a CountsKey, or a pointer
-/// to one of its members.
+/// Adds up all counters for which `key_of` has the same value. `key_of` is a function of a CountsKey, or a
+/// pointer to one of its members.
 template <class KeyOf>
 auto sums_by(const Statistics& statistics, const KeyOf& key_of) {
   std::map<std::decay_t<std::invoke_result_t<const KeyOf&, const CountsKey&>>, CountsSum> sums;

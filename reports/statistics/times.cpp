@@ -60,7 +60,7 @@ std::optional<double> TimeHistogram::quantile(double part) const {
 
 namespace {
 
-/// The order of cases, slowest first. Ties are broken by provenance, so that merging in any order keeps the
+/// The order of cases, slowest first. The provenance breaks ties, so that merging in any order keeps the
 /// same cases.
 bool slower(const SlowCase& a, const SlowCase& b) {
   if (a.nanoseconds != b.nanoseconds) return a.nanoseconds > b.nanoseconds;

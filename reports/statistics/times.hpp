@@ -17,15 +17,15 @@
 
 namespace nearmiss {
 
-/// The run times of batches of queries, given per query and rounded to three significant digits. Times are at
-/// least 1 ns, because a clock cannot distinguish shorter times from an empty subject's.
+/// The run times of batches of queries, as times per query with three significant digits. Times are at least
+/// 1 ns, because a clock cannot distinguish a shorter time from that of a subject that does nothing.
 class BatchTimes {
  public:
   void add(const BatchTime& time);
   void merge(const BatchTimes& other);
   [[nodiscard]] std::uint64_t queries() const;
-  /// The median time per query in ns: half of the queries were in batches that did not exceed it. At least
-  /// one query must be timed.
+  /// The median time per query in ns: half of the queries were in batches with at most this time per query.
+  /// At least one query must be timed.
   [[nodiscard]] double median() const;
 
   /// Number of queries by their time in ps.
@@ -49,8 +49,8 @@ struct TimeHistogram {
   void add(std::uint64_t nanoseconds);
   void merge(const TimeHistogram& other);
   [[nodiscard]] std::uint64_t total() const;
-  /// A quantile in ns, as the upper border of its bin: a fraction `part`, in (0, 1], of all queries did not
-  /// exceed it. Nothing if no query was timed.
+  /// The upper border, in ns, of the bin of a quantile: a fraction `part`, in (0, 1], of all queries took at
+  /// most this time. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> quantile(double part) const;
 
   bool operator==(const TimeHistogram&) const = default;
@@ -65,7 +65,7 @@ struct SlowCase {
   bool operator==(const SlowCase&) const = default;
 };
 
-/// Adds cases and keeps the slowest, at most SubjectTimes::slow_cases.
+/// Adds cases, and keeps the slowest of all: at most SubjectTimes::slow_cases.
 void add_up(std::vector<SlowCase>& own, const std::vector<SlowCase>& other);
 
 /// Batch times by kind and family.
@@ -75,8 +75,8 @@ void add_up(BatchesByFamily& own, const BatchesByFamily& other);
 
 /// The run times of a subject.
 struct SubjectTimes {
-  BatchesByFamily batches;        ///< separate for each kind and family, because a median is meaningful only
-                                  ///< for similar batches
+  BatchesByFamily batches;        ///< by kind and family, because a median means something only for batches
+                                  ///< of similar queries
   std::uint64_t nanoseconds = 0;  ///< total over all timed queries
   TimeHistogram each;             ///< times of a sample of the queries, timed one by one
   std::vector<SlowCase> slowest;  ///< the slowest of that sample, at most slow_cases, slowest first
@@ -95,10 +95,10 @@ struct SubjectTimes {
 
   /// The number of queries that were timed in batches.
   [[nodiscard]] std::uint64_t queries() const;
-  /// Time per query in ns: the mean of the medians over the batches of each kind and family, weighted by
-  /// their numbers of queries. Nothing if no query was timed.
+  /// Time per query in ns: the mean, weighted by numbers of queries, of the median time of each kind and
+  /// family. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> ns_per_query() const;
-  /// Mean time of all timed queries in ns. Unlike the median, it shows rare slow queries and disturbances.
+  /// Mean time of all timed queries in ns. Unlike the medians, it shows rare slow queries and disturbances.
   /// Nothing if no query was timed.
   [[nodiscard]] std::optional<double> mean() const;
 

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// Identifies the queries of a kind and family that two versions of a CCD were asked.
+/// Identifies the queries of a kind and family that both of two versions of a CCD were asked.
 struct VersionKey {
   std::string before, after;  ///< names of the subjects
   Kind kind{};
@@ -24,8 +24,8 @@ struct VersionKey {
   }
 };
 
-/// Counts the queries that both versions were asked, according to which versions fail. To fail is to miss a
-/// collision, to give a late time, to exceed the claimed bound, or to give no answer.
+/// Counts the queries that both versions were asked, by the versions that fail. A version fails if it misses
+/// a collision, gives a late time, exceeds its claimed bound, or gives no answer.
 struct VersionCounts {
   std::uint64_t fixed = 0;    ///< only the earlier version fails
   std::uint64_t broken = 0;   ///< only the later version fails

@@ -37,7 +37,7 @@ FileLock::FileLock(const std::filesystem::path& file) : lock_(true_path(file).st
           fmt::format("{}: found a file with {} bytes, expected none: the lock of {} would replace it",
                       lock_.string(), held.st_size, file.string()));
     if (!locked) throw Error(fmt::format("{}: another process is writing it", file.string()));
-    // The holder removed the lock file just before it released the lock. Try again with a new lock file.
+    // The process that held the lock has removed the lock file. Try again with a new lock file.
   }
 }
 

@@ -74,7 +74,7 @@ std::vector<Run> read_runs(Reader& read) {
   return all;
 }
 
-/// Consecutive findings of a run, from the one at place `first` on.
+/// Rows for consecutive findings of a run. `first` is the place of the first of them in the run.
 Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint64_t first = 0) {
   Findings rows;
   for (const Finding& each : findings) rows.emplace(std::pair{run, first++}, each);
@@ -117,8 +117,8 @@ Campaign read_campaign(Reader& read) {
   return {std::move(runs), read_statistics(read)};
 }
 
-/// How long to wait for another process that reads a store, or opens or closes it. It is short enough for a
-/// process to stop within two seconds after it is told to.
+/// How long to wait while another process reads, opens or closes a store. It is short, so that a process
+/// that is told to stop does so within two seconds.
 constexpr int patience_ms = 1500;
 
 /// Runs `act`. Any exception becomes an Error that names the file.
@@ -135,16 +135,16 @@ auto naming(const fs::path& file, const Act& act) {
   }
 }
 
-/// The path of the log with this ending. SQLite keeps the log beside a store while the store is written; a
-/// killed writer leaves it there.
+/// The path of a store's log with this ending. SQLite keeps the log beside the store while a process writes
+/// it; if that process is killed, the log stays there.
 fs::path log_of(const fs::path& file, std::string_view ending) {
-  fs::path log = weakly_canonical(file);  // SQLite, too, follows links
+  fs::path log = weakly_canonical(file);  // without links, because SQLite follows them
   log += ending;
   return log;
 }
 
-/// Throws Error if the journal beside a store names another file, which SQLite would delete when it takes back a
-/// half-done change. No journal of nearmiss does.
+/// Throws Error if the journal beside a store names another file: SQLite would delete that file when it
+/// rolls back an unfinished change. Journals that nearmiss writes name no other file.
 void expect_own_journal(const fs::path& file) {
   constexpr std::array<char, 8> magic{'\xd9', '\xd5', '\x05', '\xf9', '\x20', '\xa1', '\x63', '\xd7'};
   const fs::path journal = log_of(file, "-journal");
@@ -160,15 +160,15 @@ void expect_own_journal(const fs::path& file) {
                     journal.filename().string()));
 }
 
-/// The path by which SQLite opens a store with its own journal. It is absolute, because ":memory:" alone is no
-/// file to SQLite.
+/// Checks a store's journal (expect_own_journal), and returns the path by which SQLite opens the store. The
+/// path is absolute, because SQLite takes a relative path ":memory:" for no file.
 std::string path_for_sqlite(const fs::path& file) {
   expect_own_journal(file);
   return fs::absolute(file).string();
 }
 
-/// Opens a store to read it. The store is not changed, unless its writer was killed while it changed the file
-/// itself: then SQLite takes back the half-done change, by the journal beside the store.
+/// Opens a store to read it. This changes the store only if a process was killed while it wrote the file
+/// itself: SQLite then rolls back the unfinished change, by the journal beside the store.
 SQLite::Database open_to_read(const fs::path& file) {
   constexpr int most_bytes = 1 << 26;  // limit for a key or a value
   const bool change_is_half_done = fs::exists(log_of(file, "-journal"));
@@ -178,8 +178,8 @@ SQLite::Database open_to_read(const fs::path& file) {
   return db;
 }
 
-/// Raises the count of each signature to the number of its stored findings, in case the row of the count was
-/// lost.
+/// Raises the count of each signature to at least the number of its stored findings: the row of the count
+/// may be lost.
 void count_findings(Campaign& campaign) {
   std::map<Signature, std::uint64_t> stored;
   for (const Finding& finding : campaign.findings()) ++stored[signature_of(finding)];
@@ -207,7 +207,7 @@ Salvage read_intact(SQLite::Database& db, const Check& check = {}) {
   return salvage;
 }
 
-/// A clause that says how to salvage a damaged store, and how much that would save.
+/// The end of a message about a damaged store: how to salvage it, and how much that would save.
 std::string advice(const fs::path& file) {
   try {
     const Salvage salvage = salvage_campaign(file);
@@ -219,22 +219,23 @@ std::string advice(const fs::path& file) {
   }
 }
 
-/// Throws Damage if the structure of the database is damaged. All rows may be readable nevertheless, but a
-/// save would then do more damage.
+/// Throws Damage if the structure of the database is damaged. Even if all rows are readable, a save would
+/// then do more damage.
 void check_structure(SQLite::Database& db) {
   const std::string found = db.execAndGet("PRAGMA integrity_check(1)").getString();
   if (found != "ok") throw Damage(found.substr(0, found.find('\n')));
 }
 
-/// Whether a failure to read means that the file's contents are damaged, not that it cannot be opened.
+/// Whether an error while reading means that the contents of a file are damaged, not that it cannot be
+/// opened.
 bool is_damage(const std::exception& error) {
   if (dynamic_cast<const Damage*>(&error) != nullptr) return true;
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
   return reason != nullptr && reason->getErrorCode() == SQLITE_CORRUPT;
 }
 
-/// The name of the log beside a store, if SQLite fails because the store's writer was killed and SQLite
-/// cannot write in the folder; otherwise "".
+/// The name of the log beside a store if this log makes SQLite fail: a killed process left it, and SQLite
+/// cannot write in the folder. "" for any other error.
 std::string locked_log(const fs::path& file, const std::exception& error) {
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
   if (reason == nullptr) return "";
@@ -245,7 +246,8 @@ std::string locked_log(const fs::path& file, const std::exception& error) {
   return "";
 }
 
-/// Reads a store of this version. If it is damaged, the Error also says how much a salvage would save.
+/// Reads a store of this version. Throws Error; if the store is damaged, the message also says how much a
+/// salvage would save.
 Campaign read_store(const fs::path& file, bool checks_structure, const Check& check = {}) {
   expect_regular_file(file);
   return naming(file, [&] {
@@ -279,10 +281,10 @@ struct Connection {
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
     try {
-      db.setBusyTimeout(patience_ms / 3);       // shorter, because results are already saved
+      db.setBusyTimeout(patience_ms / 3);       // a shorter wait, because all results are already saved
       db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
     } catch (const SQLite::Exception&) {
-      return;  // nothing is lost: the log stays next to the file
+      return;  // nothing is lost, because the log stays next to the file
     }
   }
 
@@ -398,7 +400,7 @@ Salvage salvage_campaign(const fs::path& file) {
     SQLite::Database db = open_to_read(file);
     db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
     const SQLite::Transaction one_save(db);  // another process may save meanwhile
-    db.exec("PRAGMA schema_version");        // throws if this is no database
+    db.exec("PRAGMA schema_version");        // throws if the file is no database
     Salvage salvage = read_intact(db);
     if (salvage.rows == 0) throw Error("found no intact row, so that nothing can be saved");
     return salvage;
@@ -410,7 +412,7 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
   PartFile part(file);
   naming(file, [&] {
     SQLite::Database db(part.path().string(), SQLite::OPEN_READWRITE);
-    // Nobody else sees the file yet, so it needs no log. A log might hold what the disk has no room for.
+    // No other process sees the file yet, so it needs no log on the disk, which may be nearly full.
     db.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL;");
     Save save(db);
     write_campaign(save, campaign);

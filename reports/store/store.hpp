@@ -13,23 +13,23 @@
 
 namespace nearmiss {
 
-/// Another process has locked a store for longer than a save waits. Nothing was saved.
+/// Thrown if another process has locked a store for longer than a save waits. Nothing was saved.
 class StoreIsLocked : public Error {
  public:
   using Error::Error;
 };
 
-/// The file to which a running shard saves its results. Every save is one transaction: it is complete or does
-/// not happen at all. Earlier saves survive a full disk, an interrupt or a kill. Only one process at a time
+/// The file to which a running shard saves its results. Every save is one transaction: the file gets all of
+/// it or nothing. Earlier saves survive a full disk, an interrupt or a kill. Only one process at a time
 /// writes a file; others may read it meanwhile.
 class Store {
  public:
-  /// Whether there is a store to resume. A kill during the creation of a store may leave a database without
-  /// tables, which is not a store yet.
+  /// Whether the file is a store that can be resumed. A kill while a store is made may leave a database
+  /// without tables, which is no store yet.
   static bool exists(const std::filesystem::path& file);
-  /// Removes a store that is not open, and its log, which SQLite leaves behind if the disk is full.
+  /// Removes a store that no process has open, and the log that SQLite leaves beside it if the disk is full.
   static void remove(const std::filesystem::path& file);
-  /// Makes a new file. Throws Error if the file exists, or cannot be made.
+  /// Makes a new file for a run and its shard. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
   /// Opens a file to resume its run. Throws Error unless the file is a store of one shard of one run, and no
   /// other process writes it. If `found` is given, it receives the contents of the file. If `check` is given,
@@ -40,14 +40,14 @@ class Store {
   Store& operator=(Store&&) noexcept;
   ~Store();
 
-  /// Replaces the statistics and the shard, and adds the findings since the last save. If it throws Error,
-  /// such as StoreIsLocked, the file is unchanged.
+  /// Replaces the statistics and the shard, and adds findings, those since the last save. Throws Error, for
+  /// example StoreIsLocked, if the file cannot be written, and then leaves it unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 
-  /// Replaces all findings. If it throws Error, the file is unchanged.
+  /// Replaces all findings. Throws Error if the file cannot be written, and then leaves it unchanged.
   void replace(std::span<const Finding> findings);
 
-  /// Adds a picture. If it throws Error, the file is unchanged.
+  /// Adds a picture. Throws Error if the file cannot be written, and then leaves it unchanged.
   void add(const ScenePicture& picture);
 
  private:
@@ -64,17 +64,17 @@ Campaign load_campaigns(std::span<const std::filesystem::path> files);
 
 /// The intact part of a store.
 struct Salvage {
-  Campaign campaign;       ///< each run has the fact `salvaged_fact`, if anything was lost
+  Campaign campaign;       ///< if anything was lost, each run has the fact `salvaged_fact`
   std::uint64_t rows = 0;  ///< number of intact rows
   std::string lost;        ///< such as "3 of 20 rows of counts"; "" if nothing was lost
 };
 
-/// Reads all intact rows of a store, which are those that match their checksums. Throws Error if the file
-/// cannot be read, or has no intact row. The version in the file is not checked, because it may be damaged;
-/// the checksums include the version, so a store of another version has no intact row.
+/// Reads all intact rows of a store: those that match their checksums. Does not check the version in the
+/// file, which may be damaged; no row of another version counts as intact, because the checksums include the
+/// version. Throws Error if the file cannot be read, or has no intact row.
 Salvage salvage_campaign(const std::filesystem::path& file);
 
-/// Writes a campaign to a new file, whole or not at all. Throws Error if the file exists or cannot be
+/// Writes a campaign to a new file, all of it or nothing. Throws Error if the file exists or cannot be
 /// written.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& file);
 

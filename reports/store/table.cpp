@@ -26,7 +26,7 @@ constexpr const char* contents_table = "contents";
 constexpr std::array tables{"run",    "shard",  "finding",   "picture", "campaign", "counts", "oracle",
                             "funnel", "factor", "simulated", "version", "seen",     "extreme"};
 
-/// The definition of a table, as SQLite keeps it.
+/// The SQL text that defines a table, in the form in which SQLite stores it.
 std::string definition(const char* table) {
   return fmt::format(
       "CREATE TABLE {} (key TEXT NOT NULL PRIMARY KEY, value TEXT NOT NULL, checksum INTEGER NOT NULL) "
@@ -40,8 +40,8 @@ std::string schema() {
   return text;
 }
 
-/// Whether there is a table with this name, not a view. No view is expanded: that of a hostile store may need
-/// endless time, even if nothing reads it.
+/// Whether the database has a table, not a view, with this name. Does not let SQLite expand a view: a view
+/// of a hostile store may take endless time, even if nothing reads it.
 bool is_table(SQLite::Database& db, const std::string& name) {
   const int result = sqlite3_table_column_metadata(db.getHandle(), "main", name.c_str(), nullptr, nullptr,
                                                    nullptr, nullptr, nullptr, nullptr);
@@ -49,8 +49,8 @@ bool is_table(SQLite::Database& db, const std::string& name) {
   return result == SQLITE_OK;
 }
 
-/// Whether SQLite would read a table's columns from the file. In a hostile store, they may be computed instead,
-/// by a view over an endless recursion, for example.
+/// Whether a table's columns are plain data in the file. In a hostile store, SQLite might have to compute
+/// them, for example by a view over an endless recursion.
 bool is_plain(SQLite::Database& db, const std::string& table) {
   if (!is_table(db, table)) return false;
   SQLite::Statement column(db, fmt::format("PRAGMA main.table_xinfo({})", table));
@@ -63,7 +63,7 @@ bool is_plain(SQLite::Database& db, const std::string& table) {
 
 constexpr int most_bytes = 1 << 26;  // limit for a key or a value
 
-/// The bytes of a database's file and of the log beside it.
+/// The size in bytes of a database's file and of the log beside it.
 std::uint64_t bytes_of(SQLite::Database& db) {
   const char* const file = sqlite3_db_filename(db.getHandle(), "main");  // without links
   std::uint64_t bytes = 0;
@@ -75,27 +75,28 @@ std::uint64_t bytes_of(SQLite::Database& db) {
   return bytes;
 }
 
-/// How much of a table is read. In a hostile store, few bytes can claim any number of rows, and many rows can
-/// share a long chain of pages.
+/// Limits how much of a table is read. In a hostile store, a few bytes can claim any number of rows, and
+/// many rows can share one long chain of pages.
 class Limits {
  public:
   explicit Limits(std::uint64_t bytes_of_store) : bytes_(bytes_of_store), unread_(bytes_of_store) {}
 
-  /// The most rows that are looked for.
+  /// The largest number of row ids that are looked up.
   [[nodiscard]] std::uint64_t rows() const {
     constexpr std::uint64_t least_bytes = 16;  // of a row: checksum, lengths, key, value
     constexpr std::uint64_t most = 1'000'000;
     return std::min(bytes_ / least_bytes, most);
   }
 
-  /// Counts the bytes of a row. Returns whether all rows together have no more bytes than the store.
+  /// Counts the bytes of a row. Returns whether all counted rows together have at most as many bytes as the
+  /// store.
   bool read(std::uint64_t bytes) {
     const bool fits = bytes <= unread_;
     unread_ -= fits ? bytes : unread_;
     return fits;
   }
 
-  /// Counts a row that leads to damaged pages. Returns whether another row may be tried.
+  /// Counts a row that cannot be read because of damaged pages. Returns whether to try another row.
   bool fail() {
     constexpr int most = 1'000;
     return ++failed_ < most;
@@ -106,14 +107,14 @@ class Limits {
   int failed_ = 0;
 };
 
-/// Passes the intact rows of a plain table to `take`. `last` is the largest row id to try. Rows are never
-/// removed singly, so n rows have the ids 1 to n. `check`, if given, is called before each row.
+/// Passes the intact rows of a plain table to `take`. Calls `check`, if given, before each row. Tries the
+/// row ids 1 to `last`: n rows have the ids 1 to n, because nearmiss never removes a single row.
 Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take,
                      const Check& check = {}) {
   Contents found;
   Limits limits(bytes_of(db));
-  // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be
-  // damaged, too.
+  // Looks up each row by its id, because a damaged page would end a scan of the table, and an index may
+  // itself be damaged.
   const auto where_id = [&](const char* columns) {
     return SQLite::Statement(db,
                              fmt::format("SELECT {} FROM {} NOT INDEXED WHERE rowid = ?", columns, table));
@@ -155,7 +156,7 @@ ContentsByTable read_contents(SQLite::Database& db) {
   return contents;
 }
 
-/// The largest id of a plain table's rows. If the table is damaged, this can be any number.
+/// The largest row id of a plain table; any number if the table is damaged.
 std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
   SQLite::Statement last(db, fmt::format("SELECT max(rowid) FROM {}", table));
   if (last.tryExecuteStep() != SQLITE_ROW) return 0;
@@ -197,7 +198,7 @@ Reader::Reader(SQLite::Database& db, Check check) : db_(db), check_(std::move(ch
   sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, bytes);
   try {
     contents_ = read_contents(db);
-  } catch (const SQLite::Exception&) {  // its definition is lost
+  } catch (const SQLite::Exception&) {  // the table's definition is lost
   }
 }
 
@@ -212,7 +213,7 @@ void Reader::read(const std::string& table, const Take& take) {
       last = last_row(db_, table);
       found = read_intact(db_, table, std::max(last, saved.rows), take, check_);
     }
-  } catch (const SQLite::Exception&) {  // its definition is lost
+  } catch (const SQLite::Exception&) {  // the table's definition is lost
   }
   rows_ += found.rows;
   if (!is_known)

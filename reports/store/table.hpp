@@ -30,16 +30,16 @@ class Damage : public Error {
 /// Whether a database has no tables. A kill before the first save leaves such a file.
 bool is_empty(const SQLite::Database& db);
 
-/// Throws Error if the database is not a store of this version, and Damage unless it has exactly the tables
-/// of a store and nothing else, such as a view or a trigger.
+/// Throws Error if the database is not a store of this version. Throws Damage if it lacks a table of a
+/// store, or has anything else, such as a view or a trigger.
 void expect_store(SQLite::Database& db);
 
 /// The checksum of a row: the first 64 bits of a SHA-256 digest of the version, the table's name, the key and
 /// the value.
 std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value);
 
-/// The number of rows of a table, and the sum of their checksums modulo 2^64. They reveal rows that are
-/// missing, doubled, or left from an earlier save. The table `contents` has both numbers for every other
+/// The number of rows of a table, and the sum of the rows' checksums modulo 2^64. Both numbers reveal rows
+/// that are missing, doubled, or left from an earlier save. The table `contents` has them for every other
 /// table; a save updates them without reading rows that it does not change.
 struct Contents {
   std::uint64_t rows = 0, sum = 0;
@@ -54,10 +54,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contents, rows, sum)
 
 using ContentsByTable = std::map<std::string, Contents>;
 
-/// Reads the intact rows of a store, which are those that match their checksums, and notes which are lost.
+/// Reads the intact rows of a store, those that match their checksums, and notes how many rows are lost.
 class Reader {
  public:
-  /// `check`, if given, is called before each row is read, and may end the reading by an exception.
+  /// The reader calls `check`, if given, before it reads a row. `check` may end the reading by an exception.
   explicit Reader(SQLite::Database& db, std::function<void()> check = {});
 
   /// Puts the intact rows of a table into a map. Throws Error for a value that this version does not know.
@@ -84,26 +84,26 @@ class Reader {
   std::map<std::string, std::string> lost_;
 };
 
-/// Changes a store in one transaction, which `commit` ends. Without `commit`, nothing changes.
+/// Changes a store in one transaction. `commit` ends the transaction; without it, nothing changes.
 class Save {
  public:
   /// Makes the tables if the database is empty. Throws Damage if the table of contents is damaged.
   explicit Save(SQLite::Database& db);
 
-  /// Replaces the rows of a table by the entries of a map, which must have all keys of the table and may have
-  /// more. Writes only rows that have changed.
+  /// Replaces the rows of a table by the entries of a map. The map must have all keys of the table, and may
+  /// have more. Writes only rows that have changed.
   template <class Map>
   void replace(const std::string& table, const Map& map) {
     contents_.at(table) = insert(table, rows_of(map), {}, true);
   }
 
-  /// Adds rows with new keys.
+  /// Adds the entries of a map as rows; their keys must be new.
   template <class Map>
   void add(const std::string& table, const Map& map) {
     contents_.at(table) = insert(table, rows_of(map), contents_.at(table), false);
   }
 
-  /// Removes all rows.
+  /// Removes all rows of a table.
   void clear(const std::string& table);
 
   /// The number of rows of a table.
@@ -122,7 +122,7 @@ class Save {
     return rows;
   }
 
-  /// Inserts rows, and returns `contents` updated by them.
+  /// Inserts rows, and returns the table's `contents` with them.
   Contents insert(const std::string& table, const Rows& rows, Contents contents, bool replaces);
 
   SQLite::Database& db_;

@@ -83,7 +83,7 @@ inline void from_json(const nlohmann::json& json, Extreme& extreme) {
   json.at("queries").get_to(extreme.queries);
 }
 
-/// Throws Error for a count that is too large to be one.
+/// Throws Error if a count is larger than any sum of counts can be.
 template <class Counted>
 void expect_counted(const Counted& counted) {
   if constexpr (std::is_same_v<Counted, std::uint64_t>) {

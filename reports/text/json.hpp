@@ -13,8 +13,8 @@
 
 namespace nlohmann {
 
-/// Reads an integer only from an integer that fits, and throws Error for anything else. The library itself
-/// would cast any number, even 1e308, which fits into no integer.
+/// Reads an integer only from a JSON integer that the type can hold, and throws Error for anything else. The
+/// library itself would cast any number, even 1e308.
 template <std::integral Integer>
 requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) struct adl_serializer<Integer> {
   template <class Json>
@@ -51,7 +51,7 @@ requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) struct ad
 
 namespace nearmiss {
 
-/// JSON as text. Each byte of a string that is no UTF-8, such as in the name of a file, becomes U+FFFD.
+/// JSON as text. A byte that is not part of valid UTF-8, for example in the name of a file, becomes U+FFFD.
 template <class Json>
 std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

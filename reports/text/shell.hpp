@@ -1,4 +1,4 @@
-// Commands for a shell.
+// Quotes and splits commands for a shell.
 #pragma once
 
 #include <string>
@@ -7,18 +7,19 @@
 
 namespace nearmiss {
 
-/// An argument for a shell, in quotes if it needs them.
+/// An argument as a shell reads it: in quotes if it needs them.
 std::string shell_quoted(const std::string& argument);
 
-/// An argument for bash, ksh or zsh, as printable text. If it has bytes that are not printable, they are
-/// escaped in octal, as in $'M\344.case'.
+/// An argument as bash, ksh or zsh read it, in printable text: bytes that are not printable are octal
+/// escapes, as in $'M\344.case'.
 std::string printable_argument(const std::string& argument);
 
-/// Whether a text is one command whose arguments are quoted as above, so that a shell does nothing else.
+/// Whether a text is one command with arguments as the functions above quote them, so that a shell runs only
+/// this command.
 bool is_one_command(std::string_view text);
 
-/// The words into which a shell divides a simple command. Blanks divide words unless they are in quotes or
-/// follow a backslash. Quotes and backslashes are removed. Nothing is expanded.
+/// The words into which a shell divides a simple command. A blank divides words unless it is in quotes or
+/// follows a backslash. Removes quotes and backslashes, and expands nothing.
 std::vector<std::string> shell_words(std::string_view command);
 
 }  // namespace nearmiss

@@ -28,8 +28,8 @@ std::optional<double> number_in(std::string_view text);
 std::string whole_ns(const std::optional<double>& ns);
 
 /// A ratio distance / bound with three digits, or with more if a ratio below 1 would be rounded to 1. "below
-/// 1e-16" for a ratio in the lowest bin of a Histogram, of which only an upper bound is known. "inf" for the
-/// largest double, which stands for any distance divided by a bound of 0.
+/// 1e-16" for a ratio in the lowest bin of a Histogram, because only an upper bound of such a ratio is
+/// known. "inf" for the largest double, which stands for a distance divided by a bound of 0.
 std::string fraction_of_bound(double ratio);
 
 /// "at 0.987 of the bound", "at 1.5 times the bound", or "beyond a bound of 0". If the subject claims no
@@ -44,9 +44,9 @@ inline constexpr const char* unit_footnote =
 /// "1 query", "1,234 queries"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
-/// The text in at most so many lines, of at most `widest` columns as far as blanks allow it; lines after the
-/// first are indented. What does not fit is cut off. Test frameworks break lines beyond column 79, within code,
-/// too.
+/// Breaks a text into lines of at most `widest` columns, at blanks where possible. Begins each line after the
+/// first with `indent`, and cuts off what does not fit into `most_lines` lines. The default of `widest`
+/// suits test frameworks, which break longer lines even within code.
 std::string wrapped(std::string text, std::string_view indent, std::size_t most_lines,
                     std::size_t widest = 79);
 

@@ -16,8 +16,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The number that the text's digits denote; nothing if it has other characters, or if the number exceeds 64
-/// bits.
+/// The number that a text of digits denotes; nothing if the text has other characters, or if the number
+/// exceeds 64 bits.
 std::optional<std::uint64_t> digits(std::string_view text) {
   std::uint64_t value = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -25,7 +25,7 @@ std::optional<std::uint64_t> digits(std::string_view text) {
   return value;
 }
 
-/// The number that DIGITS or DIGITSeDIGITS denotes.
+/// The number that a text DIGITS or DIGITSeDIGITS denotes; nothing for any other text.
 std::optional<std::uint64_t> count(std::string_view text) {
   const std::size_t e = text.find_first_of("eE");
   auto value = digits(text.substr(0, e));

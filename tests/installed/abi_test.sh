@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Checks that programs that were compiled with an earlier minor version keep working: the library must have
-# all functions and types in oracle/interface/nearmiss.abi, and all constants in constants.txt, unchanged. It
-# may have more.
+# Checks that programs compiled with an earlier minor version keep working: the library must have, unchanged,
+# all functions and types in oracle/interface/nearmiss.abi, and all constants in constants.txt. It may have
+# more of them.
 # Usage: abi_test.sh [--write] LIBRARY, which has debug information
-#   --write  replaces both files, after something was added. Any other change needs a new major version.
+#   --write  replaces both files after an addition; any other change needs a new major version
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 write=false
@@ -33,8 +33,7 @@ abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added
 missing=$(comm -23 constants.txt <(constants))
 [[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
 
-# The list of symbols for Debian's packages, which says since which version each function exists, must be
-# complete.
+# Debian's list of symbols must be complete. It says since which version each function exists.
 known=$(sed -nE 's/^ (nearmiss_\w+)@NEARMISS_1 .*/\1/p' ../../tools/debian/symbols | sort)
 exported=$(nm -D --defined-only "$library" | sed -nE 's/.* T (\w+)@@NEARMISS_1$/\1/p' | sort)
 [[ $known == "$exported" ]] || fail "tools/debian/symbols has: $known; the library: $exported"

@@ -1,4 +1,5 @@
-// Writes queries of all families with the harness's answers to standard output, in the format of answers.cpp.
+// Writes queries of all families, with the answers of this source tree, to standard output, in the format
+// that answers.cpp reads.
 // Usage: answered_queries COUNT SEED
 #include <algorithm>
 #include <cstdio>

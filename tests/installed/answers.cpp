@@ -1,9 +1,9 @@
 // Asks an installed nearmiss through its C++ interface, in several layouts and from several threads, and
-// compares its answers with those on standard input. These come in blocks of one kind:
+// compares its answers with those on standard input. The input has blocks, each with queries of one kind:
 //
 //     int32 kind, n, timed
 //     double x[n][2][4][3], h[n]
-//     int8 collides[n], wang[n]; double bound[n]            of wang without a separation
+//     int8 collides[n], wang[n]; double bound[n]            wang[n] and bound[n] ignore the separation
 //     if timed: double lo[n], hi[n] of the earliest times; lo[n], hi[n] of the smallest distances
 #include <algorithm>
 #include <atomic>
@@ -71,7 +71,7 @@ void ask(const nearmiss::Queries& queries, const Block& block, const char* layou
   compare("wang", answers, block.wang);
 }
 
-/// Checks that random queries that need no exact arithmetic are answered without allocating memory.
+/// Checks that answering random queries allocates no memory if they need no exact arithmetic.
 void allocates_nothing() {
   using nearmiss::Queries;
   constexpr std::size_t n = 10000;
@@ -98,8 +98,8 @@ void ask_in_all_layouts(const Block& block) {
   const std::size_t n = block.n;
   ask(Queries::packed(block.kind, block.x), block, "packed");
 
-  // A mesh whose primitives share no vertex. Each vertex has four numbers instead of three, and they are in
-  // another order.
+  // A mesh whose primitives share no vertex. A vertex takes four numbers instead of three, and the vertices
+  // are in another order than in the queries.
   std::vector<double> start(16 * n), end(16 * n);
   std::vector<std::int32_t> vertices(4 * n);
   for (std::size_t v = 0; v < 4 * n; ++v) {
@@ -113,7 +113,7 @@ void ask_in_all_layouts(const Block& block) {
   mesh.layout().vertex_stride = 4 * sizeof(double);
   ask(mesh, block, "mesh");
 
-  // An array [2][4][3][n], as in a structure of arrays.
+  // The queries as an array [2][4][3][n], as a structure of arrays has them.
   std::vector<double> turned(24 * n);
   for (std::size_t q = 0; q < n; ++q)
     for (std::size_t c = 0; c < 24; ++c) turned[c * n + q] = block.x[24 * q + c];
@@ -126,7 +126,7 @@ void ask_in_all_layouts(const Block& block) {
   layout.vertex_stride = 3 * row;
   ask(Queries(layout), block, "turned");
 
-  // Queries of floats have the answers of the doubles with the same values.
+  // Queries in floats have the same answers as doubles with the same values.
   const std::vector<float> small(block.x.begin(), block.x.end());
   const std::vector<double> rounded(small.begin(), small.end());
   std::vector<std::int8_t> of_float(n), of_double(n);

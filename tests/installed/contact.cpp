@@ -1,4 +1,4 @@
-// Uses the oracle in place of the CCD of a contact code, with the types of points that such a code has.
+// Uses the oracle in place of the CCD in a contact code, with types of points that contact codes use.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -39,7 +39,7 @@ int main() {
          "does not meet before 0.5");
   expect(!ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi), "does not move");
 
-  // The time is 1/3, which is not a double.
+  // The exact time is 1/3, which is no double.
   const Point high{0.25, 0.25, 1}, low{0.25, 0.25, -2};
   expect(ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi) && toi == 1. / 3, "at 1/3");
   const double before = toi, after = std::nextafter(toi, 1.0);
@@ -58,8 +58,8 @@ int main() {
   const Flat u{0, 1}, v{-1, 0}, w{1, 0}, u1{0, -1};
   expect(ccd.point_edge_ccd(u, v, w, u1, v, w, toi) && toi == 0.5, "in the plane");
 
-  // With -ffast-math, the processor takes subnormal numbers for 0. The answer must still be that these points
-  // are apart.
+  // With -ffast-math, the processor takes subnormal numbers for 0. Even then, the answer must be that these
+  // points do not touch.
   using Small = std::array<float, 3>;
   const Small tiny{0.25F, 0.25F, 1e-40F}, tinier{0.25F, 0.25F, 2e-40F}, fa{0, 0, 0}, fb{1, 0, 0}, fc{0, 1, 0};
   expect(!ccd.point_triangle_ccd(tiny, fa, fb, fc, tinier, fa, fb, fc, toi), "subnormal floats");

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Tests the packages in a fresh Debian of this machine's release: installs them, builds and runs users'
-# programs with them, puts CCDs on trial, and removes the packages again, after which no file may be left.
-# Then it builds and installs the library from its sources, with only the packages that the library needs.
-# Takes ten minutes, and needs root, mmdebstrap, and Debian's mirror.
+# Tests the packages in a fresh Debian of this machine's release. Installs them, builds and runs users'
+# programs with them, and puts CCDs on trial. Removes the packages again, and checks that no file is left.
+# Then builds and installs the library from its sources, with only the packages that the library needs. Takes
+# ten minutes, and needs root, mmdebstrap, and Debian's mirror.
 # Usage: debian_test.sh PACKAGES BUILD, the folders of the packages (tools/package) and of a build with tests
 #        (tools/setup)
 set -euo pipefail
@@ -30,7 +30,7 @@ get() { debian apt-get -qq "$@" >"$folder/log" 2>&1 || fail "apt-get $*: $(tail 
 install() { get install -y --no-install-recommends "$@"; }
 files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./tmp -o -path './var/lib/*' -o -path './var/cache/*' -o -path './var/log/*' \) -prune -o -print | sort); }
 
-# The sources, as a user gets them, and queries with their answers.
+# Copies the sources as a user gets them, and makes queries with their answers.
 mkdir "$root/nearmiss"
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$root/nearmiss"
 "$queries" 6000 1 >"$root/queries"

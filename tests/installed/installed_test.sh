@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs nearmiss into an empty prefix, moves the prefix, and builds and runs users' programs with it: in C
-# and C++, with g++ and clang++, and with flags that users may set. Then it runs the installed program.
+# Installs nearmiss into an empty prefix, moves the prefix, and builds and runs users' programs there: in C
+# and C++, with g++ and clang++, and with flags that users may set. Then runs the installed program.
 # Usage: installed_test.sh BUILD
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -15,7 +15,8 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
 quietly cmake --install "$build" --prefix "$folder/first"
-# The target `product` must build all of these files, so that a user of tools/run can install.
+# The target `product` must build every file that is installed, so that a user of tools/run can install
+# nearmiss.
 ninja -C "$build" -t commands product >"$folder/product"
 while read -r each; do
   grep -q -- "-o \S*${each##*/} " "$folder/product" || fail "the target product does not build $each"
@@ -23,7 +24,7 @@ done < <(find "$folder/first/bin" "$folder/first/lib" -type f \( -name '*.so*' -
 mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 6000 1 >"$folder/queries"
 
-# Headers of other packages with the same names must not be picked up.
+# Installed headers must not include paths that headers of other packages may have.
 ! grep -rE '^ *#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
 ! grep -rlE '#include <(CGAL|boost|gmp)' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
 
@@ -44,10 +45,10 @@ check() {
 check g++ g++ gcc ""
 check clang++ clang++ clang ""
 check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
-# On some processors, clang 19 warns that it takes their vector instructions for another set.
+# With -march=native, clang 19 warns on some processors about a feature of their vector instructions.
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native -Wno-unknown-warning-option -Wno-invalid-feature-combination" -DWITH_TEMPLATES=OFF
 
-# The templates refuse unsafe flags. With clang++, headers can recognise only the first two of them.
+# The templates refuse unsafe flags. With clang++, headers can recognise only the first two of these flags.
 refuse_flags() {
   local compiler=$1 flags
   shift
@@ -63,7 +64,7 @@ refuse_flags clang++ -ffast-math -ffinite-math-only
 # The library ignores the environment variable NEARMISS_LANES, which only the program reads.
 NEARMISS_LANES=16 "$folder/g++/answers_c"
 
-# A user's tests put a CCD on trial, with GoogleTest, Catch2, libFuzzer, and without code of their own.
+# A user's tests put a CCD on trial: with GoogleTest, Catch2 and libFuzzer, and without any code for the test.
 quietly cmake -S "$here/trial" -B "$folder/trial" -DCMAKE_PREFIX_PATH="$folder/prefix"
 quietly cmake --build "$folder/trial"
 quietly "$folder/trial/gtest"
@@ -81,7 +82,7 @@ gcc -std=c99 "$here/answers.c" $(pkg-config --cflags --libs nearmiss) -o "$folde
 LD_LIBRARY_PATH=$folder/prefix/lib "$folder/by_pkg_config"
 [[ $(pkg-config --modversion nearmiss) == 1.* ]] || fail "the version of pkg-config"
 
-# Versions and components that are not installed are refused.
+# find_package refuses versions and components that are not installed.
 mkdir "$folder/other"
 for wanted in "2 COMPONENTS oracle" "1 COMPONENTS oracle fortran"; do
   printf 'cmake_minimum_required(VERSION 3.25)\nproject(other CXX)\nfind_package(nearmiss %s REQUIRED)\n' "$wanted" >"$folder/other/CMakeLists.txt"
@@ -89,7 +90,7 @@ for wanted in "2 COMPONENTS oracle" "1 COMPONENTS oracle fortran"; do
 done
 grep -q 'The component fortran is not installed in' "$folder/log" || fail "$(cat "$folder/log")"
 
-# Absolute folders of an installation are used as they are, without the prefix.
+# An absolute installation folder is used as it is, without the prefix.
 quietly cmake -S "$here/../.." -B "$folder/absolute" -DNEARMISS_COMPONENTS=oracle -DCMAKE_INSTALL_LIBDIR=/a/lib -DCMAKE_INSTALL_INCLUDEDIR=/b/include
 PKG_CONFIG_PATH=$folder/absolute/install pkg-config --cflags --libs nearmiss >"$folder/log"
 grep -q -- '-I/b/include -L/a/lib -lnearmiss' "$folder/log" || fail "$(cat "$folder/log")"
@@ -107,13 +108,13 @@ quietly cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.
 quietly cmake -S "$here/../.." -B "$folder/plain"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
 
-# A build of trials without the tools defines what its files need.
+# A build of the component trial without the tools defines the macros that its files need.
 quietly cmake -S "$here/../.." -B "$folder/only_trial" -DNEARMISS_COMPONENTS=trial
 for each in 'NEARMISS_INSTALLED=.*supervisor.cpp' 'NEARMISS_INSTALLED=.*peers.cpp' 'NEARMISS_WORKER_CODE=.*supervisor.cpp'; do
   grep -q "$each" "$folder/only_trial/compile_commands.json" || fail "a build of only the trial has no $each"
 done
 
-# A build of only the templates needs only Eigen, and compiles nothing.
+# A build of the templates alone needs only Eigen, and compiles nothing.
 quietly cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --install "$folder/headers" --prefix "$folder/only"
@@ -132,14 +133,15 @@ quietly cmake -S "$folder/alone" -B "$folder/alone/b" -DCMAKE_PREFIX_PATH="$fold
 quietly cmake --build "$folder/alone/b"
 quietly "$folder/alone/b/alone"
 
-# Unsafe flags and unknown components are refused.
+# CMake refuses unsafe flags and unknown components.
 ! cmake -S "$here/../.." -B "$folder/parts" -DNEARMISS_COMPONENTS=oracle -DCMAKE_CXX_FLAGS='-ffast-math -fno-finite-math-only' >"$folder/log" 2>&1 ||
   fail "cmake accepts a part of -ffast-math"
 ! cmake -S "$here/../.." -B "$folder/unknown" -DNEARMISS_COMPONENTS=ccd,oracle >"$folder/log" 2>&1 || fail "cmake accepts unknown components"
 grep -q "found 'ccd,oracle', expected some of ccd, oracle" "$folder/log" || fail "$(cat "$folder/log")"
 
-# The program uses its own files in the prefix, even while the build folder has them, too. To show this, the
-# worker in the prefix is replaced by a script that notes its call, and a published CCD by an empty file.
+# The program uses its files in the prefix, even if the build folder has the same files. To show this, the
+# test replaces the worker in the prefix by a script that notes its call, and a published CCD by an empty
+# file.
 "$here/tools_test.sh" "$folder/prefix"
 private=$folder/prefix/lib/nearmiss
 mv "$private/nearmiss-worker" "$private/worker"

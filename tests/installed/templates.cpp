@@ -1,4 +1,4 @@
-// Uses the header-only CCD together with the library, and so checks that their names do not clash.
+// Uses the header-only CCD together with the library, to check that their names do not clash.
 #include <nearmiss/ccd/pair_bound.hpp>
 #include <nearmiss/ccd/wang.hpp>
 #include <nearmiss/ccd/wang_time.hpp>

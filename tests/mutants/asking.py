@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 from suite import run_tests
 
-KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that ended at a limit
-BUDGET = 120  # limit in seconds of one core for a mutant's tests, from their times without it
+KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that were killed at a limit
+BUDGET = 120  # seconds of one core that a mutant's tests may take, by their times without a mutant
 
 
 @dataclass
@@ -25,8 +25,8 @@ def in_order(steps):
 
 
 def batches(steps):
-    """Yields lists of steps of one executable: the quickest of all first, then those that take as
-    long together as all before them, and so on."""
+    """Yields lists of steps, each of one executable. Quick steps come first, and each list takes about
+    as long as all lists before it."""
     batch, size, limit = {}, 0, 0.5
     for step in in_order(steps):
         if batch and size + step.cpu > limit:
@@ -38,7 +38,7 @@ def batches(steps):
 
 
 def affordable(steps):
-    """The quickest steps that together fit the budget, and the names of the others."""
+    """The quickest steps that together fit the budget, and the names of the other steps."""
     kept, left, total = [], [], 0
     for step in in_order(steps):
         total += step.cpu
@@ -70,8 +70,8 @@ def run_steps(group):
 
 
 def ask(steps, answer):
-    """Runs the tests with the built mutant, and adds the result to `answer`. A failed test runs
-    again, because the first failure may be due to a busy machine."""
+    """Runs the tests with the mutant that is built, and adds the result to `answer`. Runs a failed
+    test again, because it may have failed on account of a busy machine."""
     kept, left = affordable(steps)
     answer.unasked += left
     for group in batches(kept):

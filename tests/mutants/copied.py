@@ -30,8 +30,8 @@ def link(target, path):
 
 
 def mirror(source, target, mutation):
-    """Copies a folder. C++ files and headers become files, one of them with the mutant, and all
-    other files become links. Removes everything else from the copy."""
+    """Copies a folder. C++ files and headers become files, one of which may have the mutant; all other
+    files become links. Removes from the copy what the folder does not have."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -60,7 +60,7 @@ def remove(path):
 
 
 def make_copy(mutation=None):
-    """Makes the copy, with a mutant if it is given."""
+    """Makes the copy, with the mutant if one is given."""
     COPY.mkdir(parents=True, exist_ok=True)
     for entry in ROOT.iterdir():
         if entry.name in FOLDERS:
@@ -70,7 +70,7 @@ def make_copy(mutation=None):
 
 
 def configure():
-    """Configures the build of the copy, with the product's semantics and less optimisation."""
+    """Configures the build of the copy. The code means the same as in the product, but is less optimised."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'NEARMISS_COMPONENTS': 'ccd;oracle;trial;tools;python;tests',
@@ -87,7 +87,7 @@ def configure():
 
 
 def ninja(targets, jobs):
-    """Builds as many of the targets as possible. Does not use a compiler cache, which is slower
-    with precompiled headers than the compiler itself."""
+    """Builds as many of the targets as possible. Uses no compiler cache: with precompiled headers, a
+    cache is slower than the compiler."""
     words = ['ninja', '-C', BUILD, f'-j{jobs}', '-k', '0', *targets]
     return run(words, cwd=COPY, env={'CCACHE_DISABLE': '1'}, seconds=24 * 3600)

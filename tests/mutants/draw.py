@@ -1,8 +1,8 @@
 """Draws mutants by a seed, evenly over folders and over operators.
 
-The operators are substitutions in lines that clang-format has laid out: it puts blanks around binary operators, and
-none around the brackets of templates. The order of the draw depends only on each mutant's own text, so that a change
-elsewhere does not change a draw."""
+The operators are substitutions in lines that clang-format has laid out, with blanks around binary operators
+and none around the brackets of templates. The order of the draw depends only on the seed and each mutant's
+own text, so a change elsewhere in the sources does not change the draw."""
 
 import re
 from collections import Counter
@@ -48,11 +48,12 @@ SUBSTITUTIONS = [
     ('min for max', r'\blower_bound\(', 'upper_bound('),
     ('min for max', r'\bupper_bound\(', 'lower_bound('),
 ]
-# Lines whose changes no test can notice, or that only the compiler reads.
+# Lines that get no mutant, because no test can notice a change of them, or because only the compiler reads
+# them.
 LEFT_ALONE = re.compile(
     r'\s*(#|//|/?\*|static_assert|template|using |throw |namespace )|.*\bError\('
 )
-# Text in quotes, and a comment to the end of the line, in which no operator looks.
+# Operators do not look at text in quotes, or at a comment to the end of the line.
 NO_CODE = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])+\'(?!\d)|//.*')
 
 
@@ -74,7 +75,7 @@ def mutants_of(file, text):
     """The mutants of a file, each once, in the order of its lines."""
     found, count = [], Counter()
     for number, line in enumerate(text.split('\n'), 1):
-        operators = {}  # of each changed line, the first one that makes it
+        operators = {}  # for each changed line, the first operator that makes it
         for operator, new in changed(line):
             operators.setdefault(new, operator)
         for new, operator in operators.items():
@@ -90,7 +91,7 @@ def in_turn(lists):
 
 
 def chosen(mutations, seed, count):
-    """Up to `count` mutants, from each operator in turn, and at most one of each line."""
+    """Up to `count` mutants, taken from the operators in turn, with at most one mutant of each line."""
     by_operator = {}
     for each in sorted(mutations, key=lambda each: sha(str(seed), each.identity)):
         by_operator.setdefault(each.operator, []).append(each)
@@ -101,7 +102,7 @@ def chosen(mutations, seed, count):
 
 
 def draw(folders, seed, count):
-    """The same number of mutants of each folder, `count` in all or a few more."""
+    """Draws the same number of mutants from each folder, in all `count` or a few more."""
     known = equivalents.listed()
     drawn = []
     for folder in folders:

@@ -1,9 +1,9 @@
 """The list of mutants that change no answer, equivalent.txt, each with a reason.
 
     oracle/root.cpp
-    - the text of its lines
+    - the text of some lines of this file
     + the text that the mutant makes of them
-    = why that changes nothing
+    = why this changes no answer
 """
 
 import sys
@@ -31,7 +31,7 @@ def entries(text):
 
 
 def complaints(found, root=ROOT):
-    """Yields complaints about entries whose text is not in the file, or does not change."""
+    """Yields complaints about entries whose text is not in their file, or whose mutant changes nothing."""
     for file, before, after in found:
         if not (root / file).is_file():
             yield f'{file}: no such file'

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Tests that the operators make the right edits, that a seed always gives the same draw, and that
-the list of equivalent mutants is checked against the sources."""
+"""Tests that the operators make the right edits, that a seed always gives the same draw, and that the
+tool checks its list of equivalent mutants against the sources."""
 
 import unittest
 from pathlib import Path

@@ -15,11 +15,11 @@ class Mutation:
     old: str
     new: str
     nth: int = 0
-    reason: str = ''  # why it changes no answer, if equivalent.txt says so
+    reason: str = ''  # why the mutant changes no answer, if equivalent.txt lists it
 
     @property
     def identity(self):
-        """Does not depend on the other lines of the file."""
+        """A text that identifies the mutant, and does not depend on other lines of the file."""
         return '|'.join([self.file, self.operator, self.old, self.new, str(self.nth)])
 
     @property

@@ -1,4 +1,4 @@
-"""Runs commands, which the user can stop."""
+"""Runs commands that the user can stop."""
 
 import os
 import signal
@@ -17,7 +17,7 @@ class Stopped(Exception):
 
 @dataclass
 class Ended:
-    """How a command ended, and the time that it used, with all of its children."""
+    """How a command ended, and the time that it used, including that of all of its children."""
 
     code: int  # exit code, or minus the number of the signal that ended it
     output: str
@@ -59,7 +59,8 @@ def wait(process, seconds):
 
 
 def limits(cpu=None, memory=None):
-    """Words to put before a command to limit each of its processes, in seconds and bytes."""
+    """Words to put before a command to limit the CPU time (s) and the memory (bytes) of each of its
+    processes."""
     words = ['nice', '-n', '2', 'prlimit', '--core=0']
     if cpu is not None:
         words.append(f'--cpu={int(cpu)}:{int(cpu) + 1}')
@@ -71,8 +72,8 @@ def limits(cpu=None, memory=None):
 def seal():
     """Words to put before a command to isolate its processes. They cannot see or kill other
     processes, and none of them survives the command. The first process in an isolation ignores
-    signals, so a shell takes this place; if a signal ends the command, the shell's exit code is
-    128 plus the number of the signal.
+    signals, so the first one is a shell that runs the command. If a signal ends the command, the
+    shell's exit code is 128 plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     shell = ['sh', '-c', '"$@"; exit $?', 'sh']

@@ -1,4 +1,4 @@
-"""The results of mutants, which are saved after each mutant."""
+"""The results of mutants, saved after each mutant."""
 
 import json
 import os
@@ -11,8 +11,8 @@ TEST_DATA = {'.py', '.txt', '.case'}
 
 
 class Results:
-    """The results by mutant. A result is valid for one state of the product. If no test noticed
-    the mutant, it is valid only for one state of the tests, too."""
+    """The results by mutant. A change of the product makes every result invalid. A change of the tests
+    makes a result invalid if no test noticed the mutant."""
 
     def __init__(self, file=FILE):
         self.file = file
@@ -21,7 +21,7 @@ class Results:
         self.kept = json.loads(file.read_text()) if file.exists() else {}
 
     def get(self, mutation):
-        """The result of a mutant, or None if there is no valid one."""
+        """The result of a mutant, or None if it has no valid result."""
         result = self.kept.get(mutation.name)
         if result is None or result['product'] != self.product:
             return None

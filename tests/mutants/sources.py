@@ -13,7 +13,7 @@ def read(path):
 
 
 def sha(*parts):
-    """A hash of texts, in hexadecimal digits."""
+    """The SHA-256 hash of some texts, in hexadecimal digits."""
     return hashlib.sha256('\0'.join(parts).encode()).hexdigest()
 
 

@@ -1,4 +1,4 @@
-"""The tests as steps. Each has its time without a mutant."""
+"""The tests as steps. Each step has its time without a mutant."""
 
 import hashlib
 import json
@@ -20,7 +20,7 @@ MEMORY = 6 << 30  # bytes of address space for each process
 
 @dataclass
 class Step:
-    """One test: a GoogleTest, or a command and its last argument."""
+    """One test of a group: a GoogleTest, or a command with its last argument."""
 
     group: str
     test: str
@@ -48,8 +48,8 @@ def commands():
 
 
 def run_tests(group, tests, seconds, cpu=None):
-    """Runs tests of a group until one fails. They cannot affect other processes, and their files
-    are removed afterwards."""
+    """Runs tests of a group until one fails. The tests cannot affect other processes. Removes their
+    files afterwards."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
         if group in commands():
             words = [*commands()[group], *filter(None, tests)]
@@ -83,7 +83,7 @@ def all_steps():
 
 
 def measured(step):
-    """The step with its time without a mutant, and whether it passes."""
+    """Notes in a step its time without a mutant, and whether it passes. Returns the step."""
     ended = run_tests(step.group, [step.test], MOST_SECONDS)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
     step.fine = ended.code == 0 and not ended.late
@@ -91,7 +91,7 @@ def measured(step):
 
 
 def state():
-    """A hash of the tests' executables, as far as they are built."""
+    """A hash of those executables of the tests that are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker']
@@ -101,8 +101,8 @@ def state():
 
 
 def baseline(steps, jobs, say):
-    """Measures the steps once for each build, or the rest of them if an earlier call was
-    stopped. Says which steps are left out."""
+    """Measures the steps once for each build; if an earlier call was stopped, measures only the rest.
+    Says which steps are left out."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}

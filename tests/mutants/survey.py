@@ -1,4 +1,4 @@
-"""A survey: makes one change of the product at a time, and runs the tests with each."""
+"""Surveys mutants: makes one of them at a time in the copy, and runs the tests with it."""
 
 from dataclasses import asdict
 
@@ -46,7 +46,7 @@ class Survey:
         return {'verdict': 'survived', **asdict(answer)}
 
     def known(self, mutation):
-        """The result of a mutant, which is stored."""
+        """The result of a mutant: a stored result or, if there is none, a new one, which is then stored."""
         if mutation.reason:
             return {'verdict': 'equivalent', 'noticed_by': ''}
         if (result := self.results.get(mutation)) is None:

@@ -15,7 +15,7 @@ def columns(rows):
 
 
 def scores(results):
-    """A table with a line for each folder, for each operator, and for all together."""
+    """A table with a line for each folder, a line for each operator, and a line for all mutants together."""
     groups = defaultdict(Counter)
     for mutation, result in results:
         for key in (f'{mutation.file.split("/")[0]}/', mutation.operator, 'all'):

@@ -1,4 +1,4 @@
-"""Compares the functions of the Python package with the harness's answers, in all layouts.
+"""Compares the answers of the Python package, for queries in all layouts, with those of answered_queries.
 Usage: answers_test.py ANSWERED_QUERIES
 """
 

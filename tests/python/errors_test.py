@@ -1,4 +1,4 @@
-"""Tests what the Python package refuses, its messages, and that other threads run during a call."""
+"""Tests what the Python package refuses and with which messages, and that other threads run during a call."""
 
 import itertools
 import signal
@@ -133,14 +133,14 @@ class Refusals(unittest.TestCase):
 
 
 def many_queries():
-    """An array that repeats one query ten million times in the memory of one."""
+    """An array that repeats one query ten million times, but takes only the memory of one query."""
     return np.broadcast_to(X[0], (10**7, 2, 4, 3))
 
 
 class DuringACall(unittest.TestCase):
     def test_other_threads_run(self):
-        """Another thread counts. Here Python never takes its lock away from a thread, so the other
-        thread can count during a call only if the call releases the lock."""
+        """Another thread counts. This test keeps Python from taking its lock away from a thread, so the
+        other thread can count during a call only if the call releases the lock."""
         count, calls = 0, 0
         is_over = threading.Event()
 

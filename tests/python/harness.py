@@ -25,8 +25,8 @@ class Block:
 
 
 def answered_queries(program, count, seed):
-    # A program that is built with sanitizers already contains their runtime, which CMakeLists.txt preloads
-    # for Python.
+    # CMakeLists.txt preloads the sanitizers' runtime for Python. A program that is built with sanitizers
+    # already has this runtime.
     environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
     command = [program, str(count), str(seed)]
     data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout
@@ -36,7 +36,7 @@ def answered_queries(program, count, seed):
         nonlocal at
         array = np.frombuffer(data, dtype, int(np.prod(shape)), at)
         at += array.nbytes
-        return array.reshape(shape).copy()  # aligned
+        return array.reshape(shape).copy()  # the copy is aligned
 
     blocks = []
     while at < len(data):

@@ -1,4 +1,4 @@
-"""Runs the notebook of the Python package, and compares what it prints with what is kept in it.
+"""Runs the notebook of the Python package, and compares its output with the output that the file has.
 Usage: notebook_test.py
 """
 
@@ -13,7 +13,7 @@ NOTEBOOK = pathlib.Path(__file__).resolve().parents[2] / 'tools/python/notebook.
 
 
 def shown(cell):
-    """What a cell prints and shows; pictures as their types only, since they depend on versions."""
+    """What a cell prints and shows. For a picture, only its type, because pictures depend on versions."""
     for output in cell.get('outputs', []):
         if output.get('name') == 'stderr':  # the progress of trials
             continue

@@ -1,7 +1,7 @@
 """Measures how much time the Python package adds to the C functions, in ns of processor time per query.
 
-Both are called on the same memory, for a million queries of the uniform family, and take turns.
-Prints medians of 15 runs, and their ratios.
+Calls a function of the package and the C function by turns, on the same memory with a million queries of the
+family `uniform`. Prints the medians of 15 runs, and their ratios.
 Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 
@@ -57,15 +57,15 @@ def duration(call):
 
 
 def compare(name, count, ask_c, ask_python):
-    """Prints the time of both calls, and its ratio."""
+    """Prints the times of both calls, and their ratio."""
     times = [[duration(call) for call in (ask_c, ask_python)] for _ in range(RUNS)]
     in_c, in_python = (statistics.median(each) / count for each in zip(*times))
     print(f'{name:28} {in_c:9.1f} {in_python:9.1f} {in_python / in_c:6.3f}', flush=True)
 
 
 def measure(name, kind, number, array, *rest, numbers=1, dtype=np.int8):
-    """Compares a function that gives so many numbers for each query. `rest` is what it gets in C
-    before the places for them, or behind these."""
+    """Compares a function that gives `numbers` numbers for each query. `rest` are the arguments of the C
+    function before and behind the arrays for these numbers."""
     asked = queries_of(number, array)
     before, behind = rest or ([], [])
 
@@ -83,5 +83,5 @@ for kind, number in (('vt', 1), ('ee', 2)):
     for array in (x, x.astype(np.float32)):
         measure('collides', kind, number, array, [], [None])
         measure('wang', kind, number, array)
-    few = x[: COUNT // 20]  # times take longer than answers
+    few = x[: COUNT // 20]  # a time takes longer than an answer
     measure('earliest_time', kind, number, few, [ctypes.c_double(0)], [], numbers=2, dtype=float)

@@ -1,5 +1,5 @@
-"""Checks the types of the Python package and of a program that uses it, and that its stubs describe the built
-modules.
+"""Checks the types of the Python package and of a program that uses it, and that the package's stubs
+describe its compiled modules.
 Usage: types_test.py PYTHON_FOLDER, which contains the package
 """
 

@@ -1,5 +1,5 @@
-"""Packs the modules of a build folder as a wheel, without a network, installs it in a new virtual
-environment, and uses it there.
+"""Packs the modules of a build folder as a wheel, installs the wheel in a new virtual environment, and uses
+it there; all without a network.
 Usage: wheel_test.py BUILD
 """
 

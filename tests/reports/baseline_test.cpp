@@ -1,4 +1,4 @@
-// Comparison with a baseline.
+// The comparison of a campaign with its baseline.
 #include "reports/sections/baseline.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   now.statistics.seen = {{{Finding::What::oracle_disagreement, "", "ee"}, 1}};
   before.statistics.seen[{Finding::What::oracle_disagreement, "", "vt"}] = 1;
   EXPECT_THAT(changes(now, before).new_signatures,
-              SizeIs(1));  // for the oracle, a single failure counts
+              SizeIs(1));  // a single failure of the oracle is new
 }
 
 TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
@@ -48,7 +48,7 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
   EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "wang", "d"}));
-  // Good and Toulmin: the number of signatures seen once, less the number of those seen 40 times.
+  // Good and Toulmin: the number of signatures seen once, less the number of signatures seen 40 times.
   EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
@@ -58,8 +58,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "wang", "a"}));
 }
 
-// The test is one-sided: k failures after none have p = 1 / 2^k. The risk is divided by the number of all
-// signatures.
+// The test is one-sided: k failures now and none before have p = 1 / 2^k. The risk is divided by the number
+// of all signatures.
 TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const auto with = [](std::map<Signature, std::uint64_t> seen) {
     Campaign made = campaign("1", {{key, counts(2000000, 1000000, 50, 0)}});
@@ -75,7 +75,7 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const Campaign two = with({{a, 40}});
   EXPECT_FALSE(is_new(10, two));
   EXPECT_TRUE(is_new(11, two));
-  const Campaign three = with({{a, 40}, {c, 1}});  // signature c, which no longer occurs, is compared too
+  const Campaign three = with({{a, 40}, {c, 1}});  // c no longer occurs, but is also compared
   EXPECT_FALSE(is_new(11, three));
   EXPECT_TRUE(is_new(12, three));
 }
@@ -83,7 +83,7 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
 const Signature inside{missed, "wang", "ee inside"};
 const Signature on_edge{missed, "wang", "ee on-edge"};
 
-/// A campaign of wang with these failures, which began at this date.
+/// A campaign of wang that began at this date and has these failures.
 Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen) {
   Campaign made = campaign(date, {{key, counts(200000, 100000, seen.size(), 0)}});
   made.runs[0].shards[0].started = date;
@@ -91,8 +91,8 @@ Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen)
   return made;
 }
 
-// Five of six nights have the failure about equally often, and one in the middle does not have it. If the
-// sixth night has it 1,300 times, chance cannot explain that.
+// Of six nights, five have the failure about equally often, and one in the middle does not have it. But if
+// the sixth night has it 1,300 times, chance cannot explain that.
 TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   const auto misses = [](std::uint64_t times) {
     Campaign made = campaign(std::to_string(times), {{key, counts(200000, 100000, times, 0)}});
@@ -112,7 +112,7 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
 }
 
-// One of 1,000 draws failed before, and five fail now. All steps of a sweep fail with these draws.
+// Before, one of 1,000 draws failed; now, five fail. All steps of a sweep fail with these draws.
 TEST(Changes, StepsOfASweepShareTheirDraws) {
   const auto with = [](const std::string& family, std::uint64_t draws) {
     constexpr std::uint64_t steps = 12;

@@ -1,4 +1,4 @@
-// Tests that the merged parts of a run give the result of one machine.
+// Tests that merging the shards of a run gives the result of one machine.
 #include "reports/campaign/campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   return made;
 }
 
-/// Shard `shard` of three. Each of its rounds, among 0 .. 9, has a finding with the signature "s" and, from
-/// round 5 on, one with "t".
+/// Shard `shard` of three. The three share the rounds 0 to 9. Each round has a finding with the signature
+/// "s"; rounds from 5 on also have one with "t".
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.index = shard, .count = 3, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
@@ -71,7 +71,7 @@ TEST(Campaign, ARunBeganWithItsFirstShard) {
   EXPECT_EQ(json["cases_done"], 30);
 }
 
-// The query of the finding that is not shrunk has no coincident vertices.
+// The unshrunk finding has a query without coincident vertices, and still comes after the shrunk one.
 TEST(Campaign, ShowsShrunkFindingsOfAClassFirst) {
   Campaign campaign{{{info, {{}}, {}}}, {}};
   for (const bool is_shrunk : {false, true}) {
@@ -170,13 +170,14 @@ TEST(Campaign, ANameStandsForOneSubject) {
   campaigns[0].runs[0].info["plug-in x detector"] = "boxes";
   EXPECT_REFUSED(merge(campaigns[0], campaigns[1]), "for the plug-in x, but for the plug-in boxes in a.db");
   for (Campaign& each : campaigns) each.runs[0].info["plug-in boxes:t=0 sha256"] = "1";
-  campaigns[0].runs[0].info["plug-in boxes:t=0 detector"] = "boxes";  // was given as boxes=
+  campaigns[0].runs[0].info["plug-in boxes:t=0 detector"] = "boxes";  // the user gave it as boxes=...
   campaigns[1].runs[0].info["plug-in x detector"] = "boxes";
-  campaigns[1].runs[0].info["plug-in sha256"] = "1";  // names none
+  campaigns[1].runs[0].info["plug-in sha256"] = "1";  // names no plug-in
   EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
 }
 
-/// A run of seed 3 with families and a number of cases, which asked a subject queries of a family.
+/// A campaign with one run of seed 3, with these families and this number of cases. It asked the subject of
+/// the key queries of the key's family.
 Campaign asked(const std::string& families, const std::string& cases, const CountsKey& key) {
   const RunInfo facts{{"command", "fuzz"}, {"seed", "3"}, {"families", families}, {"cases", cases}};
   Campaign campaign{{{facts, {{.index = 0, .complete = true}}, {}}}, {}};
@@ -198,7 +199,7 @@ TEST(Campaign, TheSameQueriesDoNotCountTwice) {
        {CountsKey{"basic", Kind::edge_edge, "uniform"}, CountsKey{"wang", Kind::vertex_triangle, "uniform"},
         CountsKey{"wang", Kind::edge_edge, "uniform~0.5"}, CountsKey{"wang", Kind::edge_edge, "uniform@1"}})
     EXPECT_EQ(merge(some, asked("uniform", "301", other)).runs.size(), 2) << other.family;
-  EXPECT_EQ(merge(some, asked("needle", "301", uniform)).runs.size(), 2);  // the queries are of another run
+  EXPECT_EQ(merge(some, asked("needle", "301", uniform)).runs.size(), 2);  // this run cannot have asked them
   Campaign other_seed = asked("uniform", "301", uniform);
   other_seed.runs[0].info["seed"] = "4";
   EXPECT_EQ(merge(some, other_seed).runs.size(), 2);
@@ -219,7 +220,7 @@ TEST(Campaign, TheSameMeshIsTheSameQueries) {
   }
 }
 
-// The facts of its runs say what each run of a merged store asked.
+// The facts of each run in a merged store say what the run asked.
 TEST(Campaign, AMergedStoreIsMergedAgain) {
   const auto run = [](const std::string& subject, const std::string& given, const std::string& seed,
                       Kind kind) {
@@ -258,7 +259,7 @@ TEST(Campaign, CountsThatDoNotFitAreRefused) {
                "found counts that add up to more than 2^60, expected fewer queries");
 }
 
-/// Shards 0 and 1 of a run, which have different values of this fact.
+/// Shards 0 and 1 of a run, with different values of this fact.
 std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[0].runs[0].info[fact] = "a";

@@ -9,8 +9,8 @@
 
 namespace nearmiss::testing {
 
-/// Counters of a subject whose farthest false positive has the ratio `false_positives` / 1000. `ns` is the
-/// run time per query.
+/// Counters of a subject; `ns` is its run time per query. The farthest false positive has the ratio
+/// `false_positives` / 1000.
 inline Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t missed,
                      std::uint64_t false_positives, std::uint64_t ns = 0) {
   Counts c;

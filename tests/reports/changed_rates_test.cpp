@@ -64,7 +64,8 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
   EXPECT_THAT(changes(with_others(1200), with_others(1000)).rates, IsEmpty());
 }
 
-// After none, 11 failures in 10,000 are significant in a single test. With 4 tests at level 0.001, 13 are.
+// If there was no failure before, 11 failures in 10,000 queries are significant in a single test. With 4
+// tests that share the risk 0.001, it takes 13 failures.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{key, counts(20000, 10000, missed, 0)}});
@@ -75,7 +76,7 @@ TEST(Changes, AFewAfterNoneAreEnough) {
   EXPECT_LT(found.rates[0].p, false_alarm_risk / 4);
 }
 
-// No single family has enough failures to be noticed, but all together have.
+// No single family has enough failures to be noticed, but all families together have.
 TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const auto with = [](std::uint64_t missed, std::uint64_t in_the_last) {
     std::map<CountsKey, Counts> all;
@@ -88,7 +89,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  // Families are added up three times: those with at most a given number of failures, for three such limits.
+  // Families with few failures are added up three times, with three limits for "few"; so p is multiplied by
+  // 3.
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
@@ -122,7 +124,8 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_EQ(unclaimed.rates[0].what, "false positives beyond wang's bound (no claim)");
 }
 
-// For family a, p is 2 / 2^13, which is between 1/5 and 1/4 of the risk.
+// For family a, p is 2 / 2^13, between 1/5 and 1/4 of the risk. It is no longer significant if the sum over
+// families is a fifth comparison.
 TEST(Changes, ASumOverFamiliesIsAComparisonToo) {
   const auto with = [](std::uint64_t in_a, std::uint64_t in_b) {
     return campaign("1", {{{"basic", Kind::edge_edge, "a"}, counts(10000, 10000, in_a, 0)},

@@ -1,4 +1,4 @@
-// Comparison of run times with those of a baseline.
+// The comparison of run times with those of a baseline.
 #include "reports/sections/baseline.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// For each subject and family: the run time as a multiple of the usual one.
+/// The run time of each subject and family, as a multiple of the usual run time.
 using Slowness = std::function<double(const CountsKey&)>;
 
 double usual(const CountsKey& /*key*/) { return 1; }
@@ -35,8 +35,8 @@ double noise(const std::string& text) {
   return static_cast<double>(std::hash<std::string>{}(text) % 2001) / 1000 - 1;
 }
 
-/// A night of these subjects, with `families` families. The times of a family differ by up to 2 % from night
-/// to night, and those of its 40 batches by up to 20 %.
+/// A night of these subjects, with `families` families. From night to night, the times of a family differ by
+/// up to 2 %; within a night, the times of its 40 batches differ by up to 20 %.
 Campaign night(const std::string& seed, const Slowness& slowness,
                std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
   std::map<CountsKey, Counts> all;
@@ -116,7 +116,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
 }
 
-// A family whose times differ by a factor of 1.5 among the nights of the baseline may differ as much now.
+// If a family's times differ by a factor of 1.5 among the nights of the baseline, such a difference is no
+// change now.
 TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   std::vector<Campaign> nights;
   for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
@@ -124,19 +125,19 @@ TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   EXPECT_THAT(changed(night("now", usual), nights), IsEmpty());
   const auto other =
       changed(night("now", [](const CountsKey& key) { return key.family == "f3" ? 1.5 : 1.0; }), nights);
-  EXPECT_THAT(other, SizeIs(4));  // for both subjects and kinds
+  EXPECT_THAT(other, SizeIs(4));  // one for each subject and kind
 }
 
 TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
   Campaign before = night("1", usual);
   SubjectTimes& times = before.statistics.counts[one].times;
   times = {};
-  for (std::uint64_t batch = 0; batch < 10; ++batch)  // now, they take 800 ns
+  for (std::uint64_t batch = 0; batch < 10; ++batch)  // now, the batches take 800 ns
     for (const std::uint64_t ns : {160, 1600}) times.add(one.kind, one.family, {1000, ns * (1000 + batch)});
   EXPECT_THAT(changed(night("2", usual), {before}), IsEmpty());
 }
 
-// With a single family, the spread between families is not known.
+// A single family does not show the spread between families.
 TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   const auto few = [](double factor) {
     return [factor](const CountsKey& key) {

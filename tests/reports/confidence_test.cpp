@@ -9,8 +9,8 @@
 namespace nearmiss {
 namespace {
 
-// Clopper and Pearson's bound is the rate at which P(X <= count) = 5 % for binomial X. For 0 in n trials, it
-// is 1 - 0.05^(1/n).
+// The bound of Clopper and Pearson is the rate at which P(X <= count) = 5 % for a binomial X. For 0 events
+// in n trials, the bound is 1 - 0.05^(1/n).
 TEST(Confidence, NoneSeenInMany) {
   for (const std::uint64_t n : {1U, 10U, 1000U, 1000000U})
     EXPECT_NEAR(clopper_pearson_upper(0, n) / (1 - std::pow(0.05, 1.0 / static_cast<double>(n))), 1, 1e-6);
@@ -23,7 +23,7 @@ TEST(Confidence, TheTailHasFivePercent) {
   EXPECT_NEAR(tail, 0.05, 1e-9);
 }
 
-// P(X <= count) at the upper end is half of the risk, and so is P(X >= count) at the lower end.
+// At the upper end of the interval, P(X <= count) is half of the risk; at the lower end, P(X >= count) is.
 TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
   const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9 trials
   const ConfidenceInterval interval = clopper_pearson(1, 9, 0.01);
@@ -47,21 +47,21 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // Ten failures occur in two campaigns of the same size. Nine or more of them occur in the second with
+  // Both campaigns ask the same number of queries. Of 10 failures, 9 or more are in the one called now with
   // probability 11 / 1024.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
-  // One family has three times as many queries now as before, and the other has the same number. On average,
-  // two thirds of the 6 failures are expected now.
+  // One family has three times as many queries now as before, the other has as many now as before. On
+  // average, two thirds of the 6 failures are expected to be seen now.
   EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
               std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
   EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);
   EXPECT_EQ(pooled_test({}).either(), 1);
 }
 
-// For large numbers, the test uses the binomial distribution. It gives a larger probability than the exact
-// one, but only slightly larger for small shares.
+// For large numbers, the test uses the binomial distribution, whose p-value is larger than the exact one.
+// For small shares, it is only slightly larger.
 TEST(FisherTest, OfLargeNumbersIsNearTheBinomial) {
   const double small = fisher_test({60, 1ULL << 30}, {30, (1ULL << 30) - 1}).more;
   const double large = fisher_test({60, 1ULL << 31}, {30, 1ULL << 31}).more;

@@ -59,7 +59,7 @@ Owner filled(std::uint64_t last = 0) {
   return owner;
 }
 
-/// Counters with distinct values, none of which exceeds the one of which it counts a part.
+/// Counters with distinct values. None of them exceeds the counter of which it counts a part.
 Counts filled_counts(std::uint64_t last = 0) {
   auto counts = filled<Counts>(last);
   counts.queries = 1000000;
@@ -149,7 +149,7 @@ std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
   return keys;
 }
 
-/// The keys of the schema's properties, in order; `path` leads to the object with the properties.
+/// The keys of some properties in the schema, in order. `path` leads to the object with these properties.
 std::vector<std::string> keys_in_schema(const char* path) {
   std::ifstream file(NEARMISS_SCHEMA);
   const auto schema = nlohmann::ordered_json::parse(file);
@@ -169,7 +169,7 @@ TEST(Measures, AreKnownByTheirKeys) {
   EXPECT_THROW(measure("no such key"), std::out_of_range);
 }
 
-/// The fields of the only row, by heading.
+/// The fields of the only row of a CSV text, by heading.
 std::map<std::string, std::string> fields_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;
@@ -198,7 +198,7 @@ void expect_in_csv(const Fields& fields, const Counts& counts, const NamedCounts
               std::to_string((counts.*counter.member)[i]));
 }
 
-/// Other values are not numbers.
+/// Expects nothing for members of any other type, because they are no numbers.
 template <class Member>
 void expect_in_csv(const Fields& /*fields*/, const Counts& /*counts*/,
                    const Counter<Counts, Member>& /*counter*/) {}

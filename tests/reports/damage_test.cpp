@@ -1,4 +1,5 @@
-// A damaged store is refused, or it gives the whole campaign. A salvage takes only the intact part.
+// Loading a damaged store either fails or gives the whole campaign. A salvage takes only the intact part of
+// the store.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,7 +59,7 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.factors, IsSupersetOf(part.statistics.factors));
   EXPECT_THAT(whole.statistics.versions, IsSupersetOf(part.statistics.versions));
   EXPECT_THAT(whole.statistics.extremes, IsSupersetOf(part.statistics.extremes));
-  // If a row is lost, its count may be taken from the stored findings, and may then be smaller.
+  // If the row of a count is lost, the count may come from the stored findings, and be smaller.
   for (const auto& [signature, count] : part.statistics.seen)
     EXPECT_LE(count, whole.statistics.times_seen(signature));
   for (const Run& run : part.runs) {
@@ -72,8 +73,8 @@ class DamageTest : public testing::TemporaryFolder {
  protected:
   DamageTest() { write_campaign(whole, file("a.db")); }
 
-  /// Expects that loading a file gives the whole campaign, or an error of one line. After an error, a salvage
-  /// must give nothing but parts of the campaign. Returns whether the file is refused.
+  /// Expects that loading a file gives the whole campaign, or an error message of one line. In the second
+  /// case, expects that a salvage gives only parts of the campaign. Returns whether loading fails.
   bool is_refused(const std::string& name) const {
     try {
       EXPECT_TRUE(is_same(load_campaign(file(name)), whole));
@@ -85,7 +86,7 @@ class DamageTest : public testing::TemporaryFolder {
       const Salvage salvage = salvage_campaign(file(name));
       expect_part(salvage.campaign, whole);
       EXPECT_EQ(salvage.lost.empty(), is_same(salvage.campaign, whole)) << salvage.lost;
-    } catch (const Error&) {  // nothing can be saved
+    } catch (const Error&) {  // the salvage has found nothing to save
     }
     return true;
   }
@@ -95,7 +96,7 @@ class DamageTest : public testing::TemporaryFolder {
 
 TEST_F(DamageTest, OfAnyBitIsNoticedOrDoesNotMatter) {
   const std::string bytes = read("a.db");
-  std::set<std::uint64_t> bits;  // one in each second byte of the header, and 200 others
+  std::set<std::uint64_t> bits;  // a bit in every second byte of the header, and 200 other bits
   Random random(1, 0, 0);
   constexpr std::uint64_t header = 100;
   for (std::uint64_t byte = 0; byte < header; byte += 2) bits.insert(8 * byte + random.bits() % 8);
@@ -145,8 +146,8 @@ Change of_version(int version) {
           "a.db: found store version " + found + ", expected " + std::to_string(store_version), ""};
 }
 
-/// Makes views, each of which joins the one before with itself. Only SQLite's work to expand the last grows
-/// with each view: it doubles.
+/// SQL that makes nested views: each view joins the previous one with itself. With each further view,
+/// SQLite's work to expand the last one doubles, but the file hardly grows.
 std::string nested_views() {
   std::string sql = "CREATE VIEW v0 AS SELECT 1 AS a";
   for (int i = 1; i < 64; ++i) {
@@ -168,7 +169,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
         Change{nested_views(), "found other tables than those of a store", ""},
         Change{"CREATE TRIGGER t INSERT ON run BEGIN DELETE FROM run; END",
                "found other tables than those of a store", ""},
-        // Columns whose values are computed: endlessly many rows, or a large value for each row.
+        // Columns that SQLite computes: endlessly many rows, or a large value in each row.
         Change{"DROP TABLE seen; CREATE VIEW seen AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n "
                "FROM r) "
                "SELECT n AS rowid, n AS key, n AS value, n AS checksum FROM r",
@@ -192,7 +193,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
   }
 }
 
-/// Replaces the row of `contents` about a table by another one with the right checksum.
+/// Replaces the row of the table `contents` about a table by a row with these numbers and the right checksum.
 void claim_rows(const std::filesystem::path& store, const std::string& table, const std::string& rows,
                 std::uint64_t sum = 0) {
   const std::string key = '"' + table + '"';
@@ -201,7 +202,7 @@ void claim_rows(const std::filesystem::path& store, const std::string& table, co
                           std::to_string(checksum("contents", key, value)) + " WHERE key = '" + key + "'");
 }
 
-// No more rows are looked for than the file can hold.
+// A store may claim any number of rows; reading looks up no more rows than the file can hold.
 TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
   for (const char* table : {"run", "shard", "finding", "picture", "campaign", "counts", "oracle", "funnel",
                             "factor", "simulated", "version", "seen", "extreme"})
@@ -217,7 +218,7 @@ TEST_F(DamageTest, RowsDoNotShareALongValue) {
   const std::string key = R"([0,"scene:cloth"])";
   const std::string value = R"({"points":")" + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + "\"}";
   write_campaign({{{{}, {}, {}, {{"scene:cloth", value}}}}, {}}, file("b.db"));
-  // The only cell of the page begins with the size of the row in three bytes, and the row's id.
+  // The only cell of the page begins with the row's size in three bytes and the row's id.
   std::string bytes = read("b.db");
   const std::size_t page = bytes.find(key + value.substr(0, 9)) / page_size * page_size;
   std::size_t start =

@@ -1,4 +1,4 @@
-// Counts of what decided the queries, for subjects that pass queries on.
+// For subjects that pass queries on: how many queries each stage decided.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,8 +39,8 @@ Statistics some_statistics() {
   return statistics;
 }
 
-// Wang passes nothing on, and exact has no algorithm of its own. Wang was not asked about edges, so only the
-// times for vertices and triangles are divided by its own.
+// wang passes nothing on, and exact has no algorithm of its own, so neither has rows. wang was not asked
+// about edges, so only times for vertices and triangles are divided by times of wang.
 TEST(Deciders, AreCountedByFamilyOverBothKinds) {
   const auto json = deciders_json(some_statistics());
   ASSERT_EQ(json.size(), 3);

@@ -30,8 +30,8 @@ TEST(FamilyClass, IsThatOfTheNameWithoutItsParameter) {
 
 TEST(FamilyClass, OfVerticesAndEdgesIsThatOfTheirFamily) {
   EXPECT_EQ(class_of("v-scale@3~drawn"), QueryClass::extreme);
-  EXPECT_EQ(class_of("v-one-point"), QueryClass::extreme);  // unlike that of "one-point"
-  std::string name;                                         // a forged store may have any
+  EXPECT_EQ(class_of("v-one-point"), QueryClass::extreme);  // unlike the class of "one-point"
+  std::string name;                                         // a forged store may have any name
   for (int i = 0; i < 300'000; ++i) name += "v-";
   EXPECT_EQ(class_of(name + "scale"), QueryClass::unclassified);
 }
@@ -42,7 +42,7 @@ TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {
     EXPECT_EQ(class_of(name), QueryClass::unclassified) << name;
 }
 
-/// Results of two ordinary families, one with late times, of one degenerate family, and of cases.
+/// Results of two ordinary families (one of them with late times), of one degenerate family, and of cases.
 Statistics some_statistics() {
   Statistics statistics;
   const auto of = [&](const char* family) -> Counts& {

@@ -26,7 +26,7 @@ const CountsKey key{"mine", Kind::edge_edge, "uniform"};
 const Signature inside{missed, "mine", "ee inside"};
 const Signature on_edge{missed, "mine", "ee on-edge"};
 
-/// A campaign with a plug-in, which began at this date.
+/// A campaign of a plug-in, which began at this date.
 Campaign night(const std::string& date, Seen seen, const std::string& version = "1",
                const std::string& sha256 = "a", std::uint64_t queries = 200000) {
   Campaign made = campaign(date, {{key, counts(queries, queries / 2, 0, 0)}});
@@ -49,7 +49,7 @@ TEST(Gone, IsWhatChanceWouldHardlyHide) {
   EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
 }
 
-// Chance could hide each of the failures, but hardly all of them.
+// Chance could explain the absence of each single failure, but hardly that of all failures.
 TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   Seen rare;
   for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
@@ -57,8 +57,8 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
-// The later campaign ended by time, and asked twice as many queries of the signature's family as the earlier
-// one. It asked as many queries of the other family as before.
+// A time limit ended the later campaign. Of the signature's family, it asked twice as many queries as the
+// earlier campaign; of the other family, it asked as many.
 TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
   const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
     Campaign made = night(date, {{inside, seen}});
@@ -113,7 +113,7 @@ TEST(Gone, IsFixedIfTheCodeHasChanged) {
   EXPECT_EQ(json["gone_signatures"][0]["fixed"], "in version 3");
   EXPECT_EQ(json["gone_signatures"][0]["first_code"], "version 1");
   EXPECT_EQ(json["gone_signatures"][0]["last_code"], "version 2");
-  // The fix is in the first other code that did not show the signature, not in the code of this campaign.
+  // The first later code without the signature has the fix, not the code of this campaign.
   auto nights = before;
   nights.push_back(night("3", {}, "2", "b"));
   nights.push_back(night("4", {}, "3", "c"));

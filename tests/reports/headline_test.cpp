@@ -1,4 +1,4 @@
-// The verdict in one line, and alarms.
+// The headline: the verdict in one line, and the alarms.
 #include "reports/sections/headline.hpp"
 
 #include <gmock/gmock.h>
@@ -63,7 +63,7 @@ TEST(Headline, ASubjectOfWhichNothingWasAskedHasNotPassed) {
   EXPECT_FALSE(headline(of, std::nullopt).clean);
 }
 
-// A lasting fault alarms only in its first night; a broken promise alarms in every night.
+// A fault that lasts raises an alarm only in its first night; a broken promise raises one in every night.
 TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   const CountsKey key{"a", Kind::vertex_triangle, "uniform"};
   const Campaign good = campaign("1", {{key, counts(9, 5, 0, 0)}});
@@ -79,9 +79,9 @@ TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   Campaign missing = crashing;
   missing.statistics.counts[key].false_negatives = 1;
   EXPECT_THAT(alarms(missing, missing), ElementsAre("a missed 1 of 5 ordinary vt collisions"));
-  // For a subject that the baseline lacks, every failure alarms.
+  // Every failure of a subject that the baseline lacks raises an alarm.
   EXPECT_THAT(alarms(crashing, campaign("2", {})), SizeIs(1));
-  // A failure that counts only on request alarms only on request.
+  // A failure that counts only on request raises an alarm only on request.
   Campaign slow = good;
   slow.statistics.counts[key].faults[static_cast<std::size_t>(Fault::time)] = 2;
   slow.statistics.seen[{Finding::What::fault, "a", "vt time"}] = 2;

@@ -18,12 +18,12 @@ using ::testing::IsEmpty;
 
 const std::string contact = "vt simple-root inside in-face";
 
-/// What a night's report says of the plug-in `mine`.
+/// What a night's report says about the plug-in `mine`.
 struct Said {
   std::string version;
   std::vector<std::string> seen = {}, created = {}, gone = {};  // signatures
-  std::vector<std::string> worse = {};                          // families
-  double slower = 0;                                            // now / expected
+  std::vector<std::string> worse = {};                          // families with a worse rate
+  double slower = 0;                                            // run time now / expected run time
   double ns = 100;
 };
 
@@ -39,7 +39,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
     return list;
   }
 
-  /// Writes the report of a night of November.
+  /// Writes the report of the night of a day in November.
   void write_night(int day, const Said& said, int baseline_until = 0) {
     const auto date = [](int of) { return fmt::format("2026-11-{:02}T22:00:00Z", of); };
     ordered_json report{
@@ -84,7 +84,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
     write(fmt::format("2026-11-{:02}/report/report.json", day), report.dump());
   }
 
-  /// "05 new 1", for each event of each night.
+  /// A text such as "05 new 1" for each event of each night.
   [[nodiscard]] std::vector<std::string> events() const {
     std::vector<std::string> all;
     for (const Night& night : make_history(read_nights(file(""))).nights)
@@ -98,11 +98,11 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1"}, 1);
   write_night(3, {.version = "2", .seen = {"a", "b"}, .created = {"a", "b"}, .worse = {"uniform"}}, 2);
-  // Later evidence of the same change: more ways to fail, and other families.
+  // More ways to fail and other families are later evidence of the same change, and no events.
   write_night(4, {.version = "2", .seen = {"a", "c"}, .created = {"c"}, .worse = {"uniform", "sliver"}}, 3);
   write_night(5, {.version = "3", .gone = {"a", "b"}, .slower = 4, .ns = 400}, 4);
   write_night(6, {.version = "3", .gone = {"a", "b", "c"}, .slower = 3.5, .ns = 390}, 5);
-  write_night(7, {.version = "4", .gone = {"a", "b", "c"}, .ns = 390}, 6);  // the baseline got used to it
+  write_night(7, {.version = "4", .gone = {"a", "b", "c"}, .ns = 390}, 6);  // still slow, as is the baseline
   write_night(8, {.version = "5", .gone = {"a", "b", "c"}, .ns = 110}, 7);
   write_night(9, {.version = "6", .seen = {"a"}, .created = {"a"}}, 8);
   EXPECT_THAT(events(), ElementsAre("03 new 2", "03 worse 1", "03 version 1", "05 slower 1", "05 version 1",

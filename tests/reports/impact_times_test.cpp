@@ -26,7 +26,8 @@ constexpr TimeError too_late{.after = 0.125, .promised = true, .late = true};
 /// A vertex that reaches its triangle at t = 1/2.
 const Query hit = testing::falling_vertex(0.25, 0.25, 1, -1);
 
-/// Counters of a subject that reports collisions with these errors of times, and takes `ns` for each query.
+/// Counters of a subject that reports collisions whose times have these errors, and takes `ns` for each
+/// query.
 Counts counts_of(const std::vector<TimeError>& times, std::uint64_t ns = 100) {
   Counts counts;
   for (const TimeError& time : times)
@@ -94,7 +95,7 @@ TEST(ImpactTimes, ALateTimeInADirectedSearchKeepsASubjectOffTheFront) {
   EXPECT_TRUE(json["front_by_earliness"].empty());
   EXPECT_EQ(json["subjects"]["a"]["late"], 1);
   EXPECT_EQ(json["subjects"]["a"]["times_promised"], 2);
-  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // like rates, of timed families only
+  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // only timed families count, as for rates
   EXPECT_EQ(json["subjects"]["a"]["max_time_error"], 0.125);
 }
 

@@ -1,4 +1,4 @@
-// The results of a campaign as the results of tests.
+// A campaign as JUnit's XML and as GitHub's annotations.
 #include "reports/junit.hpp"
 
 #include <gmock/gmock.h>

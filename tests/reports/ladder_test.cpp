@@ -60,7 +60,7 @@ TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
     EXPECT_NEAR(*place_of(name).unit, 40.963 * 0x1p-13, 1e-7) << name;
   EXPECT_EQ(place_of("wang-eps:h=0.001").algorithm, "wang-eps:h=0.001");
   EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
-  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the name gives B
+  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the name gives the bound B
   for (const char* other :
        {"exact", "defect:vv", "./plugin.so", "additive:rescaling=0.5", "wang-eps:h=0.001@7"}) {
     EXPECT_EQ(place_of(other).algorithm, other);
@@ -103,8 +103,8 @@ TEST(Ladder, TheIntervalIsStudents) {
                 "with 3 precisions; at 0.125 to 1 of the claimed distance\n"));
 }
 
-// Three points are at intervals of 16; the middle one is 1 below the others. The sum of squared residuals is
-// 2/3, with one degree of freedom.
+// Three points have distances of 16 in x, and the middle one is 1 lower than the others. The sum of squared
+// residuals is 2/3, with one degree of freedom.
 TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
   const auto line = fit({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}});
   EXPECT_NEAR(line["exponent"], 0.25, 1e-5);
@@ -131,7 +131,7 @@ TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   EXPECT_EQ(all[1]["origin"], "directed search");
   EXPECT_EQ(all[2]["origin"], "uniform");
   for (const auto& each : all) {
-    EXPECT_NEAR(each["exponent"], 0.25, 1e-5);  // not exactly, because D² also has a term in ε
+    EXPECT_NEAR(each["exponent"], 0.25, 1e-5);  // only nearly, because D² also has a term in ε
     EXPECT_EQ(each["precisions"], 3);
   }
 }

@@ -24,7 +24,7 @@ TEST(Exoticness, OrdersClassesAndDegenerateQueriesWithinTheirs) {
   EXPECT_EQ(exoticness(query, QueryClass::extreme), 4);
   EXPECT_EQ(exoticness(zeros, QueryClass::extreme), 5);
   EXPECT_EQ(exoticness(query, QueryClass::unclassified), 6);
-  for (const Kind kind : kinds_of_vertices) {  // which repeat a vertex
+  for (const Kind kind : kinds_of_vertices) {  // their queries repeat a vertex
     const std::array<double, 18> different{0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 1, 3, 4, 5, 9};
     EXPECT_EQ(exoticness(query_of(kind, different.data()), QueryClass::degenerate), 1);
   }

@@ -39,7 +39,7 @@ class ReportFolder : public testing::TemporaryFolder {
     return files;
   }
 
-  /// Expects that writing a report of the subject bad fails with these words, and changes nothing.
+  /// Expects that writing a report of the subject `bad` fails with these words, and changes no file.
   void expect_refused(const std::string& folder, const std::string& words) const {
     const ReportPaths before = files_in(folder);
     std::map<std::string, std::string> contents;
@@ -96,7 +96,7 @@ TEST_F(ReportFolder, HasNamesThatAFileSystemTakes) {
   EXPECT_EQ(file_name(std::string(61, 'y')).size(), 60);
 }
 
-// File names have '_' for ' ' and ';', and some file systems do not distinguish A from a.
+// File names have '_' in place of ' ' and ';', and some file systems do not distinguish A from a.
 TEST_F(ReportFolder, HasAFileForEachCaseOfSubjectsWithSimilarNames) {
   Campaign campaign;
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
@@ -152,7 +152,7 @@ TEST_F(ReportFolder, AnInterruptedReplacementIsCompleted) {
   write_report_of("bad", "new");
   const fs::path part = file("report/.nearmiss-part");
   fs::copy(file("new"), part, fs::copy_options::recursive);
-  // Before the interruption, only this file was moved to its place.
+  // The interrupted replacement had moved only this file to its place.
   const std::string moved = "cases/false-negative-bad-001.case";
   fs::rename(part / moved, file("report") / moved);
   write_report_of("third");

@@ -1,4 +1,4 @@
-// The report's folder and its data.
+// The folder of a report, and its data.
 #include "reports/report.hpp"
 
 #include <gmock/gmock.h>
@@ -75,7 +75,7 @@ TEST(Summary, OnlyRandomSamplesHaveARate) {
     counts.add({.verdict = {true, Stage::vv, 0}, .collision = true}, query, [] { return ""; });
     return statistics;
   };
-  // The upper bound of the rate for 0 misses in 1 collision.
+  // For 0 misses in 1 collision, the upper bound of the rate is 95 %.
   EXPECT_THAT(summary_table(of("uniform")), HasSubstr("0.95"));
   for (const std::string family : {"cases/", "scene:cloth#3"}) {
     EXPECT_THAT(summary_table(of(family)), ::testing::Not(HasSubstr("0.95"))) << family;
@@ -113,7 +113,8 @@ TEST(Summary, AnswersThatCouldNotTellAreNamed) {
                         "unknown, the farthest at 0.5 of the bound\n"));
 }
 
-/// A subject with one false positive, at 2.5 times its unit. The unit is its claimed bound, or wang's.
+/// A subject with one false positive, at 2.5 times the unit of distances: the bound that the subject claims,
+/// or wang's bound.
 Statistics one_far_report(bool measured_by_wang) {
   Statistics statistics;
   Counts& counts = statistics.counts[{"mine", Kind::vertex_triangle, "f"}];
@@ -253,7 +254,7 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   EXPECT_EQ(far["false_positive_rate_interval_95"], rates_json({both})["false_positive_rate_interval_95"]);
   EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
   EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
-  // References to a query use the full name of its family.
+  // A text that refers to a query uses the full name of the query's family.
   EXPECT_EQ(json["findings"][0]["family"], "search-far-wang");
   ASSERT_EQ(json["farthest"].size(), 5);
   EXPECT_EQ(json["farthest"][1]["family"], "search-far-wang");

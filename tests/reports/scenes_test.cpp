@@ -1,4 +1,4 @@
-// What reports say about scenes: what became of their pairs, and how they are simulated.
+// What reports say about scenes: what became of their pairs, and the results of simulations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A scene with two steps. In each, 100 pairs of each kind are asked about, and 900 are left out.
+/// A scene with two steps. In each step, 100 pairs of each kind are asked about, and 900 are left out.
 Statistics two_steps() {
   Statistics statistics;
   for (const char* step : {"scene:cloth#0", "scene:cloth#1"})

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Optional;
 using ::testing::Pair;
 
-/// Answers to `each` collisions and as many other queries for each length of edges from 2^-30 to 2^30.
+/// Answers to `each` collisions and `each` other queries for each length of edges from 2^-30 to 2^30.
 template <class Missed, class Reported>
 FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
   FactorTable table;
@@ -43,7 +43,8 @@ TEST(RightRange, IsEverythingIfNothingIsWrong) {
 }
 
 TEST(RightRange, EndsWhereMissesBegin) {
-  // As a distance with an absolute threshold: below a centimetre, one collision in four is missed.
+  // A distance with an absolute threshold behaves so: for edges below a centimetre, one collision in four is
+  // missed.
   const auto below = [](int x, int i) { return x < -7 && i % 4 == 0; };
   const RightRange range = range_of(answers(Kind::edge_edge, 8, below, never));
   EXPECT_THAT(range.exponents, Optional(Pair(-7, 30)));
@@ -52,7 +53,7 @@ TEST(RightRange, EndsWhereMissesBegin) {
 }
 
 TEST(RightRange, IsNotMeasuredByFalsePositivesWhereEverythingIsMissed) {
-  // As in conservative advancement that steps over what is small: it reports nothing there.
+  // Conservative advancement that steps over small primitives behaves so: it reports nothing about them.
   const auto below = [](int x, int /*i*/) { return x < -9; };
   const auto reported = [](int x, int i) { return x >= -9 && i < 16; };  // of 40
   EXPECT_THAT(range_of(answers(Kind::edge_edge, 40, below, reported)).exponents, Optional(Pair(-9, 30)));
@@ -61,7 +62,7 @@ TEST(RightRange, IsNotMeasuredByFalsePositivesWhereEverythingIsMissed) {
 TEST(RightRange, NeedsEvidence) {
   EXPECT_TRUE(range_of(answers(Kind::edge_edge, 1, never, never)).too_few);
   const auto always = [](int /*x*/, int /*i*/) { return true; };
-  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it says always yes
+  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it always says yes
   // Values without an answer divide a range.
   FactorTable table = answers(Kind::edge_edge, 8, never, never);
   std::erase_if(table, [](const auto& each) { return each.first.values == "edge=2^10"; });
@@ -81,10 +82,10 @@ TEST(RightRange, IsSeenInFewMissesIfAllAreElsewhere) {
 }
 
 TEST(RightRange, IsNotSeenInMissesThatAreRareEverywhere) {
-  // One miss in 60 collisions at any size: that four sizes in a row have none says nothing.
+  // One collision in 60 is missed, at any size: then four sizes in a row without a miss say nothing.
   const auto rare = [](int x, int i) { return (x + 30) % 5 == 0 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, rare, never)).exponents);
-  // A single miss does not say anything about sizes, either.
+  // Nor does a single miss say anything about sizes.
   const auto once = [](int x, int i) { return x == -12 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, once, never)).exponents);
 }

@@ -11,7 +11,8 @@ namespace nearmiss::testing {
 inline const Query query = falling_vertex(0.25, 0.25, 1, -1);
 inline const Query simple = falling_vertex(0.5, 0.5, 1, -1);
 
-/// `subject` reports one collision, misses one, and has one false positive, at half of its bound.
+/// A campaign in which `subject` reports one collision, misses another, and has a false positive at half of
+/// its bound.
 inline Campaign some_campaign(const std::string& subject) {
   Campaign campaign;
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});

@@ -150,7 +150,7 @@ Extreme extreme(Extreme::Of of, double value, const std::string& provenance) {
   return {of, "mu", value, testing::falling_edge(0.1, value), provenance, 10};
 }
 
-/// Merges in both orders, expects equal results, and returns the value.
+/// Merges two extremes in both orders, expects equal results, and returns their value.
 double merged_value(const Extreme& a, const Extreme& b) {
   Extreme ab = a;
   ab.merge(b);

@@ -1,4 +1,4 @@
-// A store has all saved results, whatever happens after a save.
+// A store keeps all saved results, whatever happens after a save.
 #include "reports/store/store.hpp"
 
 #include <gmock/gmock.h>
@@ -98,7 +98,7 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   std::filesystem::create_directory(file("killed"));
   {
     const Database db(file("a.db"));
-    // Without a cache, the change reaches the file before it is committed, as may happen before a kill.
+    // Without a cache, the change reaches the file before its commit. A kill may leave a file in this state.
     db.execute(
         "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
         "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "
@@ -111,7 +111,7 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   EXPECT_EQ(read("a.db"), read("killed/a.db"));
 }
 
-// SQLite deletes the file that such a journal names.
+// SQLite would delete the file that such a journal names.
 TEST_F(StoreTest, AJournalThatNamesAnotherFileIsRefused) {
   { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
   write("precious", "mine");
@@ -161,7 +161,7 @@ TEST_F(StoreTest, ItsReadingCanBeEnded) {
   };
   EXPECT_THROW(Store(file("a.db"), &found, end_at_the_third_row), Ended);
   EXPECT_EQ(rows, 3);
-  Store(file("a.db"), &found);  // no lock is left
+  Store(file("a.db"), &found);  // throws if a lock was left behind
   EXPECT_EQ(found.statistics, some_statistics("wang"));
 }
 
@@ -196,7 +196,7 @@ TEST_F(StoreTest, AReaderSeesOneSave) {
   }
 }
 
-/// Limits the size of this process's files, which has the same effect as a full disk.
+/// Limits the size of the files that this process writes, with the same effect as a full disk.
 class NoRoom {
  public:
   explicit NoRoom(rlim_t bytes) {

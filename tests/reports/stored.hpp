@@ -50,7 +50,8 @@ inline Statistics some_statistics(const std::string& subject) {
   return statistics;
 }
 
-/// A finding. Findings whose provenances have the same length are shrunk to the same query.
+/// A finding with this provenance. Findings whose provenances have the same length have the same shrunk
+/// query.
 inline Finding some_finding(const std::string& provenance) {
   return {.what = Finding::What::false_negative,
           .subject = "basic",

@@ -1,4 +1,5 @@
-// Sweeps are recognised by the names of families, and sweeps of an option by the names of subjects.
+// Reports recognise a sweep by the names of its families, and a sweep of an option by the names of its
+// subjects.
 #include "reports/sections/sections.hpp"
 
 #include <gmock/gmock.h>
@@ -122,7 +123,8 @@ TEST(OptionSweeps, AreInTheOrderOfClassesAndValuesWithBothKindsTogether) {
   EXPECT_EQ(json[2]["class"], "degenerate");
 }
 
-/// A sweep of max_iter, in ordinary and degenerate families, with these misses among 1,000 collisions.
+/// A sweep of the option max_iter in ordinary and in degenerate families. Each list has pairs of a value and
+/// the number of misses among 1,000 collisions.
 Statistics budgets(const std::vector<std::pair<int, std::uint64_t>>& ordinary,
                    const std::vector<std::pair<int, std::uint64_t>>& degenerate) {
   Statistics statistics;

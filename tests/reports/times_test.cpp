@@ -78,7 +78,8 @@ TEST(Times, StandInTheReport) {
   for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
 }
 
-// Six cases are equally slow. The first five by provenance are kept, in whatever order they come.
+// Six cases are equally slow. The five whose provenances come first are kept, in whatever order the cases
+// come.
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;

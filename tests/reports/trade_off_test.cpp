@@ -19,7 +19,7 @@ TEST(TradeOff, TheFrontHasTheSoundSubjectsThatNoSoundOneBeats) {
   Statistics statistics;
   statistics.counts = {
       {at("exact"), counts(100, 50, 0, 0, 300)},         {at("fast"), counts(100, 50, 0, 40, 100)},
-      {at("fast as well"), counts(100, 50, 0, 40, 100)},  // of equals, the first is on it
+      {at("fast as well"), counts(100, 50, 0, 40, 100)},  // of equal subjects, only the first is on the front
       {at("beaten"), counts(100, 50, 0, 41, 200)},       {at("better"), counts(100, 50, 0, 30, 200)},
       {at("wrong"), counts(100, 50, 1, 0, 50)}};
   const auto json = trade_offs_json(statistics);
@@ -56,7 +56,7 @@ TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   EXPECT_EQ(json["sound"], false);
 }
 
-// As for verdicts: slow queries, and those beyond a contract, fail only on request.
+// Slow queries and queries that a contract excludes are failures only on request, as for verdicts.
 TEST(TradeOff, ASubjectThatDidNotFailIsSound) {
   Statistics statistics;
   Counts& some = statistics.counts[at("a")] = counts(100, 50, 0, 10, 100);
@@ -72,7 +72,7 @@ TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
                        {at("wang"), counts(100, 50, 0, 30, 200)},
                        {at("basic:p40"), counts(100, 50, 0, 20, 250)}};
   for (auto& each : statistics.counts) each.second.farthest = {{0.5, {}, "f:1:0"}};
-  EXPECT_FALSE(trade_offs_json(statistics).contains("ladder"));  // two scalars
+  EXPECT_FALSE(trade_offs_json(statistics).contains("ladder"));  // only two scalars
   statistics.counts[at("wang:p80")] = counts(100, 50, 0, 30, 300);
   statistics.counts[at("wang:p80")].farthest = {{1, {}, "f:1:0"}};
   statistics.counts[at("defect:vv")] = counts(100, 50, 0, 30, 10);  // its unit of distances is not known
@@ -83,7 +83,7 @@ TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
   EXPECT_EQ(json["ladder"]["front_by_distance"], ordered_json({"wang:float", "wang", "wang:p80", "exact"}));
   const auto& subjects = json["subjects"];
   EXPECT_NEAR(subjects["wang"]["farthest_over_B"], paper / 2, 1e-7);
-  EXPECT_NEAR(subjects["basic:p40"]["farthest_over_B"], paper / 2, 1e-7);  // it claims no bound
+  EXPECT_NEAR(subjects["basic:p40"]["farthest_over_B"], paper / 2, 1e-7);  // basic claims no bound
   EXPECT_EQ(subjects["exact"]["farthest_over_B"], 0);
   EXPECT_TRUE(subjects["defect:vv"]["farthest_over_B"].is_null());
   EXPECT_EQ(subjects["wang:float"]["algorithm"], "wang");

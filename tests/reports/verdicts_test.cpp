@@ -18,7 +18,7 @@ Counts with(Counts counts, Fault fault, std::uint64_t number) {
   return counts;
 }
 
-/// The verdict on the subject "mine", which has these counters in its only family.
+/// The verdict on a subject "mine" that was asked one family and has these counters.
 std::string line_of(const Counts& counts, const Failures& failing = usual_failures()) {
   Statistics statistics;
   statistics.counts[{"mine", Kind::edge_edge, "f"}] = counts;
@@ -154,7 +154,7 @@ TEST(Verdicts, NothingFailsBeyondAContract) {
   const std::string name = "mine (beyond contract)";
   Statistics statistics;
   Counts& of = statistics.counts[{name, Kind::edge_edge, "f"}] =
-      with(counts(9, 0, 0, 0), Fault::contract, 9);  // no query is beyond the contract
+      with(counts(9, 0, 0, 0), Fault::contract, 9);  // beyond its contract, it was asked none
   EXPECT_THAT(failures_of(name, of), IsEmpty());
   of = with(with(counts(9, 5, 2, 0), Fault::contract, 1), Fault::crash, 1);
   EXPECT_THAT(failures_of(name, of), ElementsAre(FailureKind::miss, FailureKind::fault));

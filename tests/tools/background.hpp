@@ -1,4 +1,4 @@
-// Runs nearmiss in the background, to send it signals, or to test what other processes may do meanwhile.
+// Runs nearmiss in the background, so that a test can send it signals, or run other processes meanwhile.
 #pragma once
 
 #include <sys/wait.h>
@@ -15,8 +15,8 @@
 
 namespace nearmiss::testing {
 
-/// Runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2" in its environment. Kills it at
-/// the end of the scope if it still runs.
+/// Runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2" in its environment. At the end of
+/// the scope, kills the process if it still runs.
 class Background {
  public:
   Background(const std::filesystem::path& folder, const std::string& arguments,
@@ -25,7 +25,7 @@ class Background {
                                 NEARMISS_EXECUTABLE + " " + arguments + " >out.txt 2>error.txt";
     process_ = fork();
     if (process_ == 0) {
-      // A shell that starts the tests in the background lets them ignore SIGINT.
+      // If a shell has started the tests in the background, they ignore SIGINT.
       for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(127);

@@ -36,7 +36,7 @@ TEST_F(CommandLine, BadQueries) {
 
 TEST_F(CommandLine, FilesThatAreNone) {
   for (const char* command : {"oracle --kind vt", "verdict --kind vt"}) {
-    const Output output = run(command, "", "</");  // a folder can be opened, but not read
+    const Output output = run(command, "", "</");  // the input is a folder, which can be opened but not read
     EXPECT_EQ(output.code, 2);
     EXPECT_EQ(output.error, "nearmiss: stdin: cannot be read to its end\n");
   }
@@ -176,7 +176,7 @@ TEST_F(CommandLine, BadStores) {
 
 class Messages : public CommandLine {
  protected:
-  /// Expects that a command is refused with these words, in a short line.
+  /// Expects that nearmiss refuses a command with these words in a short line.
   void expect_short(const std::string& arguments, const std::string& words) const {
     expect_refused(arguments, {words});
     EXPECT_LT(read("error.txt").size(), 1200) << arguments;

@@ -14,7 +14,7 @@ namespace {
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// A stored run with one row, "own.vt", which has these times, one for each pass.
+/// A stored run with one row, "own.vt", whose passes took these times.
 std::string stored(const std::vector<std::string>& times, const std::string& cpu = "cpu",
                    const std::string& subject = "wang") {
   return fmt::format(
@@ -23,7 +23,7 @@ std::string stored(const std::vector<std::string>& times, const std::string& cpu
       cpu, subject, fmt::join(times, ","));
 }
 
-/// A history of runs, each with one pass.
+/// A history with a run for each of these times. Each run has one pass.
 std::string history(const std::vector<std::string>& times) {
   std::string lines;
   for (const std::string& time : times) lines += stored({time});
@@ -49,7 +49,7 @@ TEST_F(Bench, ComparesRunsPairByPair) {
   expect_comparison(before, history({"11", "22", "33", "44", "55", "90"}), "1.100    1.100-1.500  slower");
   expect_comparison(before, history({"9", "22", "33", "44", "55", "66"}),
                     "1.100    0.900-1.100  within noise");
-  // Extreme ratios are left out of the interval of many pairs.
+  // With many pairs, the interval leaves out extreme ratios.
   std::vector<std::string> times(11, "8");
   times[3] = "90";
   const std::string tens = history(std::vector<std::string>(11, "10"));

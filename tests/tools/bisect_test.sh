@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lets tools/bisect find the commit that breaks or mends a CCD, in repositories that this test makes.
+# Makes repositories, and lets tools/bisect find in them the commit that breaks or repairs a CCD.
 # Usage: bisect_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -18,7 +18,8 @@ echo '0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0' >q.v
 
 git init -q -b main repository
 cd repository
-# The CCD is a plug-in of C. WRONG makes it miss everything; without a semicolon it cannot be compiled.
+# The CCD is a plug-in in C. Its build replaces ANSWER by the text of the file `answer`: 0 makes the CCD miss
+# everything, and other texts make its compilation fail.
 cat >ccd.c <<'C'
 #include "nearmiss_subject.h"
 static void decide(void* s, int kind, size_t n, const double* x, const double* h, int* answer, double* toi) {
@@ -35,7 +36,8 @@ build="cc -shared -fPIC -I$root/ccd -DANSWER=\"\$(cat answer)\" ccd.c -o mine.so
 # commit NUMBER ANSWER
 commit() { echo "$2" >answer; echo "$1" >number; git add -A; git commit -qm "commit $1"; }
 
-# Histories of 12 commits: the answer changes at commit 5, in both directions, and commits 3 and 8 do not build.
+# Makes two histories of 12 commits. In one of them, commit 5 breaks the CCD, in the other it repairs it.
+# Commits 3 and 8 do not build.
 for right in 0 1; do
   git checkout -q --orphan "history$right" 2>/dev/null
   what='first commit with the failure'
@@ -48,14 +50,15 @@ for right in 0 1; do
   git worktree list | grep -q bisect && fail "a worktree is left"
 done
 
-# Only skipped commits are left: both are printed.
+# If only skipped commits are left, tools/bisect prints both.
 git checkout -q --orphan skipped
 commit 1 1; commit 2 nonsense; commit 3 0
 code=0
 said=$("$root/tools/bisect" --from HEAD~2 --build "$build" --subject ./mine.so ../q.vt) || code=$?
 ((code == 1)) && [[ $said == *'commit 2'*'commit 3'* || $said == *'commit 3'*'commit 2'* ]] || fail "skipped: code $code: $said"
 
-# finds WHAT BUILD NUMBER: of the last four commits, the one with this number has the failure first.
+# finds WHAT BUILD NUMBER: expects that tools/bisect, on the last four commits, finds commit NUMBER as the
+# first that fails.
 finds() {
   local before said
   before=$(git rev-parse HEAD; git symbolic-ref HEAD)
@@ -65,26 +68,26 @@ finds() {
   [[ -z $(git status --porcelain) ]] || fail "$1: the user's files are changed"
 }
 
-# The build changes files of git's, moves its HEAD, and leaves a repository.
+# The build may change files that git tracks, move HEAD, and leave another repository behind.
 git checkout -q --orphan odd
 commit 1 1; commit 2 1; commit 3 0; commit 4 0
 finds 'a build that changes files' "$build && echo changed | tee number answer && git init -q nested" 3
 finds 'a build that commits' "$build && echo changed >number && git commit -qam built && git checkout -qb built\$\$" 3
 finds 'a build that leaves a repository' "$build && [ ! -e nested ] && git init -q nested" 3
 
-# Variables of a hook, and hooks of the user.
+# Variables that a hook sets must not matter, and the user's hooks must not run.
 printf '#!/bin/sh\ntouch "%s/hooked"\n' "$folder" >.git/hooks/post-checkout
 chmod +x .git/hooks/post-checkout
 (export GIT_DIR=$PWD/.git GIT_WORK_TREE=$PWD GIT_INDEX_FILE=$PWD/.git/index; finds 'in a hook' "$build" 3)
 [[ ! -e $folder/hooked ]] || fail 'a hook of the user has run'
 rm .git/hooks/post-checkout
 
-# Hashes of 64 digits.
+# A repository may have hashes of 64 digits.
 git init -q -b main --object-format=sha256 ../sha256
 (cd ../sha256; cp ../repository/ccd.c .; commit 1 1; commit 2 0; commit 3 0; commit 4 0; finds sha256 "$build" 2)
 
-# Submodules, also within each other, of a clone that has not filled them. One becomes a folder with a file of
-# the same name.
+# The clone may have submodules, even nested ones, that it has not checked out. One of them later becomes a
+# folder with a file of the same name.
 git init -q -b main ../inner
 (cd ../inner; commit inner 1)
 git init -q -b main ../outer
@@ -111,7 +114,8 @@ refused "found --from 'nowhere'" --from nowhere --build "$build" --subject ./min
 refused 'found no --build' --from HEAD --subject ./mine.so ../q.vt
 refused 'found no case' --from HEAD --build "$build" --subject ./mine.so
 refused 'cannot be tried' --from HEAD~1 --build "$build" --subject ./mine.so ../q.vt
-# The last line of a build that fails, and its last ten.
+# For a build that fails, tools/bisect prints the last line of the log; for OLD and NEW, it prints the last
+# ten lines.
 refused '   skipped: the build fails: no such header' --from HEAD~2 --build 'echo no such header; echo; false' --subject ./mine.so ../q.vt
 refused $'\n16\n17\n18\n19\n20\n' --from HEAD~2 --build 'seq 20; false' --subject ./mine.so ../q.vt
 [[ -z $(git status --porcelain) ]] || fail "the user's files are changed"

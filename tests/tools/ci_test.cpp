@@ -1,4 +1,5 @@
-// Results for other programs, such as systems of continuous integration, and campaigns that a file describes.
+// Results for other programs, such as systems of continuous integration; and campaigns that a configuration
+// file describes.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -25,12 +26,12 @@ TEST_F(Ci, JUnitHasATestForEachSubjectKindAndClass) {
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"basic\" tests=\"4\" failures=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"missed "));
   EXPECT_THAT(xml, HasSubstr("again: nearmiss fuzz --subject basic,wang"));
-  // The query in the failure is one that the subject misses.
+  // The subject misses the query that the failure shows.
   const std::size_t line = xml.find("; vt query:\n") + 12;
   write("q.vt", xml.substr(line, xml.find('\n', line) - line) + "\n");
   expect_code(1, "replay q.vt --no-shrink --subject basic");
   expect_code(0, "replay q.vt --subject wang");
-  // A report writes the same.
+  // nearmiss report writes the same file.
   expect_code(1, "report a.db -o report --junit report.xml");
   EXPECT_EQ(read("report.xml"), xml);
   EXPECT_EQ(std::system(("python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' " +
@@ -86,7 +87,7 @@ TEST_F(Ci, AFileDescribesACampaign) {
   };
   const auto expected = results(campaign);
   EXPECT_EQ(results("fuzz --config trial.toml"), expected);
-  // The command line counts more than the file.
+  // An option on the command line overrides the file.
   EXPECT_EQ(json_of(0, "fuzz --config trial.toml --subject wang")["subjects"].size(), 1);
   expect_refused("fuzz --config nowhere.toml", {"nowhere.toml"});
   write("bad.toml", "subjects = \"wang\"\ncases = 10\n");

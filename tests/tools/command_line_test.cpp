@@ -16,7 +16,7 @@ using ::testing::StartsWith;
 
 TEST_F(CommandLine, OracleAnswersByEveryMethod) {
   write("q.vt", hit + miss);
-  // The vertex goes through the triangle and back. Parity cannot distinguish its two roots from none.
+  // The vertex goes through the triangle and back. Parity cannot distinguish two roots from none.
   write("even.vt", "-0.375 -0.3125 0.25  0 0 0  1 -1 0  1 0 1   1.125 0.4375 0.25  0 0 0  1 1 0  -1 0 1\n");
   for (const std::string method : {"filtered", "exact", "certificate", "parity", "all"}) {
     EXPECT_EQ(run("oracle --kind vt q.vt --method " + method).out, "1\n0\n") << method;
@@ -26,7 +26,7 @@ TEST_F(CommandLine, OracleAnswersByEveryMethod) {
 }
 
 TEST_F(CommandLine, OracleSaysWhatAMethodDoesNotKnow) {
-  // The triangle is an edge, which is exactly 1 below the vertex when 2 t² = 1, and never nearer.
+  // The triangle is degenerate, an edge. It is exactly 1 below the vertex when 2 t² = 1, and never nearer.
   write("q.vt", "0 -.5 1  -1 0 0  1 0 0  -1 0 0   -1 -.5 1  -1 -1 0  1 1 0  -1 -1 0   1\n");
   EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n");
   EXPECT_EQ(expect_code(1, "oracle --kind vt q.vt --method certificate").out, "-\n");
@@ -98,7 +98,7 @@ TEST_F(CommandLine, FuzzSweepsAllFamiliesOfTheKindsThatASubjectDecides) {
   };
   const auto of_wang = swept("--sweep all --subject wang");
   EXPECT_THAT(of_wang, IsSupersetOf({"stiff", "needle", "v-drifting", "v-stiff~drawn"}));
-  EXPECT_THAT(of_wang, Not(Contains("uniform")));  // it has no parameter
+  EXPECT_THAT(of_wang, Not(Contains("uniform")));  // this family has no parameter
   const auto of_vertices = swept("--sweep vertices --subject wang");
   EXPECT_THAT(of_vertices, ::testing::Each(StartsWith("v-")));
   EXPECT_THAT(of_wang, IsSupersetOf(of_vertices));
@@ -143,7 +143,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   const std::string scene = "scene start.obj end.obj --around 0 ";
   const json subjects =
       json_of(0, scene + "--leave-out boxes --bound pair,scene,100 --export pairs")["subjects"];
-  EXPECT_EQ(subjects.size(), 4);  // basic has no bound
+  EXPECT_EQ(subjects.size(), 4);  // basic uses no bound
   for (const char* name : {"basic", "wang", "wang@100"})
     EXPECT_EQ(subjects[name]["vt"]["collisions"], 3) << name;
   expect_refused(scene + "--export pairs", {"pairs.vt: exists already"});
@@ -174,7 +174,7 @@ TEST_F(CommandLine, SceneAsksAroundItsPairsIfTheyShowLittle) {
           HasSubstr("wang: the scene's 3 collisions show little: a miss rate below 63 % at 95 % confidence\n"
                     "around its pairs, 10,000 queries of the family mesh: wang missed 0 of "),
           HasSubstr("nearmiss fuzz --subject wang --mesh start.obj end.obj --family mesh")));
-  // Findings around the pairs replace none of the scene.
+  // Findings in queries around the scene's pairs do not replace findings in the pairs.
   expect_code(1, "scene spikes@100 --subject " + plugin("never") + " --around 300 --db a.db");
   std::set<std::string> seen;
   for (const json& finding : report_of("a.db", 1)["findings"])

@@ -21,7 +21,7 @@ for class in ordinary degenerate extreme; do
     diff <(sed -n 's/^# expect=//p' "$file/queries.$kind") <(cut -c1 "$file/answers-$kind.txt") || fail "$class $kind: truths differ"
   done
 done
-# Each query is there twice, in both formats, with its recorded truth.
+# The data set has each query twice, in both formats, with its truth.
 "${arguments[0]}" replay "$folder/a" --subject exact --json "$folder/replay.json" >/dev/null || fail "expected no failure"
 grep -q '"mismatches_with_recorded_truth": 0' "$folder/replay.json" || fail "expected that all truths are right"
 grep -q '"queries": 480' "$folder/replay.json" || fail "expected 480 queries"

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 class DemoTest : public testing::CommandLine {
  protected:
-  /// The words that bash offers to complete the last of these words.
+  /// The words that bash offers as completions of the last word of this command line.
   [[nodiscard]] std::string completed(const std::string& words) const {
     (void)run("completion bash", "", "&& cp out.txt completion");
     const std::string command =
@@ -53,7 +53,7 @@ TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
            {"fuzz --family uniform-e", "uniform-end"},
            {"fuzz --subject = ba", "basic basic-plain"},  // as in --subject=ba
            {"fuzz --sweep asp", "aspect"},
-           {"fuzz --sweep uniform-e", ""},  // it has no parameter
+           {"fuzz --sweep uniform-e", ""},  // this family has no parameter
            {"fuzz --subject wang,./compl", "wang,./completion"}})
     EXPECT_EQ(completed("nearmiss " + words), completions + "\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject ="), completed("nearmiss fuzz --subject \"\""));

@@ -1,4 +1,4 @@
-// Exit codes depend on what is shown, in the same way for every subcommand.
+// Exit codes depend on the results that a subcommand shows, in the same way for every subcommand.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -12,10 +12,10 @@ TEST_F(CommandLine, AMissGivesExitCodeOne) {
               HasSubstr(": MISSED the collision\n"));
 }
 
-/// A subject, and the exit code of all subcommands that show the results of this subject.
+/// A subject, and the exit code with which every subcommand shows its results.
 struct Shown {
   const char* what;
-  const char* subject;  ///< a plug-in, with options; or a built-in one
+  const char* subject;  ///< a plug-in with options, or a built-in subject
   int code;
   const char* fails_on = "";  ///< a value of --fail-on with which the code is 1
   const char* environment = "NEARMISS_ONE_IN=10";
@@ -32,7 +32,8 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
     write("q.vt", hit + miss + late + read("out.txt"));
   }
 
-  /// Expects the exit code of a command that stores its results in a.db, and of all that show these results.
+  /// Runs a command that stores its results in a.db, and all commands that show these results. Expects the
+  /// exit code of GetParam() from each.
   void expect_codes(const std::string& command) const {
     const Shown& shown = GetParam();
     const std::string subject = std::string(shown.subject).find(".so") == std::string::npos

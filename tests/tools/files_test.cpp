@@ -1,5 +1,5 @@
-// Files that commands write are complete or absent, no file of the user's is lost, and all results in a store come from
-// the same build of nearmiss and of each plug-in.
+// A file that a command writes is complete or absent. No command loses a file of the user. All results in a
+// store come from the same build of nearmiss and of each plug-in.
 #include <unistd.h>
 
 #include <filesystem>
@@ -93,7 +93,7 @@ TEST_F(CommandLine, AStoreWithItsLogInAReadOnlyFolderIsRefusedWithAdvice) {
 
 class SameCode : public CommandLine {
  protected:
-  /// Replaces p.so by a plug-in. All plug-ins of this test have the same name and version.
+  /// Replaces p.so by another plug-in. All plug-ins of this test have the same name and version.
   void install(const std::string& name) const {
     fs::copy_file(plugin(name), file("new.so"));
     fs::rename(file("new.so"), file("p.so"));

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Runs tools/nightly in its own copy of the tree, in which set-up and libFuzzer do nothing. Checks exit codes,
-# the baseline, and what remains after a signal and on a full disk. Also interrupts tools/run, and runs
-# tools/libfuzzer twice at the same time.
+# Runs tools/nightly in a copy of the tree in which set-up and libFuzzer do nothing. Checks exit codes, the
+# baseline, and the report and processes after a signal and on a full disk. Also interrupts tools/run, and
+# runs tools/libfuzzer twice at the same time.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 # shellcheck disable=SC2016  # the command of --notify expands its own variables
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
-# A user who is not root may mount a disk in a new namespace.
+# Only root may mount a disk; other users may in a new namespace.
 if ((EUID != 0)) && unshare --map-root-user --mount true 2>/dev/null; then exec unshare --map-root-user --mount "$0" "$@"; fi
 nearmiss=$(realpath "${arguments[0]}")
 source=$(realpath "$(dirname "$0")/../..")
@@ -48,7 +48,8 @@ chmod +x build/release/nearmiss
 mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # neither of these folders is a night
 night 0 --subject wang
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
-# Root parity is asked, too. What it cannot see is shown, but raises no alarm in any night.
+# The night also asks root parity. The report shows what root parity cannot see, but no night raises an alarm
+# for it.
 expect_said '^ ok  parity: no miss in [1-9]'
 expect_said '^ --  parity \(beyond contract\): MISSED '
 night 1 --subject wang,basic
@@ -56,7 +57,8 @@ expect_said '^not in the baseline: basic$'
 expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 "$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
-# --notify gets the verdict and the page. That it fails or hangs changes no exit code.
+# The command of --notify gets the verdict and the page. If it fails or hangs, the night's exit code is the
+# same.
 notified() { expect "expected '$1', found '$(<"$folder/notified")'" grep -qE "$1" "$folder/notified"; }
 night 1 --subject wang,basic --results "$folder/told" --notify 'printf "%s|%s\n" "$1" "$2" >"'"$folder"'/notified"; exit 7'
 notified "^nearmiss: alarm: basic missed .*\|$folder/told/2[^/]*Z/report/index.html$"
@@ -86,8 +88,8 @@ expect "expected no sample for root parity" test ! -e "$folder/the nights/last/p
 # With --baseline 1, the baseline is only the night before.
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
-# Lasting faults: a subject that sometimes fails to answer raises an alarm only once. A new way to fail raises one
-# again.
+# A subject that sometimes fails to answer raises an alarm only in its first night. A new way to fail raises
+# one again.
 fails=$(dirname "$nearmiss")/plugins/fail.so
 export NEARMISS_ONE_IN=5
 night 1 --subject "wang,$fails" --results "$folder/faults"
@@ -114,8 +116,8 @@ expect_said "found --subject 'wang,./none.so', expected CCDs with different name
 night 2 --subject wang --results /proc/none
 expect_said "found --results '/proc/none', expected a folder that can be made"
 expect "expected no night of a CCD that is none" test "$(ls "$folder/the nights")" = "$before"
-# A copy of a night counts once. The reserve of a killed night is given back, and the killed night does not
-# push others out.
+# A copy of a night counts once. The script frees the reserve of a killed night, and the killed night does
+# not push other nights out.
 cp -r "$folder/the nights/last/" "$folder/the nights/2001-01-01T000000Z copy"
 mkdir "$folder/the nights/2002-01-01T000000Z"
 touch "$folder/the nights/2002-01-01T000000Z/.reserve"
@@ -188,11 +190,11 @@ expect "expected that one hunt replaces the inputs" test "$(wc -l <"$folder/repl
 expect "expected that builds are locked" test ! -e "$folder/unlocked"
 nothing tools/libfuzzer
 
-# Each signal is passed on to the part of the night that runs. A report is made, and no process remains.
+# The night passes each signal on to its running part, makes a report, and leaves no process behind.
 cp build/release/nearmiss quick
 ln -sf "$nearmiss" build/release/nearmiss
 
-# Prints the processes that work in this tree, except this script and its waiting children.
+# Prints the processes whose working directory is in this tree, except this script and its waiting children.
 left() {
   local each
   for each in /proc/[0-9]*; do
@@ -207,7 +209,7 @@ begin() {
 }
 # until_ CONDITION...: waits for a state of the night in the background.
 until_() { until "$@"; do kill -0 "$night" 2>/dev/null || fail "the night ended before this: $*"; sleep 0.05; done; }
-# ends CODE: waits for the night, and checks its exit code and that it leaves nothing running.
+# ends CODE: waits for the night to end, and checks its exit code and that it leaves no process running.
 ends() {
   local code=0
   wait "$night" || code=$?
@@ -219,7 +221,7 @@ expect_report() { expect "expected a report" test -s "$results/last/report/index
 saved() { compgen -G "$results/*/$1.db-wal" >/dev/null; }
 exists() { [[ -e $1 ]]; }
 
-# Each signal is passed on to the campaign, and the report shows the results so far.
+# The night passes each signal on to its campaign, and the report shows the results so far.
 for signal in TERM INT HUP; do
   begin "at-$signal"
   until_ saved families
@@ -229,7 +231,7 @@ for signal in TERM INT HUP; do
   expect "SIG$signal: expected no further part" test -z "$(grep -E 'sweeps|libFuzzer' "$folder/said")"
 done
 
-# tools/run is interrupted in the same way.
+# tools/run reacts to each signal in the same way.
 env --default-signal=INT,TERM,HUP tools/run 100h &>"$folder/said" &
 night=$!
 until_ exists build/run/fuzz.db-wal

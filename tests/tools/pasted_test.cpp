@@ -1,5 +1,5 @@
-// Certificates as a user sees them: of findings and recorded truths, and in the tests that `nearmiss shrink --as c++`
-// and `--as python` print, which run in other projects.
+// Certificates as a user sees them: those of findings and of recorded truths, and those in the tests that
+// `nearmiss shrink --as c++` and `--as python` print for other projects.
 #include <sstream>
 
 #include "corpus/query_text.hpp"
@@ -64,7 +64,8 @@ class PastedTest : public testing::CommandLine {
     return succeeds("./test");
   }
 
-  /// Expects that both tests pass with a detector that gives an answer and a time, or that both fail.
+  /// Expects that the tests in C++ and in Python both pass (or, unless `pass`, both fail) with a detector
+  /// that gives this answer and this time.
   void expect_both(bool pass, const Tests& tests, const std::string& name, bool answer,
                    const std::string& time = "0") const {
     const bool is_number = time != "nan";
@@ -116,7 +117,7 @@ TEST_F(PastedTest, PassesIfTheDetectorIsRight) {
   EXPECT_THAT(read("text.txt"), HasSubstr("Ccd.vertex_triangle"));
 }
 
-/// Replaces a part of a text, which must occur once.
+/// Replaces the part `old` of a text, which must occur once.
 std::string with(std::string text, const std::string& old, const std::string& part) {
   EXPECT_THAT(text, HasSubstr(old));
   return text.replace(text.find(old), old.size(), part);
@@ -195,7 +196,7 @@ TEST_F(PastedTest, ExpectsATimeInTheStep) {
   expect_both(true, of_false_positive, name, true, "0.5");
   expect_both(false, of_false_positive, name, true, "2");
   expect_both(true, of_false_positive, name, false, "2");
-  // A subject that gives no time is asked for none.
+  // If the subject gives no time, the test does not ask for one.
   const std::string python = tests_of("hit.vt --subject " + plugin("several") + ":told:answer=3").python;
   EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid answer).\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
@@ -208,7 +209,7 @@ TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
 
 class Certified : public CommandLine {
  protected:
-  /// The output of check.py for certificates, one a line.
+  /// The output of check.py for some certificates, one a line.
   [[nodiscard]] std::string checked(const std::string& certificates) const {
     write("certificates.jsonl", certificates);
     const std::string command = "cd " + file("").string() + " && python3 " NEARMISS_CHECKER;

@@ -1,4 +1,5 @@
-// Queries on the command line: of families, with separations and times of impact, and of vertices and edges.
+// Queries on the command line: queries of families, with separations and times of impact, and of vertices
+// and edges.
 #include <map>
 #include <regex>
 #include <set>
@@ -42,7 +43,7 @@ TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   };
   for (const std::string kind : {"--kind vt ", "--kind ee "})
     EXPECT_EQ(lines(kind + "--count 8"), lines(kind + "--count 4") + lines(kind + "--first 8 --count 4"));
-  // The printed queries are those of a campaign, and give the same counts.
+  // nearmiss family prints the queries that a campaign asks, so these give the same counts.
   write("q.ee", lines("--kind ee --count 500"));
   const json campaign = json_of(0, "fuzz --family parallel --seed 5 --cases 1000")["subjects"]["wang"]["ee"];
   const json replay = json_of(0, "replay q.ee")["subjects"]["wang"]["ee"];
@@ -128,7 +129,7 @@ TEST_F(CommandLine, AReplayOfOneCaseSaysWhatMatters) {
 
 class SeparationOption : public testing::CommandLine {
  protected:
-  /// The vertex of `hit` comes within 1/2 of the triangle at t = 1/4; that of `miss` never does.
+  /// The vertex of `hit` comes within 1/2 of the triangle at t = 1/4; the vertex of `miss` never does.
   void SetUp() override { write("q.vt", hit + miss); }
 
   /// A query with its separation as the 25th number.
@@ -235,8 +236,8 @@ TEST_F(SeparationOption, AReportSaysThatOfEachRun) {
 
 class Vertices : public testing::CommandLine {
  protected:
-  /// A vertex that passes the edge from (1, -1, 0) to (1, 1, 0), and its first end, at a distance of 1 and of
-  /// √2.
+  /// A vertex that passes the edge from (1, -1, 0) to (1, 1, 0) at a distance of 1, and the edge's first end
+  /// at a distance of √2.
   void SetUp() override {
     write("q.ve", "0 0 1  1 -1 0  1 1 0   2 0 1  1 -1 0  1 1 0\n");
     write("q.vv", "0 0 1  1 -1 0   2 0 1  1 -1 0\n");
@@ -283,7 +284,7 @@ TEST_F(Vertices, ACampaignAsksTheKindsThatSubjectsDecide) {
   EXPECT_EQ(asked("--subject exact --separation drawn --kind vt"), (Kinds{{"exact", {"vt"}}}));
   EXPECT_EQ(asked("--subject wang,exact --separation drawn"),
             (Kinds{{"wang", {"vv", "ve"}}, {"exact", {"vv", "ve"}}}));
-  // It decides vv without a separation, and ve with one.
+  // `rows` decides vv without a separation, and ve with a separation.
   const std::string rows = "--subject " + plugin("rows") + ",wang-plain";
   EXPECT_EQ(asked(rows, 1)["rows"], std::set<std::string>{"ve"});
   EXPECT_EQ(asked(rows + " --separation 0 --kind vv", 1)["rows"], std::set<std::string>{"vv"});
@@ -337,13 +338,13 @@ TEST_F(Vertices, BecomeTests) {
 
 class Convert : public CommandLine {
  protected:
-  /// The queries and truths that a folder or file holds, in plain form.
+  /// The queries and truths in a folder or file, in the format "plain".
   [[nodiscard]] std::string plain(const std::string& path) const {
     std::filesystem::remove_all(file("again"));
     expect_code(0, "convert " + path + " -o again");
     std::string all;
     for (const char* kind : {"vt", "ee", "vv", "ve"}) all += read(std::string("again/queries.") + kind);
-    // Rational numbers have no -0, which is the same place as 0.
+    // Rational numbers have no -0; as a coordinate, it means the same as 0.
     return std::regex_replace(all, std::regex("-0x0p"), "0x0p");
   }
 };

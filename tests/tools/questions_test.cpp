@@ -19,7 +19,8 @@ class Questions : public CommandLine {
     return "step --subject " + plugin("steps") + ":defect=" + std::to_string(defect) + " ";
   }
 
-  /// Expects that a function without a defect fails in no query of any kind. `failures` counts those that fail.
+  /// Expects that a function without a defect fails on no query of any kind. `failures` is the key of the
+  /// number of failures.
   void expect_right(const std::string& command, const std::string& heading, const char* failures) const {
     const json all = json_of(0, command + "--cases 4000");
     EXPECT_THAT(read("error.txt"), HasSubstr(heading));
@@ -34,8 +35,9 @@ class Questions : public CommandLine {
     EXPECT_TRUE(all["findings"].empty());
   }
 
-  /// Expects that the simplest failure of a function can be asked again by itself, and that the checker accepts its
-  /// certificate. `right` is the command for a function without a defect.
+  /// Expects that the query of a function's simplest failure can be asked again alone, with the same
+  /// failure, and that the checker accepts the failure's certificate. `right` is the command for a function
+  /// without a defect.
   void expect_finding(const std::string& command, const std::string& right,
                       const std::string& failure) const {
     const json finding = json_of(1, command + "--cases 2000")["findings"][0];

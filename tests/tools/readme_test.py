@@ -1,7 +1,8 @@
 """Runs the commands of README.md and of tools/README.md, and compares the first one's output with README.md.
 Usage: readme_test.py NEARMISS
 
-Each command is run as it is printed, but for its length, in a folder that has the files that it names.
+Runs each command as the README prints it, except that it takes less time, in a folder with the files that it
+names.
 """
 
 import os
@@ -16,7 +17,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop()).resolve().parent
-# How each command becomes a short one.
+# Replacements that make a command shorter.
 SHORTER = (
     (r'--cases \d+', '--cases 1000'),
     (r'--time \w+', '--time 1s'),
@@ -33,7 +34,7 @@ SHORTER = (
         r'nearmiss \1 --subject ./\1s.so --time 1s',
     ),
     (r'pipe:python3 ', f'pipe:{sys.executable} '),
-    (',safeccd,tight-inclusion:tolerance=1e-3', ''),  # they are not Debian's
+    (',safeccd,tight-inclusion:tolerance=1e-3', ''),  # Debian does not have these
     (r'bench corpus', 'bench few.vt --runs 1'),
     (r'replay corpus$', 'replay few.vt'),
     (r'\$\(nearmiss subjects --peers \| paste -sd,\)', 'bullet'),
@@ -41,7 +42,7 @@ SHORTER = (
 
 
 def commands_of(text):
-    """The commands of indented blocks, and those at the beginning of a table's row."""
+    """The commands in indented blocks, and the commands at the beginning of rows of a table."""
     for line in text.splitlines():
         block = re.match(r'    (?:\$ )?(nearmiss .*)', line)
         row = re.match(r'\| `(nearmiss [^`]*)`', line)
@@ -78,7 +79,7 @@ class Commands(unittest.TestCase):
         (cls.folder / 'end.obj').write_text(
             (cls.folder / 'start.obj').read_text().replace(' 1\n', ' -1\n')
         )
-        # One after the other, since each may use what the ones before it made.
+        # In this order, because a command may use files that earlier commands made.
         for command in (
             'nearmiss family uniform --kind vt --count 50 >file; cp file few.vt',
             f'NEARMISS_RECORD=run.nmq {BUILD}/plugins/recording 100',

@@ -1,4 +1,4 @@
-// Recordings of simulations: what nearmiss_record.h writes, nearmiss judges.
+// Recordings of simulations: nearmiss judges the answers that nearmiss_record.h has recorded.
 #include <filesystem>
 #include <fstream>
 
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class Recording : public CommandLine {
  protected:
-  /// Runs the recording program, and returns its exit code.
+  /// Runs the program tests/plugin/recording.c, and returns its exit code.
   [[nodiscard]] int record(const std::string& arguments,
                            const std::string& settings = "NEARMISS_RECORD=run.nmq") const {
     const std::string command = "cd " + file("").string() + " && " + settings +
@@ -22,12 +22,12 @@ class Recording : public CommandLine {
     return std::system(command.c_str());
   }
 
-  /// The counters of the recorded vt answers.
+  /// The counters of the recorded answers to vt queries.
   [[nodiscard]] nlohmann::json judged(int code, const std::string& files = "run.nmq") const {
     return json_of(code, "replay " + files + " --as-answered")["subjects"]["recorded"]["vt"];
   }
 
-  /// The counters of the answers in these lines (falling).
+  /// The counters of the answers in these lines, which falling() makes.
   [[nodiscard]] nlohmann::json judged_lines(int code, const std::string& lines) const {
     write("lines", lines);
     EXPECT_EQ(record("0 lines <lines"), 0);
@@ -45,7 +45,7 @@ TEST_F(Recording, IsJudgedAsTheSimulationWasAnswered) {
   EXPECT_NEAR(counts["max_early"], 0.25, 1e-9);  // contact is at t = 1/2
   EXPECT_THAT(read("error.txt"), ::testing::AllOf(HasSubstr("FAIL recorded: MISSED"),
                                                   HasSubstr("false-negative recorded run.nmq:")));
-  // Any CCD can be asked the same queries, and one that missed them has its findings shrunk.
+  // Any CCD can be asked the recorded queries. If it misses some, its findings are shrunk.
   EXPECT_THAT(expect_code(0, "replay run.nmq --subject wang").out, HasSubstr("no miss in 100 collisions"));
 }
 
@@ -54,7 +54,7 @@ TEST_F(Recording, HasTheLatestQueriesAndThoseThatAreKept) {
   EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 20480);
   const auto counts = judged(1);
   EXPECT_THAT(read("error.txt"), Not(HasSubstr("left out")));
-  EXPECT_EQ(counts["queries"], 60 + 1);  // a quarter of the 80 records is for those that are kept
+  EXPECT_EQ(counts["queries"], 60 + 1);  // of the room for 80 records, a quarter is for queries that are kept
   EXPECT_EQ(counts["false_negatives"], 6);
   expect_code(0, "convert run.nmq -o converted");
   EXPECT_THAT(read("converted/queries.vt"),
@@ -111,7 +111,7 @@ TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
   EXPECT_THAT(
       read("error.txt"),
       HasSubstr("run.nmq: 50 records left out: they were being written when the program or the file ended"));
-  // A record with a changed byte is not judged, either.
+  // Nor is a record judged if one of its bytes has changed.
   std::fstream(file("run.nmq"), std::ios::in | std::ios::out | std::ios::binary)
       .seekp(4096 + 256 * 4 + 80)
       .put('x');
@@ -119,12 +119,13 @@ TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
 }
 
 TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
-  // Contact is at t = 1/2: after tmax = 1/4, where the answers "no" are right, and before 3/4 and 5/4.
+  // Contact is at t = 1/2. This is after tmax = 1/4, so the answers "no" are right, but before tmax = 3/4
+  // and 5/4.
   ASSERT_EQ(record("20 tmax 0.25"), 0);
   auto counts = judged(0);
   EXPECT_EQ(counts["queries"], 20);
   EXPECT_EQ(counts["false_negatives"], 0);
-  EXPECT_EQ(counts["collisions"], 18);  // with a time, they are judged in the whole step
+  EXPECT_EQ(counts["collisions"], 18);  // answers with a time are judged in the whole step
   for (const char* tmax : {"0.75", "1.25"}) {
     ASSERT_EQ(record(std::string("20 tmax ") + tmax), 0);
     counts = judged(1);
@@ -213,7 +214,7 @@ TEST_F(Recording, ThatIsNoneIsRefused) {
   expect_refused("replay none.nmq --as-answered", {"none.nmq", "found no recording", "nearmiss_record.h"});
   expect_refused("replay hit.vt --as-answered", {"hit.vt", "found no recording"});
   expect_refused("replay hit.vt --as-answered --subject wang", {"--as-answered", "--subject"});
-  ASSERT_EQ(record("0", "NEARMISS_RECORD=run.nmq"), 0);  // it never recorded, so there is no file
+  ASSERT_EQ(record("0", "NEARMISS_RECORD=run.nmq"), 0);  // records nothing, so it makes no file
   EXPECT_FALSE(fs::exists(file("run.nmq")));
   ASSERT_EQ(record("1", "NEARMISS_RECORD=/nowhere/run.nmq"), 0);
   EXPECT_THAT(read("recorder.txt"),

@@ -1,4 +1,5 @@
-// A campaign gives the same report if it is interrupted, killed, divided into shards, or run by more threads.
+// A campaign gives the same report even if it is interrupted, killed, divided into shards, or run by more
+// threads.
 #include <chrono>
 #include <csignal>
 
@@ -23,8 +24,8 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes a campaign in a.db, waits until it has saved, waits a further time, and sends it a
-  /// signal. Returns the exit code; -1 if the signal ended the process.
+  /// Starts or resumes a campaign in a.db, waits until it has saved, and after a further time sends it a
+  /// signal. Returns its exit code; -1 if the signal ended the process.
   [[nodiscard]] int run_until_a_signal(const std::string& command, std::chrono::milliseconds after,
                                        int signal) const {
     Background process(file(""), command + " --db a.db --resume");
@@ -46,7 +47,7 @@ class Resume : public CommandLine {
 };
 
 TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
-  // The families have findings of all these subjects; one of them is a plug-in.
+  // All of these subjects, one of which is a plug-in, have findings in these families.
   const std::string campaign =
       "fuzz --cases 1500 --seed 9 --family small-integer,uniform,planted,v-uniform --subject basic,wang," +
       plugin("sampling") + ":tolerance=0";
@@ -61,7 +62,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
     EXPECT_EQ(finding["shrunk"], finding["original"]);
   expect_code(1, campaign + " --resume --db plain.db");
   json later = timeless_report("plain.db");
-  later["runs"] = report["runs"];  // its command has the option --no-shrink
+  later["runs"] = report["runs"];  // they differ, because its command has the option --no-shrink
   EXPECT_EQ(json::diff(later, report), json::array());
 
   for (const std::string shard : {"2", "0", "1"})
@@ -70,15 +71,15 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(json::diff(timeless_report("merged.db"), report), json::array());
 
   int kills = 0;
-  // The waiting times before a signal extend beyond the interval between two saves. They grow until the
-  // campaign completes, even on a slow machine.
+  // The times before a signal are partly longer than the interval between two saves. They grow with the
+  // number of kills, so that the campaign completes even on a slow machine.
   while (run_until_a_signal(campaign, std::chrono::milliseconds(337 * kills % 1000 + 50 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
     ++kills;
   RecordProperty("kills", kills);
   EXPECT_GT(kills, 0);
   EXPECT_EQ(json::diff(timeless_report("a.db"), report), json::array());
-  // A resume of a complete campaign does not run it again.
+  // Resuming a complete campaign does not run it again.
   expect_code(1, campaign + " --db a.db --resume");
   EXPECT_EQ(json::diff(timeless_report("a.db"), report), json::array());
 }
@@ -109,7 +110,7 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
   EXPECT_EQ(run(again.substr(9) + " --db again.db").code, code);
   json other = timeless_report("again.db");
-  other["runs"] = report["runs"];  // its command has a number of cases instead of a time
+  other["runs"] = report["runs"];  // they differ: this command has a number of cases, the other has a time
   EXPECT_EQ(other, report);
 }
 
@@ -142,7 +143,7 @@ TEST_F(Resume, OneProcessWritesAStore) {
   expect_refused("fuzz --time 1s --db a.db --resume", {"a.db: another process is writing it"});
   first.stop(SIGTERM);
   EXPECT_EQ(first.code(), 130);
-  // Time that is spent is not given again.
+  // A resumed campaign does not get the time again that it has spent.
   expect_code(0, "fuzz --time 1s --db a.db --resume");
   const json report = timeless_report("a.db");
   expect_code(0, "fuzz --time 1s --db a.db --resume");

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs every script of the tree with --help and --nonsense in a copy of the tree. Checks that it prints
-# its usage or refuses, and changes nothing. Programs that would change something, such as cmake and sbatch,
-# are replaced by a program that only records the call.
+# Runs every script of the tree with --help and with --nonsense in a copy of the tree. Checks that the script
+# prints its usage for --help, refuses --nonsense, and changes nothing. In place of programs that would
+# change something, such as cmake and sbatch, a program runs that only records the call.
 # Usage: scripts_test.sh NEARMISS
 # shellcheck disable=SC2086  # several words in $command
 set -euo pipefail
@@ -51,7 +51,7 @@ for each in "${scripts[@]}"; do
 done
 try 0 tools/run -h
 
-# An option's value follows a blank or an equals sign. A missing or wrong value is refused at once.
+# An option's value follows a blank or an equals sign. Scripts refuse a missing or wrong value at once.
 try 0 tools/environments --list --only='^wang g[+][+] -O2 nearest$'
 [[ $said == "wang g++ -O2 nearest" ]] || fail "expected one environment, found '$said'"
 while IFS='|' read -r words command; do  # the command's words are separated by blanks

@@ -30,7 +30,7 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
   EXPECT_GT(sum("exact", "positives"), 0);
   for (const char* counter : {"unanswered", "tangled", "false_negatives", "false_positives", "unresolved"})
     EXPECT_EQ(sum("exact", counter), 0) << counter;
-  // The command that the store keeps makes the same again.
+  // The command in the store makes the same simulation again.
   const json again = json_of(1, found["runs"][0]["again"].get<std::string>().substr(9));
   for (const char* counter : {"positives", "collisions", "tangled", "picojoules"})
     EXPECT_EQ(again["simulations"]["scene:sim:cloths@100"]["bullet"][counter], steps["bullet"][counter]);
@@ -89,7 +89,7 @@ TEST_F(CommandLine, SimulateFindsAClothThatATextbookCcdTangles) {
     EXPECT_EQ(found["wang"][counter], none) << counter;
 }
 
-/// Findings in what simulations ask can be made again by their provenance.
+/// The provenance of a finding is enough to make its query again, even for a query of a simulation.
 TEST_F(CommandLine, FuzzAsksWhatSimulationsAsk) {
   expect_code(1,
               "fuzz --family sim:hair@100:steps-per-frame=1,sim:cloths@50 --subject bullet-double,basic "

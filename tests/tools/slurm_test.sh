@@ -32,7 +32,8 @@ trap 'exit 130' INT TERM
 
 skip() { echo "skipped: $1"; exit 77; }
 fail() { echo "failed: $1"; exit 1; }
-# Repeats a command until it succeeds, with patience for a busy machine. Gives up if a daemon has ended.
+# wait_until COMMAND...: repeats a command until it succeeds. Fails after 200 s (the machine may be busy), or
+# if a daemon has ended.
 wait_until() {
   local end=$((SECONDS + 200))
   until "$@"; do
@@ -68,7 +69,7 @@ SlurmctldHost=$(hostname -s)(127.0.0.1)
 SlurmUser=$(id -un)
 SlurmdUser=$(id -un)
 AuthType=auth/munge
-# A requeued task waits in the queue for as long as its credential is valid.
+# A requeued task waits in the queue until its credential expires, so the credential's life is short here.
 AuthInfo=socket=$folder/munge,cred_expire=5
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
@@ -92,7 +93,7 @@ daemons+=($!)
 idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
 wait_until idle || skip "Slurm does not start: $(grep -h fatal "$folder"/slurm*.log || tail -qn 1 "$folder"/slurm*.log)"
 
-# Makes the report that one machine gives, with an earlier campaign as its baseline.
+# Makes the report of the same campaign on one machine, with an earlier campaign as the baseline.
 fuzz=(--cases 30000 --family uniform,small-integer,planted --subject basic,wang)
 expect_code() {
   local code=0
@@ -111,8 +112,8 @@ expect_said "found --shards 'none'"
 expect_code 2 "${campaign[@]}" "${fuzz[@]}" --subject none
 expect_said "nearmiss: "
 
-# The campaign is held until the second task is cancelled. When the other two have saved something, the first
-# task is killed, and the third gets the signal that its time limit is near.
+# Holds the campaign until the second task is cancelled. When the other two tasks have saved something, kills
+# the first task, and sends the third task the signal that its time limit is near.
 expect_code 0 "${campaign[@]}" "${fuzz[@]}" -- --hold
 IFS=, read -r array report <"$results/jobs"
 scancel "${array}_1"
@@ -124,7 +125,7 @@ process_of() {
   found=$(grep -lsz "^$results/shard-$1.db$" /proc/[0-9]*/cmdline) && basename "${found%/cmdline}"
 }
 saved() { { "$nearmiss" report "$results/shard-$1.db" -o "$folder/peek" || (($? == 1)); } | grep wang; }
-# Whether both processes have saved something. If so, they are stopped, so that none can end meanwhile.
+# Whether the processes of both tasks have saved something. Stops them meanwhile, so that neither can end.
 both_saved() {
   first=$(process_of 0) && third=$(process_of 2) && kill -STOP "$first" "$third" || return 1
   if saved 0 && saved 2; then return; fi
@@ -142,7 +143,7 @@ expect_job "$report" " ExitCode=1:0 "
 cp "$results/summary.txt" "$folder/said.log"
 expect_said "fuzz: shards 1 of 3 are missing, shards 0 of 3 are not complete"
 
-# The same command completes the missing shards. Another campaign in the same folder is refused.
+# The same command completes the missing shards. The script refuses another campaign in the same folder.
 expect_code 2 "${campaign[@]}" "${fuzz[@]}" --seed 2
 expect_said "found a run with"
 expect_code 0 "${campaign[@]}" --baseline "$folder/earlier.db" "${fuzz[@]}"

@@ -1,4 +1,5 @@
-// Studies as a user sees them: ladder, audit, power, tightness, the values of a CCD's option, and the paper's claims.
+// Studies as a user sees them: ladder, audit, power, tightness, values of a CCD's option, and the paper's
+// claims.
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -182,7 +183,7 @@ TEST_F(Paper, AClaimIsMeasuredByItsCommands) {
             "and " + std::to_string(too_small) + " are too small where end points of edges are beyond B",
             "audit"},
         Row{"planes", "holds", "together 0.2", "paper planes"},
-        Row{"order", "does not hold", "ε^0.250", "audit"},  // ε^¼, where the introduction has ε^⅓
+        Row{"order", "does not hold", "ε^0.250", "audit"},  // the paper's introduction says ε^⅓
         Row{"gpu", "cannot be measured here", "", "paper gpu"}}) {
     const json found = claim(name);
     EXPECT_EQ(found["verdict"], verdict);
@@ -194,7 +195,7 @@ TEST_F(Paper, AClaimIsMeasuredByItsCommands) {
 TEST_F(Paper, NothingElseIsPrintedWithTheJson) {
   const Output output = expect_code(0, "paper constants tolerances --quiet --json -");
   EXPECT_EQ(json::parse(output.out)["claims"].size(), 2U);
-  EXPECT_THAT(output.error, Not(HasSubstr("constant  ")));  // the table of nearmiss audit
+  EXPECT_THAT(output.error, Not(HasSubstr("constant  ")));  // heading of the table of nearmiss audit
 }
 
 TEST_F(Paper, AnUnknownClaimIsRefused) { expect_refused("paper nothing", {"'nothing'", "constants"}); }
@@ -217,7 +218,7 @@ TEST_F(Paper, AReportShowsTheClaims) {
               HasSubstr("the verdict 'maybe'"));
 }
 
-// The table in ccd/README.md has a row for each claim, with what it says.
+// The table in ccd/README.md has a row for each claim, with the claim's words.
 TEST_F(Paper, EachClaimIsInTheTable) {
   std::ifstream file(std::filesystem::path(NEARMISS_README).parent_path() / "ccd/README.md");
   const std::string readme((std::istreambuf_iterator<char>(file)), {});

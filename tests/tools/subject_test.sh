@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Compiles plug-ins with tools/subject from a library that stands for what a user has
-# (tests/plugin/foreign.hpp): three lines for each signature that ccd/nearmiss_functions.hpp knows. Asks each.
-# Then it checks that tools/subject says in one line why it cannot compile something.
+# Compiles plug-ins with tools/subject. Each has three lines for one of the signatures that
+# ccd/nearmiss_functions.hpp knows, and calls a library like that of a user (tests/plugin/foreign.hpp). Asks
+# each plug-in queries. Then checks that tools/subject says in one line why it cannot compile something.
 # Usage: subject_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -16,7 +16,7 @@ cd "$folder"
 failures=0
 fail() { echo "failed: $1"; ((++failures)); }
 
-# The library as its user has it: compiled, with files for pkg-config and CMake.
+# The library in the form that a user has: compiled, with files for pkg-config and CMake.
 mkdir -p lib/cmake/foreign
 eigen=$(pkg-config --variable=includedir eigen3)/eigen3
 [[ -d $eigen ]] || eigen=/usr/include/eigen3
@@ -28,27 +28,28 @@ printf '%s\n' 'add_library(foreign::foreign STATIC IMPORTED)' 'set_target_proper
   "  IMPORTED_LOCATION $folder/lib/libforeign.a INTERFACE_INCLUDE_DIRECTORIES \"$root/tests/plugin;$eigen\")" \
   >lib/cmake/foreign/foreignConfig.cmake
 export PKG_CONFIG_PATH=$folder/lib CMAKE_PREFIX_PATH=$folder
-# The flags of a user whose compiler hides symbols: the plug-in's one function is visible even so.
+# The flags of a user whose compiler hides symbols. The plug-in's one function must still be visible.
 by_flags=(-- -fvisibility=hidden -I"$root/tests/plugin" -isystem "$eigen" lib/libforeign.a)
 
-# adapter NAME MEMBERS: writes NAME.cpp, three lines.
+# adapter NAME MEMBERS: writes NAME.cpp, an adapter of three lines.
 adapter() { printf '%s\n' '#include "foreign.hpp"' '#include "ccd/nearmiss_functions.hpp"' "NEARMISS_SUBJECT(detector(\"$1\")$2)" >"$1.cpp"; }
-# compile NAME OPTIONS...: compiles it, and expects the plug-in's path.
+# compile NAME OPTIONS...: compiles NAME.cpp, and expects that tools/subject prints the plug-in's path.
 compile() {
   local name=$1 said
   shift
   said=$("$root/tools/subject" "${@/ADAPTER/$name.cpp}" 2>&1) || { fail "$name: $said"; return; }
   [[ $said == "./$name.so" && -s $name.so && ! -e $name.so.log ]] || fail "$name: expected ./$name.so, found '$said'"
 }
-# refused WHAT OPTIONS...: expects one line that contains WHAT, and no plug-in.
+# refused WHAT OPTIONS...: expects that tools/subject prints one line that contains WHAT, and makes no
+# plug-in.
 refused() {
   local code=0 said
   said=$("$root/tools/subject" "${@:2}" 2>&1) || code=$?
   [[ $code == 2 && $said != *$'\n'* && $said == *"$1"* ]] || fail "${*:2}: expected '$1', found exit code $code, '$said'"
 }
-# is NAME TEXT: what `nearmiss subjects` says.
+# is NAME TEXT: expects that `nearmiss subjects` says TEXT about the plug-in NAME.so.
 is() { "$nearmiss" subjects "./$1.so" >said || true; grep -qF -- "$2" said || fail "$1: expected '$2', found $(cat said)"; }
-# answers SUBJECT KIND EXPECTED QUERY [OPTION...]: asks one query.
+# answers SUBJECT KIND EXPECTED QUERY [OPTION...]: asks a subject one query, and expects this answer.
 answers() {
   local said
   said=$("$nearmiss" verdict --kind "$2" --subject "$1" "${@:5}" <<<"$4" 2>&1) || said="exit code $?: $said"
@@ -68,25 +69,27 @@ declare -A hit=(
 )
 half='1 unspecified 0x1\.fffffff.*p-2'  # 1/2, less a millionth of it
 
-# ipc-toolkit's: members with default arguments, for all kinds.
+# The signatures of ipc-toolkit: members with default arguments, for all kinds.
 narrow=NEARMISS_CALL\(foreign::ipc::Narrow
 adapter ipc ".vertex_triangle($narrow().point_triangle_ccd)).edge_edge($narrow().edge_edge_ccd))
   .vertex_edge($narrow().point_edge_ccd)).vertex_vertex($narrow().point_point_ccd))"
 compile ipc --pkg-config foreign ADAPTER
 is ipc 'vt and ee and vv and ve; 53 bits; a lower bound of the time; takes a separation; batches of 1'
-# Codim-IPC's, with displacements.
+# The signatures of Codim-IPC, with displacements.
 adapter accd '.vertex_triangle(foreign::accd::Point_Triangle_CCD<double>).edge_edge(foreign::accd::Edge_Edge_CCD<double>)'
 compile accd --cmake 'foreign foreign::foreign' ADAPTER
 is accd 'vt and ee; 53 bits; a lower bound of the time; takes a separation; batches of 1'
-# The plainest ones, on pointers, arrays and floats; C++20 compiles them, too.
+# The plainest signatures, on pointers, arrays and floats. They also compile as C++20.
 adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(foreign::plain::edge_edge)
   .vertex_vertex(foreign::plain::vertex_vertex).set(&nearmiss_subject::bits, 24)'
 compile plain ADAPTER "${by_flags[@]}" -std=c++20
 is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
 
-# Several detectors in one plug-in: CTCD's, also with a contract and another sort of time than the signature says;
-# El Topo's, overloaded, with indices; an edge's CCD with its time; distances with a CCD, and alone; a filter of
-# steps, which lets nothing move; one with an option, and one with a separation for one of its kinds.
+# A plug-in with several detectors. Two have the signatures of CTCD; the second of these has a contract, and
+# another sort of time than its signature says. One has those of El Topo, which are overloaded and take
+# indices. Others: a CCD for edges that gives times; distances with a CCD, and without; a filter of steps,
+# which lets nothing move; a detector with an option; and a detector that takes separations for only one of
+# its kinds.
 cat >all.cpp <<'END'
 #include "foreign.hpp"
 #include "ccd/nearmiss_functions.hpp"
@@ -123,7 +126,7 @@ for each in 'vt and ee; 53 bits; an estimate of the time; takes a separation; ba
   'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'; do
   is all "$each"
 done
-# asked COMMAND OPTION...: a campaign finds no failure.
+# asked COMMAND OPTION...: expects that a campaign finds no failure.
 asked() { "$nearmiss" "$@" --cases 2000 >said 2>&1 || fail "$*: $(cat said)"; }
 asked distance --subject ./all.so:distances,./all.so:alone
 asked step --subject ./all.so:still
@@ -152,12 +155,12 @@ done
 asked fuzz --subject ./ipc.so,./accd.so,./all.so:ctcd --separation drawn
 asked fuzz --subject ./all.so:contract
 
-# One line says what is wrong.
+# For each mistake, one line says what is wrong.
 adapter forgotten '.vertex_triangle(foreign::forgotten)'
 refused 'the plug-in cannot be loaded: ' forgotten.cpp "${by_flags[@]}"
 [[ ! -e forgotten.so ]] || fail "forgotten.so is left"
 adapter unusual '.vertex_triangle([](int) { return true; })'
-# An output that is no plug-in is not replaced.
+# tools/subject replaces no file that is no plug-in.
 echo mine >precious.so
 refused "found './precious.so', which is no plug-in" -o precious.so unusual.cpp
 [[ $(cat precious.so) == mine ]] || fail "precious.so was replaced"

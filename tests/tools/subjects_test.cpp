@@ -1,4 +1,5 @@
-// Subjects on the command line: nearmiss subjects, contracts, and the names with which findings can be replayed.
+// Subjects on the command line: nearmiss subjects, contracts, and the names by which commands replay
+// findings.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -52,7 +53,7 @@ TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
   EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/subject -o /"));
 }
 
-// If a program found the worker of another build, it would misread the worker's answers.
+// nearmiss refuses a worker of another build, because it would misread the worker's answers.
 TEST_F(CommandLine, AWorkerOfAnotherBuildIsRefused) {
   std::filesystem::copy_file(NEARMISS_EXECUTABLE, file("copied"));
   const auto worker = std::filesystem::path(NEARMISS_EXECUTABLE).parent_path() / "nearmiss-worker";
@@ -145,7 +146,7 @@ TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
   EXPECT_THAT(again, HasSubstr(" --query-time 7s --query-memory 2147483648"));
 }
 
-/// The counter of this name, or 0 if the counts do not have it.
+/// The counter with this name; 0 if `counts` do not have it.
 std::uint64_t count(const nlohmann::json& counts, const std::string& name) { return counts.value(name, 0U); }
 
 TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {

@@ -1,4 +1,4 @@
-// Tests the command line with failures during the work, and when memory is short.
+// Tests the command line with failures while a command works, and with little memory.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -107,7 +107,7 @@ TEST_F(CommandLine, ASceneOutlastsALockOfItsStore) {
   {
     const testing::Database other(file("a.db"));
     other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
-    scene.send(SIGINT);  // it saves, and saves its picture, while the store is locked
+    scene.send(SIGINT);  // then it saves its results and its picture, while the store is locked
     std::this_thread::sleep_for(std::chrono::seconds(4));
     EXPECT_FALSE(scene.has_ended()) << read("error.txt");
   }
@@ -146,7 +146,7 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1) << output.error;
   EXPECT_THAT(output.error, HasSubstr("a.db: "));
   expect_code(1, "merge b.db a.db");
-  // Nothing is left of what could not be written.
+  // A file that could not be written completely is removed.
   expect_code(2, "replay hit.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
   EXPECT_THAT(expect_code(2, "scene spikes@400 --subject wang --export new", "ulimit -f 8;").error,
               HasSubstr("cannot be written"));
@@ -242,7 +242,7 @@ TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
   Background replay(file(""), "replay hit.vt --subject wang --db a.db --json unread");
   ASSERT_TRUE(replay.wait_until([&] { return !read("out.txt").empty(); })) << read("error.txt");
   replay.send(SIGTERM);
-  const int reader = open(file("unread").c_str(), O_RDONLY | O_NONBLOCK);  // ends a command that still waits
+  const int reader = open(file("unread").c_str(), O_RDONLY | O_NONBLOCK);  // lets a waiting command go on
   (void)replay.wait_until([] { return false; });
   close(reader);
   EXPECT_EQ(replay.code(), 130) << read("error.txt");
@@ -250,7 +250,7 @@ TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
 }
 
 TEST_F(CommandLine, FewThreadsAreEnoughIfTheyAreLimited) {
-  // Limits of numbers do not apply to root. A thread of TBB has a stack of 4 MB.
+  // A limit on the number of processes does not apply to root. A thread of TBB has a stack of 4 MB.
   const std::string user = geteuid() == 0 ? "setpriv --reuid 12345 --regid 12345 --clear-groups " : "";
   std::vector<std::string> limits{"ulimit -s 8192; ulimit -v 4000000;",
                                   "ulimit -s 2000000; ulimit -v 4000000;"};
@@ -308,7 +308,7 @@ class SmallCgroup {
   }
 
   [[nodiscard]] bool exists() const { return exists_; }
-  /// The command by which a shell enters it.
+  /// The command with which a shell enters this cgroup.
   [[nodiscard]] std::string enter() const { return "echo $$ >" + (folder_ / "cgroup.procs").string() + ";"; }
 
  private:
@@ -323,7 +323,7 @@ class SmallCgroup {
   bool exists_ = false;
 };
 
-// The system ends only processes of the plug-in, whichever of these it chooses.
+// The system ends only processes of the plug-in, no matter which process it chooses.
 TEST_F(CommandLine, APluginThatUsesUpTheMemoryOfACgroupEndsAlone) {
   const SmallCgroup small;
   if (!small.exists()) GTEST_SKIP() << "found no cgroup whose memory can be limited";

@@ -1,4 +1,5 @@
-// Two versions of a CCD on the command line: names, fixed and broken queries, and the replay of a broken one.
+// Two versions of a CCD on the command line: their names, fixed and broken queries, and the replay of a
+// broken query.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -15,7 +16,7 @@ class VersionsOfACcd : public CommandLine {
     std::filesystem::copy(plugin("v2"), file("v2.so"));
   }
 
-  /// Sums a number over classes and kinds.
+  /// The sum of a number over all classes and kinds.
   static std::uint64_t sum(const nlohmann::json& versions, const char* of) {
     std::uint64_t sum = 0;
     for (const auto& each : versions) sum += each[of].get<std::uint64_t>();
@@ -78,7 +79,7 @@ TEST_F(VersionsOfACcd, ThatAreProgramsAreNamedAndReplayedByTheirFiles) {
   }
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py'",
                  {"such as 'NAME=pipe:" NEARMISS_PYTHON " one.py'"});
-  // A word that is too long for a file name names no file.
+  // A word too long for a file name must not be taken for a file.
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py " + std::string(300, 'x') + "'",
                  {"two subjects named"});
 }

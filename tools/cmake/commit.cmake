@@ -14,8 +14,8 @@ string(STRIP "${commit}" commit)
 if(NOT prefix STREQUAL "\n" OR NOT commit)
   set(commit unknown)
 else()
-  # Only changes of the source code count: a test, a document or a user's file does not change what nearmiss
-  # does.
+  # Only changes of the source code count, because tests, documents and users' files do not change what
+  # nearmiss does.
   set(code CMakeLists.txt ccd oracle corpus fuzz reports tools)
   git(changes status --porcelain -- ${code})
   if(changes)

@@ -18,7 +18,7 @@ if("tests" IN_LIST NEARMISS_COMPONENTS)
   endforeach()
 endif()
 
-# The component tools contains what trial needs, and more.
+# The component tools includes all that the component trial needs.
 if("tools" IN_LIST NEARMISS_COMPONENTS OR "trial" IN_LIST NEARMISS_COMPONENTS)
   set(NEARMISS_HOLDS_TRIALS ON)
 else()

@@ -29,7 +29,7 @@ file(CONFIGURE OUTPUT ${debian}/changelog.Debian CONTENT "nearmiss (${version}) 
 " @ONLY)
 execute_process(COMMAND gzip -9nkf ${debian}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
 
-# nearmiss_package(NAME SECTION COMPONENT...): makes a package of components, with the description in
+# nearmiss_package(NAME SECTION COMPONENT...): makes a package of these components. Its description is
 # tools/debian/NAME.txt.
 macro(nearmiss_package name section)
   string(MAKE_C_IDENTIFIER ${name} group)
@@ -59,7 +59,7 @@ set(CPACK_DEBIAN_LIBNEARMISS_TRIAL1_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/
 set(CPACK_DEBIAN_LIBNEARMISS_DEV_PACKAGE_DEPENDS
   "libnearmiss1 (= ${version}), libnearmiss-trial1 (= ${version}), libeigen3-dev")
 set(CPACK_DEBIAN_NEARMISS_PACKAGE_SUGGESTS "libnearmiss-dev")
-# The modules are built for one version of Python.
+# The extension modules work only with the version of Python for which they are built.
 math(EXPR next "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON3_NEARMISS_PACKAGE_DEPENDS
   "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next}), python3-numpy (>= 1:1.22)")

@@ -1,28 +1,30 @@
-# Copies headers so that a program can switch named edits, such as planted defects, on and off while it runs.
+# Copies headers with named edits, such as planted defects, which a program can switch on and off while it
+# runs.
 #
 # A list of edits has this form:
 #
 #   == GROUP ==
 #
 #   NAME in FILE: what the edit makes wrong
-#   - the text of an expression or a statement, which must be in the file once; blanks and line ends match any
-#     others
+#   - the text of an expression or a statement, which must be in the file once; blanks and line ends match
+#     any others
 #   + the text that replaces it
 #   and in FILE (2 of 3)
-#   - one more place of the same edit, the second of the three places with this text
+#   - the text at another place of the same edit: the second of three places in FILE with this text
 #   + the text that replaces it
 #
-# In a copy, an expression becomes (makes(17) ? (EDITED) : (TEXT)), and a statement, which ends with ; or },
-# becomes if (makes(17)) { EDITED } else { TEXT }. Edits are numbered from 1. The text of one edit may contain
-# that of another, but texts must not overlap otherwise.
+# For edit 17, the copy has (makes(17) ? (EDITED) : (TEXT)) in place of an expression TEXT, and if
+# (makes(17)) { EDITED } else { TEXT } in place of a statement TEXT, which ends with ; or }. Edits are
+# numbered from 1. The text of one edit may contain the whole text of another; texts must not overlap in any
+# other way.
 
 if(NOT nearmiss_unedited)
   set(nearmiss_unedited ${PROJECT_SOURCE_DIR})  # the tree whose headers are copied
 endif()
 
 # Reads a list of edits. Sets `rows` to a table with {NAME, ABOUT, GROUP} of each edit, and `places` to the
-# number of places; and for each place N, place_N_edit (the number of its edit), place_N_name, _file, _nth,
-# _of, _before and _after.
+# number of places. For each place N, sets place_N_edit to the number of its edit, and place_N_name, _file,
+# _nth, _of, _before and _after to what the list says.
 macro(nearmiss_read_edits list)
   file(READ ${list} unread)
   set(rows "")
@@ -126,9 +128,10 @@ function(nearmiss_switch file text result)
 endfunction()
 
 # nearmiss_edited_copies(LIST SPACE SWITCH HEADER...): copies each header "folder/file.hpp" to
-# "SPACE/folder/file.hpp" in the build folder, and puts the copy into the namespace nearmiss::SPACE. A copy has
-# a switch for each edit of the file LIST, which names headers without their folder. The copies include each other, and the header SWITCH,
-# which declares `makes`. They cause no warnings. "SPACE/edits.inc" is the table of the edits.
+# "SPACE/folder/file.hpp" in the build folder, and puts the copy into the namespace nearmiss::SPACE. A copy
+# has a switch for each edit of its header in the file LIST, which names headers without their folders. The
+# copies include each other in place of the originals, and the header SWITCH, which declares `makes`; they
+# cause no warnings. "SPACE/edits.inc" is the table of the edits.
 function(nearmiss_edited_copies list space switch)
   nearmiss_read_edits(${list})
   list(TRANSFORM ARGN REPLACE ".*/" "" OUTPUT_VARIABLE files)

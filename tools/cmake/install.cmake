@@ -1,12 +1,12 @@
-# Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (the
-# library, its headers, the target nearmiss::oracle, and a file for pkg-config), trial (the same without the
-# file, fuzz/CMakeLists.txt) and tools (tools/CMakeLists.txt).
+# Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (a
+# library, its headers, the target nearmiss::oracle, and a file for pkg-config), trial (a library, its
+# headers and the target nearmiss::trial; see fuzz/CMakeLists.txt) and tools (see tools/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. The installed headers
-# include "nearmiss/ccd/query.hpp" instead of "ccd/query/query.hpp", so that they cannot pick up a folder of
-# the user's.
+# Headers lie flat in include/nearmiss, and those of the templates in include/nearmiss/ccd. Installed headers
+# include "nearmiss/ccd/query.hpp" in place of "ccd/query/query.hpp", which might be found in a user's folder
+# ccd.
 set(query arithmetic error kind query scalar)
 set(wang advance basic cubic motion pair_bound plane_culling proximity quadratic tolerances ve_culling verdict
   vertex_edge vertex_vertex wang wang_time within)
@@ -46,7 +46,7 @@ set(nearmiss_private ${CMAKE_INSTALL_LIBDIR}/nearmiss)  # for files that users d
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/nearmiss)
 set(written ${PROJECT_BINARY_DIR}/install)
 
-# nearmiss_install_target(COMPONENT TARGET): nearmiss::COMPONENT for find_package.
+# nearmiss_install_target(COMPONENT TARGET): installs a target as nearmiss::COMPONENT, for find_package.
 function(nearmiss_install_target component target)
   add_library(nearmiss::${component} ALIAS ${target})  # for projects that have this one as a subdirectory
   target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
@@ -60,7 +60,7 @@ if("ccd" IN_LIST NEARMISS_COMPONENTS)
   add_library(nearmiss_templates INTERFACE)
   set_target_properties(nearmiss_templates PROPERTIES EXPORT_NAME ccd)
   target_compile_features(nearmiss_templates INTERFACE cxx_std_20)
-  # Every operation must be rounded to double; ccd/README.md says why.
+  # Users of the templates must also round every operation to double; ccd/README.md says why.
   target_compile_options(nearmiss_templates INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
   target_link_libraries(nearmiss_templates INTERFACE Eigen3::Eigen)
   nearmiss_install_headers(ccd-dev ${templates} ccd/nearmiss_subject.h ccd/nearmiss_record.h ccd/nearmiss_functions.hpp ccd/subjects/number_options.hpp)

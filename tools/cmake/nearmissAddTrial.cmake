@@ -1,13 +1,14 @@
 # nearmiss_add_trial(NAME name SOURCES adapter.cpp [TARGET library...] [CASES 100000] [SEED 1] [SEPARATION h|drawn]
 #                    [FAMILIES name...] [OPTIONS option...]): builds a plug-in of the adapter, which describes a
-# detector (nearmiss/ccd/nearmiss_functions.hpp), and adds a test that puts it on trial. The test writes its results
-# to name.xml in the build folder, as JUnit's XML. OPTIONS are further options of nearmiss fuzz.
+# detector (nearmiss/ccd/nearmiss_functions.hpp), and adds a test that puts the plug-in on trial. The test
+# writes its results to name.xml in the build folder, as JUnit's XML. OPTIONS are further options of nearmiss
+# fuzz.
 function(nearmiss_add_trial)
   cmake_parse_arguments(PARSE_ARGV 0 trial "" "NAME;CASES;SEED;SEPARATION" "SOURCES;TARGET;FAMILIES;OPTIONS")
   if(NOT trial_NAME OR NOT trial_SOURCES OR trial_UNPARSED_ARGUMENTS OR trial_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "nearmiss_add_trial: found '${trial_UNPARSED_ARGUMENTS}${trial_KEYWORDS_MISSING_VALUES}', expected NAME and SOURCES, a value for each argument, and none but those that it lists")
   endif()
-  # The caller may have found the package in another folder of the project.
+  # The caller's scope may lack the package's targets, if another folder of the project has found the package.
   find_package(nearmiss 1 REQUIRED COMPONENTS tools PATHS ${CMAKE_CURRENT_FUNCTION_LIST_DIR} NO_DEFAULT_PATH)
   if(NOT DEFINED trial_CASES)
     set(trial_CASES 100000)

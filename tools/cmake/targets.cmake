@@ -2,7 +2,7 @@
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  # ccache caches files with precompiled headers only if it may ignore their macros and times.
+  # ccache caches a file with precompiled headers only if it may ignore macros of the headers and their times.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
@@ -22,7 +22,7 @@ if(NEARMISS_LIBFUZZER)
   add_link_options(-fsanitize=undefined)  # provides the runtime of coverage to executables without libFuzzer
 endif()
 
-# The options of the vector instructions of x86-64; another processor has others, which need none.
+# The compiler options for the vector instructions of x86-64. Those of other processors need no options.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(nearmiss_avx2 -mavx2)
   set(nearmiss_avx512 -mavx512f -mavx512dq -mavx512vl)
@@ -32,12 +32,13 @@ endif()
 # Our code joins bools by | to save a branch, although clang advises against it.
 set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 
-# Warnings are errors for developers. Someone who only builds nearmiss may have a compiler that warns of more.
+# Warnings are errors for developers only: whoever just builds nearmiss may have a compiler with more
+# warnings.
 if("tests" IN_LIST NEARMISS_COMPONENTS)
   set(nearmiss_werror -Werror)
 endif()
 
-# nearmiss_options(TARGET): turns on warnings, and makes includes relative to the top folder,
+# nearmiss_options(TARGET): turns on warnings, and makes includes relative to the top folder:
 # "folder/file.hpp".
 function(nearmiss_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion ${nearmiss_werror} ${nearmiss_joined_bools})
@@ -47,28 +48,29 @@ endfunction()
 # The only header of our own that is precompiled in several targets.
 set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statistics.hpp)
 
-# nearmiss_precompile(TARGET HEADER...): compiles once the headers that most files of a target include, most of
-# them of other libraries. The preset debug does not do so, and thus checks that each file includes what it uses.
+# nearmiss_precompile(TARGET HEADER...): precompiles the headers that most files of a target include; most of
+# these headers belong to other libraries. The preset debug does not precompile them, so it checks that each
+# file includes what it uses.
 function(nearmiss_precompile target)
   target_precompile_headers(${target} PRIVATE <algorithm> <functional> <map> <optional> <string> <vector> <Eigen/Core> <Eigen/Geometry>
     ${ARGN})
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    # g++ 12 gives false warnings about the code of std::string, and shows them if its header is precompiled
-    # (bug 105651).
+    # g++ 12 gives false warnings about the code of std::string if the header <string> is precompiled (bug
+    # 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
-    # The precompiled headers alone fill the default heap of g++. Without this option, g++ would collect
-    # garbage again and again, which takes a sixth of the time.
+    # The precompiled headers alone fill the default heap of g++. Without this option, g++ would spend a
+    # sixth of its time on collecting garbage.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=400000)
   endif()
 endfunction()
 
-# nearmiss_seldom_runs(TARGET): for code that seldom runs. Full optimization would take half of its compile
-# time, and save no run time.
+# nearmiss_seldom_runs(TARGET): optimizes less, for code that seldom runs. Full optimization would take half
+# of the compile time of such code, and save no run time.
 function(nearmiss_seldom_runs target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# nearmiss_library(FOLDER LIB...): the library of one folder, from the .cpp files in it. The folder's
+# nearmiss_library(FOLDER LIB...): makes a library of the .cpp files directly in a folder. The folder's
 # CMakeLists.txt adds those of its subfolders.
 function(nearmiss_library folder)
   get_filename_component(name ${folder} NAME)
@@ -79,7 +81,8 @@ function(nearmiss_library folder)
   target_link_libraries(nearmiss_${name} PUBLIC ${ARGN})
 endfunction()
 
-# nearmiss_tests(FOLDER LIB...): one GoogleTest executable from tests/FOLDER/*.cpp; CTest knows each test.
+# nearmiss_tests(FOLDER LIB...): makes a GoogleTest executable of tests/FOLDER/*.cpp, and adds each of its
+# tests to CTest.
 function(nearmiss_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp)
   add_executable(${folder}_tests ${sources})
@@ -95,11 +98,12 @@ endfunction()
 # nearmiss_uses_cgal(TARGET): settings of a target that includes CGAL's number types.
 function(nearmiss_uses_cgal target)
   target_link_libraries(${target} PRIVATE CGAL::CGAL)
-  # Interval arithmetic changes the rounding mode, which the compiler must know.
+  # The compiler must know that interval arithmetic changes the rounding mode.
   target_compile_options(${target} PRIVATE -frounding-math)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT NEARMISS_CLANG_TIDY)  # clang-tidy does not know the options
-    # g++ 12 gives two false warnings. It sees a use after free in CGAL's inlined reference-counted handles,
-    # and a mismatched delete in CGAL's Mpzf, which resets its pointer to the address from new[] first.
+    # g++ 12 gives two false warnings: of a use after free in CGAL's inlined reference-counted handles, and
+    # of a mismatched delete in CGAL's Mpzf, which first resets its pointer to the address that new[]
+    # returned.
     target_compile_options(${target} PRIVATE -Wno-use-after-free -Wno-mismatched-new-delete)
   endif()
 endfunction()

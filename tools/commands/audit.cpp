@@ -1,5 +1,5 @@
-// nearmiss audit: compares the paper's rounding constants with those that the paper's rules give for our
-// code, and with those that are proven.
+// nearmiss audit: compares the paper's rounding constants with the constants that the paper's rules give for
+// our code, and with proven constants.
 #include "fuzz/studies/audit.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ std::string number(double value, const char* format) {
 
 ordered_json or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
-/// The distance bound of the smallest tolerances, in units of B.
+/// The distance bound that the smallest possible tolerances give, in units of B.
 double bound_over_B(const ToleranceRow& row) { return row.tight_bound * std::exp2(row.exponent / 4.0); }
 
 ordered_json json_of(const std::vector<RoundingConstant>& constants,

@@ -45,7 +45,7 @@ struct Options {
   PluginLimitOptions limits;
   SeparationOption separation;
   std::vector<std::string> families{"uniform", "uniform-end", "uniform-slow"};
-  std::vector<std::string> kinds;  ///< of the random queries; all that a family has if empty
+  std::vector<std::string> kinds;  ///< kinds of the random queries; if empty, all that a family has
   std::uint64_t queries = 20000;
   int runs = 31;
   bool judge = false;
@@ -60,20 +60,21 @@ struct Input {
   Queries queries;  ///< queries that pass the box test
 };
 
-/// Times of one subject on one input in ns per query, one entry for each run; NaN if it answered no query.
+/// Times of one subject on one input in ns per query, one entry for each run; NaN if the subject answered no
+/// query.
 using RunTimes = std::vector<double>;
 
-/// What the oracle says of a subject's answers.
+/// How a subject's answers compare with the oracle's.
 struct Judged {
-  std::uint64_t collisions = 0, missed = 0, others = 0, reported = 0;  ///< of the queries that were answered
+  std::uint64_t collisions = 0, missed = 0, others = 0, reported = 0;  ///< only answered queries count
 };
 
-/// What is measured of one subject on one input, one entry for each run.
+/// The measurements of one subject on one input, one entry for each run.
 struct Measured {
   RunTimes times;
-  RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not say that
+  RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not give it
   RunTimes
-      throughput;  ///< queries per second of wall-clock time, passed to a process and back; NaN without one
+      throughput;  ///< queries per second of wall-clock time through the subject's process; NaN without one
   std::optional<Judged> judged = {};
 };
 
@@ -82,8 +83,8 @@ std::string named(std::string name, const SeparationOption& separation) {
   return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
 }
 
-/// For each kind that is asked, the first `count` queries of a family that pass the box test. They are made
-/// on all processors. Throws Stopped.
+/// For each kind that is asked, the first `count` queries of a family that pass the box test; made on all
+/// processors. Throws Error if fewer than one query in 1000 passes, and Stopped.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};
@@ -143,7 +144,7 @@ std::chrono::duration<double> repeat(const Pass& pass) {
   return now - start;
 }
 
-/// Times a subject as in a trial, and adds the times per query. Without an answer, they are NaN.
+/// Times a subject as a trial does, and adds the times per query to `measured`; NaN if it answered no query.
 void time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts,
                Measured& measured) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -170,14 +171,14 @@ void time_once(const Subject& subject, const std::vector<Query>& queries, std::v
   measured.throughput.back() = asked / passed.count();
 }
 
-/// Counts the queries without an answer. The answers themselves are not judged.
+/// Counts all queries, and those without an answer. Does not judge the answers.
 void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
   counts.queries += verdicts.size();
   for (const Verdict& each : verdicts)
     if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
 }
 
-/// Judges answers on all processors, those to queries as the subject rounds them.
+/// Judges answers on all processors. The truth is that of the queries after the subject's rounding.
 Judged judge(const Subject& subject, std::span<const Query> queries, std::span<const Verdict> verdicts,
              const Stop& stop) {
   constexpr std::size_t at_once = 1024;
@@ -196,7 +197,7 @@ Judged judge(const Subject& subject, std::span<const Query> queries, std::span<c
       decide(rounded, truths);
       for (std::size_t i = start; i < end; ++i) {
         const Decision& truth = truths[i - start];
-        if (verdicts[i].fault != Fault::none || truth.is_tie) continue;  // both answers are right for a tie
+        if (verdicts[i].fault != Fault::none || truth.is_tie) continue;  // for a tie, yes and no are right
         ++(truth.collision ? own.collisions : own.others);
         own.missed += truth.collision && !verdicts[i].hit ? 1 : 0;
         own.reported += !truth.collision && verdicts[i].hit ? 1 : 0;
@@ -211,8 +212,9 @@ Judged judge(const Subject& subject, std::span<const Query> queries, std::span<c
   return sum;
 }
 
-/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike. Judges the
-/// answers of the last run if `judges`. Adds the queries and faults of each subject to `answered`, and its misses.
+/// Times the subjects by turns in every run, so that noise of the machine affects all of them alike. If
+/// `judges`, judges the answers of the last run. Adds each subject's queries and faults, and its misses if
+/// judged, to `answered`.
 std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                bool judges, const Stop& stop, Statistics& answered) {
   std::vector<Measured> measured(subjects.size());
@@ -233,14 +235,14 @@ std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query
   return measured;
 }
 
-/// The median, over the runs, of a subject's time divided by the first subject's time in the same run.
+/// The median over the runs of a ratio: a subject's time divided by the first subject's time in the same run.
 double median_ratio(const RunTimes& times, const RunTimes& first) {
   RunTimes ratios;
   for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / first[i]);
   return median(ratios);
 }
 
-/// Times of all kinds together, each kind weighted by its number of queries.
+/// The measurements of all kinds together, each kind weighted by its number of queries.
 std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind,
                                const std::vector<double>& weights) {
   const std::size_t runs = by_kind.front().front().times.size();
@@ -254,7 +256,7 @@ std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind
   return sum;
 }
 
-/// The chosen families, each with the chosen kinds. Throws Error.
+/// The chosen families, each with the chosen kinds. Throws Error for an unknown family or kind.
 std::vector<Family> families_of(const Options& options) {
   std::vector<Kind> kinds;
   for (const std::string& each : options.kinds) kinds.push_back(parse_kind(each, "--kind"));
@@ -267,8 +269,8 @@ std::vector<Family> families_of(const Options& options) {
   return families;
 }
 
-/// Throws Error unless there is memory for the random queries of a family, their answers, and what each
-/// plug-in shares with nearmiss.
+/// Throws Error unless there is memory for the random queries of a family, their answers, and the memory
+/// that nearmiss shares with each plug-in.
 void expect_room(const Options& options, const std::vector<Family>& families, const Subjects& subjects,
                  const isolation::PluginLimits& limits) {
   std::uint64_t bytes = options.queries * sizeof(Verdict);
@@ -281,7 +283,7 @@ void expect_room(const Options& options, const std::vector<Family>& families, co
   isolation::expect_memory(fmt::format("--queries {}", options.queries), bytes + most);
 }
 
-/// Throws Error if a subject can answer no kind of the queries that have a separation.
+/// Throws Error if there are queries with a separation, and a subject can answer none of their kinds.
 void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
                            const Options& options, const Subjects& subjects) {
   std::set<Kind> separated;
@@ -299,7 +301,7 @@ std::string in_table(double number, int decimals) {
   return std::isnan(number) ? "no answer" : fmt::format("{:.{}f}", number, decimals);
 }
 
-/// Prints a line for each subject to `out`. `kind` is vt, ee or both.
+/// Prints a line for each subject to `out`. `kind` is the name of a kind, or "both".
 void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, std::string_view kind,
                 std::size_t queries, const std::vector<Measured>& measured) {
   for (std::size_t s = 0; s < subjects.size(); ++s) {
@@ -351,7 +353,8 @@ void add_rows(Results& results, const Subjects& subjects, const Input& input, Ki
   }
 }
 
-/// Times, prints to `out` and records one input: each of its kinds, then both together.
+/// Times the subjects on one input: on each of its kinds, and on all kinds together. Prints the times to
+/// `out`, and adds them to `results`.
 void time_input(const Subjects& subjects, const Input& input, const Options& options, const Stop& stop,
                 std::FILE* out, Results& results) {
   std::vector<std::vector<Measured>> by_kind;
@@ -398,9 +401,9 @@ int run(const Options& options) {
   try {
     const auto time = [&](const Input& input) { time_input(subjects, input, options, stop, out, results); };
     std::ranges::for_each(files, time);
-    for (const Family& family : families)  // one after the other, because they may need much memory
+    for (const Family& family : families)  // one at a time, because of their memory
       time(family_input(family, options.queries, options.separation, stop));
-  } catch (const Stopped&) {  // the inputs that were timed before the stop are still reported
+  } catch (const Stopped&) {  // still reports the inputs that were timed before the stop
   }
   if (!options.history.empty() && !stop.is_requested()) {
     results.run.about.merge(run_info("bench"));

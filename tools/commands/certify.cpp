@@ -29,7 +29,7 @@ Certificates statements_about(const Query& query, const Options& options) {
   return all;
 }
 
-/// The reason that is printed if a statement about a query has no certificate.
+/// The text that is printed if a statement about a query has no certificate: the reason.
 const char* why_none(const Query& query) {
   return query.separation > 0
              ? "no proof was found: perhaps the distance reaches h at an irrational time, and neither falls "

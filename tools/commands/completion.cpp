@@ -16,7 +16,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The long options of a subcommand, including those in groups.
+/// The long options of a subcommand, including those in option groups.
 std::vector<std::string> options_of(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* group : command.get_subcommands({}))
@@ -48,8 +48,9 @@ std::vector<std::string> sweep_names() {
   return names;
 }
 
-/// A script for bash. It completes subcommands; options; the last name of a list of subjects (which may be
-/// files), families or sweeps; and otherwise files. Bash passes "--option=value" as three words.
+/// A completion script for bash. It completes subcommands, options, the last name in a list of families,
+/// sweeps or subjects (which may be files), and files everywhere else. Bash passes "--option=value" to it as
+/// three words.
 std::string bash_script(const CLI::App& app) {
   std::vector<std::string> names;
   std::string options;

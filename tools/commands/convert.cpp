@@ -33,14 +33,14 @@ struct Options {
   std::string format = "plain";
 };
 
-/// Makes the folder of a file.
+/// Makes the folder of a file, and returns the file.
 fs::path in_folder(fs::path file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   return file;
 }
 
-/// New files in a folder, which get their names when all of them are complete.
+/// New files in a folder. They get their names only when all of them are complete.
 class NewFiles {
  public:
   explicit NewFiles(fs::path folder) : folder_(std::move(folder)) {}
@@ -51,7 +51,7 @@ class NewFiles {
     place->second.write(text);
   }
 
-  /// Throws Error if something cannot be written.
+  /// Completes the files, and gives them their names. Throws Error if one of them cannot be written.
   void finish() {
     for (auto& [name, file] : files_) file.close();
     for (auto& [name, file] : files_) file.put_in_place();
@@ -62,7 +62,8 @@ class NewFiles {
   std::map<fs::path, NewFile> files_;
 };
 
-/// The query, with its exact truth, as lines of "plain", "csv" or "json"; its file.
+/// The file for a query in the format "plain", "csv" or "json", and the query's lines in this file. The
+/// lines of "plain" and "csv" include the exact truth. Throws Error if the format cannot hold the query.
 std::pair<fs::path, std::string> converted(const std::string& format, const Case& each, bool truth) {
   const Query& query = each.query;
   if (format == "plain")
@@ -80,15 +81,16 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
 int run(const Options& options) {
   NewFiles files(options.folder);
   std::uint64_t count = 0, wrong = 0;
-  std::map<fs::path, std::vector<bool>> truths;  // of the files of "json"
+  std::map<fs::path, std::vector<bool>> truths;  // the truths of the queries in each file of "json"
   for (const fs::path& path : options.paths)
     read_cases(path, [&](Case&& each) {
       ++count;
-      // Unlike collides(), this is true if the smallest distance is exactly the separation.
+      // Unlike collides(), earliest_time() also answers yes if the smallest distance is exactly the
+      // separation.
       const bool truth = earliest_time(each.query).has_value();
       if (each.truth && *each.truth != truth && each.query.separation == 0) ++wrong;
       if (options.format == "case") {
-        // Written at once, because the system limits the number of open files.
+        // Writes each case file at once, because the system limits the number of open files.
         each.truth = truth;
         const fs::path file = in_folder(options.folder / fmt::format("{:06}.case", count));
         expect_new(file);

@@ -1,4 +1,4 @@
-// nearmiss demo: shows in a moment what the tool does.
+// nearmiss demo: shows within a second what nearmiss does.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -33,7 +33,8 @@ struct Options {
   PluginLimitOptions limits;
 };
 
-/// Prints a line for each of `count` queries of one kind, from the index `first` on: the query or, with
+/// Prints a line for each of `count` queries of one kind, starting with the index `first`. A line has the
+/// query or, with
 /// --factors, its factors. With --class, leaves out queries of other classes.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
@@ -50,8 +51,8 @@ void print_queries(const Options& options, const Family& family) {
   }
 }
 
-/// Prints how many of the queries, and how many of the collisions among them, belong to each class, or are
-/// degenerate by each rule.
+/// Prints for each kind how many of the queries, and how many of the collisions among them, are ordinary, and
+/// how many are not ordinary by each rule.
 void print_classes(const Options& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;
@@ -92,8 +93,8 @@ void print_coverage(const Options& options) {
   print_combinations("triples", found.triples, options.count);
 }
 
-/// Asks a subject about the queries, and prints for each kind what the missed collisions have in common.
-/// Leaves out queries without an answer.
+/// Asks a subject about the queries, and prints for each kind the factors that the missed collisions have in
+/// common. Leaves out queries without an answer.
 void print_common_factors(const Options& options, const Family& family) {
   const auto asked =
       keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), false);

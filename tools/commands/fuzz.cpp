@@ -27,7 +27,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// A line for each family with its class, and one for its parameter.
+/// A line for each family with its class, followed by a line for its parameter if it has one.
 std::string list_of_families() {
   std::string lines;
   for (const Family& family : all_families()) {
@@ -43,7 +43,7 @@ std::string list_of_families() {
   return lines;
 }
 
-/// The options for the campaign's length, its shard, and where the results go.
+/// Adds the options for the campaign's length, its shard, and the files of its results.
 void add_common(CLI::App& command, CampaignOptions& options) {
   auto* limit = command.add_option_group("limit", "Length");
   auto* cases = add_count_option(*limit, "--cases", options.cases, 1, most_queries,
@@ -74,7 +74,7 @@ void add_common(CLI::App& command, CampaignOptions& options) {
       ->needs("--db");
 }
 
-/// The scalars with names of their own, and those of 24, 32, ... 128 bits.
+/// The scalars of a ladder by default: all with names of their own, and those of 24, 32, ... 128 bits.
 std::vector<std::string> default_scalars() {
   std::vector<std::string> names;
   for (const ladder::Scalar& scalar : named_scalars()) names.push_back(scalar.name);
@@ -82,7 +82,7 @@ std::vector<std::string> default_scalars() {
   return names;
 }
 
-/// The files of the plug-ins among some subjects. Throws Error if there is none.
+/// The files of the plug-ins among some subjects. Throws Error if no subject is a plug-in.
 std::vector<std::filesystem::path> files_to_watch(const std::vector<std::string>& subjects) {
   std::vector<std::filesystem::path> files;
   for (const std::string& subject : subjects)
@@ -94,7 +94,7 @@ std::vector<std::filesystem::path> files_to_watch(const std::vector<std::string>
   return files;
 }
 
-/// When the files were last written; the earliest time for one that is not there.
+/// The times at which the files were last written; for a missing file, the earliest possible time.
 std::vector<std::filesystem::file_time_type> written(const std::vector<std::filesystem::path>& files) {
   std::vector<std::filesystem::file_time_type> times;
   std::error_code missing;
@@ -122,7 +122,7 @@ void watch(const CampaignOptions& options, int& exit_code) {
     try {
       exit_code = record_campaign(options);
       if (exit_code == exit_interrupted) return;
-    } catch (const Error& error) {  // a plug-in that cannot be loaded may be mended
+    } catch (const Error& error) {  // such as a plug-in that cannot be loaded, which the user may repair
       fmt::print(stderr, "nearmiss: {}\n", printable(error.what()));
     }
     fmt::print(stderr, "watching {}; ^C ends this\n", fmt::join(options.trial.subjects, ", "));

@@ -11,7 +11,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// Reads the intact parts of several stores as one campaign, and prints the rows that were lost.
+/// Reads the intact parts of several stores as one campaign, and prints how many rows were lost.
 Campaign salvage_campaigns(const std::vector<std::filesystem::path>& files) {
   std::vector<Campaign> campaigns;
   std::vector<std::string> names;

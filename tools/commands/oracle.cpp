@@ -20,7 +20,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-// Values of --method in addition to the methods' names.
+// Values that --method takes in addition to the names of methods.
 constexpr const char* filtered = "filtered";
 constexpr const char* all = "all";
 
@@ -33,7 +33,7 @@ struct Options {
   bool distance = false;
 };
 
-/// The oracle's own answers disagree: a defect of the oracle.
+/// Thrown if methods of the oracle disagree about a query, which is a defect of the oracle.
 class Disagreement : public std::exception {
  public:
   explicit Disagreement(const Query& query)
@@ -49,16 +49,17 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// As in the library, a smallest distance of exactly h > 0 is a yes. "-" if a complete method does not know, and if
-/// root parity says nothing about such queries.
+/// "1" for yes, "0" for no. As in the library, a smallest distance of exactly h > 0 is a yes. "-" if a
+/// complete method cannot tell, or if any other method, such as root parity, gives no answer for such
+/// queries.
 const char* show(const Answer& answer, Claim claim) {
   const auto said = answer.at_most ? answer.at_most : answer.collision;
   if (!said && (claim == Claim::complete || !answer.is_answer())) return "-";
   return said.value_or(false) ? "1" : "0";
 }
 
-/// The answer of `method`: of the oracle as trials use it ("filtered"), of one exact method, or of all.
-/// Throws Disagreement if all methods are asked and their answers differ.
+/// The answer of `method`: "filtered", the oracle as trials use it; the name of an exact method; or "all",
+/// the answer that all exact methods give. Throws Disagreement for "all" if their answers differ.
 const char* answer_by(const std::string& method, const Query& query) {
   if (method == filtered) return show(to_answer(query, decide(query)), Claim::complete);
   if (method == all) {

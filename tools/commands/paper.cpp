@@ -33,7 +33,7 @@ struct Options {
   JsonOutput json;
 };
 
-/// Until its end, what is written to a standard stream goes to another file.
+/// Redirects a standard stream to another file until the object is destroyed.
 class Redirection {
  public:
   Redirection(std::FILE* stream, int to) : stream_(stream) {
@@ -65,8 +65,8 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-/// Runs a subcommand in this process, and returns what it writes with --json -. Throws Error if it fails, and
-/// Stopped if it is interrupted.
+/// Runs a subcommand in this process with --json -, and returns its JSON. Throws Error if the subcommand
+/// fails, and Stopped if it is interrupted.
 ordered_json results_of(std::string_view command) {
   int exit_code = exit_fine;
   CLI::App app;
@@ -132,13 +132,13 @@ int run(const Options& options) {
   options.json.expect_writable();
   const Stop stop(interrupted());
   Progress progress(options.quiet);
-  std::map<std::string_view, ordered_json> known;  // claims share commands
+  std::map<std::string_view, ordered_json> known;  // results by command, because claims share commands
   ordered_json json{{"run", run_info("paper")}, {"claims", ordered_json::array()}};
   json["run"].update(ordered_json(environment()));
   double done = 0;
   try {
     for (const Claim* claim : which) {
-      stop_on_signals();  // each command ends this when it is done
+      stop_on_signals();  // each command calls end_on_signals() when it is done
       progress.show(std::string(claim->name), done++ / static_cast<double>(which.size()));
       Results results;
       for (const std::string_view command : claim->commands) {
@@ -149,7 +149,7 @@ int run(const Options& options) {
       print(options.json.text(), *claim, measured);
       json["claims"].push_back(json_of(*claim, measured));
     }
-  } catch (const Stopped&) {  // the claims so far are still written
+  } catch (const Stopped&) {  // still writes the claims that were measured
   }
   end_on_signals();
   options.json.write(json);

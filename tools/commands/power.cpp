@@ -1,4 +1,4 @@
-// nearmiss power: measures how soon each way to hunt finds each of the known defects.
+// nearmiss power: measures how soon each way to hunt finds each known defect.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -84,8 +84,8 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Runs a command in the shell, and returns the end of its output. A signal to nearmiss ends the command, too,
-/// after a second by a kill.
+/// Runs a command in the shell, and returns the end of its output. A signal that ends nearmiss also ends the
+/// command: by SIGTERM, and after a second by SIGKILL.
 std::string output_of(const std::string& command) {
   constexpr std::size_t most_bytes = 1 << 16;
   std::array<int, 2> pipe{};
@@ -97,13 +97,13 @@ std::string output_of(const std::string& command) {
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(exit_bad_input);
   }
-  setpgid(process, process);  // whoever is first
+  setpgid(process, process);  // the child does the same; either may be first
   close(pipe[1]);
   std::string text;
   std::vector<char> buffer(most_bytes);
   bool has_ended = false;
   bool is_open = true;
-  // A process that the command left behind may keep the pipe open, and write.
+  // The command may leave a process behind that keeps the pipe open and writes to it without end.
   constexpr int most_reads_after_the_end = 64;
   int reads_after_the_end = 0;
   auto kill_at = std::chrono::steady_clock::time_point::max();
@@ -114,7 +114,7 @@ std::string output_of(const std::string& command) {
     if (interrupted()) {
       const auto now = std::chrono::steady_clock::now();
       kill_at = std::min(kill_at, now + std::chrono::seconds(1));
-      for (const pid_t each : {-process, process})  // it may have left its group
+      for (const pid_t each : {-process, process})  // the group, and the command if it has left it
         if (!has_ended) kill(each, now < kill_at ? SIGTERM : SIGKILL);
       if (now > kill_at + std::chrono::milliseconds(500)) break;
     }
@@ -127,12 +127,13 @@ std::string output_of(const std::string& command) {
     if (has_ended && (!has_more || ++reads_after_the_end > most_reads_after_the_end)) break;
     if (!has_ended) has_ended = waitpid(process, nullptr, WNOHANG) == process;
   }
-  if (interrupted()) kill(-process, SIGKILL);  // what ignored the first signals
+  if (interrupted()) kill(-process, SIGKILL);  // ends processes that ignored SIGTERM
   close(pipe[0]);
   return text;
 }
 
-/// Reads a number and what follows it. Returns false if there is neither.
+/// Removes a number, and the text `then` after it, from the beginning of a text. Returns false if either is
+/// missing.
 template <class Number>
 bool take(std::string_view& text, Number& number, std::string_view then) {
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -142,8 +143,8 @@ bool take(std::string_view& text, Number& number, std::string_view then) {
   return true;
 }
 
-/// Hunts with one libFuzzer target: runs the command of --libfuzzer with it, and looks in its output for a line
-/// "found after S s, N executions: PATH" or "nothing in ...".
+/// Hunts with one libFuzzer target. Runs the command of --libfuzzer with the target, and looks in the
+/// command's output for a line "found after S s, N executions: PATH" or "nothing in ...".
 Hunt hunt_with_target(const Options& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command = fmt::format("{} --first {} {}s {}", options.libfuzzer, target.name, seconds,
@@ -170,7 +171,8 @@ Hunt hunt_with_target(const Options& options, const std::string& subject,
   return result;
 }
 
-/// Gives each target of the subject an equal share of the time. Returns the failure that was found soonest.
+/// Hunts with each libFuzzer target of the subject for an equal share of the time. Returns the hunt that
+/// found a failure soonest.
 Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   const auto targets = libfuzzer::targets_for(*make_any_subject(subject));
   const double share = parse_duration(options.time, "--time").count() / static_cast<double>(targets.size());
@@ -184,7 +186,7 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   return soonest;
 }
 
-/// "0.12 s  12,345", with a mark for a failure that is no miss; "-" if nothing was found.
+/// "0.12 s  12,345" for a miss, with a mark for any other failure; "-" if the hunt found nothing.
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"
@@ -220,14 +222,14 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
 }
 
 int run(const Options& options) {
-  (void)parse_duration(options.time, "--time");  // refuses a bad one before any work
+  (void)parse_duration(options.time, "--time");  // refuses a bad time before any work
   std::vector<Hunt> results;
   const std::filesystem::path stored = options.json.file();
   if (!stored.empty() && std::filesystem::exists(stored)) results = load_hunts(stored);
   std::vector<std::string> subjects = options.subjects;
   if (subjects.empty())
     for (const Defect& defect : defects()) subjects.push_back(defect.name);
-  for (const std::string& subject : subjects) (void)make_any_subject(subject);  // refuses an unknown one
+  for (const std::string& subject : subjects) (void)make_any_subject(subject);  // refuses unknown subjects
   std::vector<std::string> ways = options.ways;
   if (ways.empty()) {
     ways = {std::string(uniform), std::string(all_families), std::string(search)};

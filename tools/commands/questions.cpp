@@ -1,4 +1,4 @@
-// nearmiss distance and nearmiss step: further questions than whether primitives collide.
+// nearmiss distance and nearmiss step: other questions than whether primitives collide.
 #include <fmt/format.h>
 
 #include <memory>
@@ -31,12 +31,12 @@ struct Options {
 
 constexpr const char* usual_time = "20s";
 
-/// A command, which asks a Question.
+/// The texts of a command that asks one Question.
 struct Command {
   const char *name, *help;
-  const char* function;   ///< of the plug-in interface
-  const char* of_file;    ///< what is printed for each query of a file
-  const char* exit_code;  ///< when it is 1
+  const char* function;   ///< the function of the plug-in interface that answers the question
+  const char* of_file;    ///< what the command prints for each query of a file
+  const char* exit_code;  ///< when the exit code is 1
   bool asks_families_at_rest;
 };
 
@@ -65,7 +65,7 @@ std::set<Kind> kinds_of(const Options& options) {
   return found;
 }
 
-/// Asks about the queries of a file: a line for each query and subject.
+/// Asks all subjects about the queries of a file, and prints a line for each query and subject.
 template <class Question>
 int ask_file(const Options& options, const Subjects& subjects) {
   if (options.kinds.size() != 1) throw Error("--kind: expected the one kind of the queries in the file");
@@ -94,7 +94,7 @@ template <class Question>
 int run(const Options& options, const Command& of) {
   const Stop at_signals(interrupted());
   isolation::PluginLimits limits = options.limits.limits();
-  limits.stop = &at_signals;  // the time limit waits for an answer
+  limits.stop = &at_signals;  // not at the time limit, which waits for the answer
   const Subjects subjects = make_subjects(options.subjects, limits);
   QuestionPlan plan{.kinds = kinds_of(options),
                     .search = !options.no_search,
@@ -144,7 +144,7 @@ void add(CLI::App& app, int& exit_code, const Command& of) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(of.name, of.help);
   add_subject_option(*command, options->subjects);
-  command->get_option("--subject")->required()->allow_extra_args(false);  // FILE may follow
+  command->get_option("--subject")->required()->allow_extra_args(false);  // the next argument may be FILE
   auto* file = command->add_option(
       "FILE", options->file,
       fmt::format("Ask about the queries of a file instead, and print for each: {}", of.of_file));

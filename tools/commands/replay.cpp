@@ -37,8 +37,8 @@ struct Options {
   bool as_answered = false;
 };
 
-/// The family under which a case is counted: the name of its folder, "NAME/". If that folder is edge-edge or
-/// vertex-face, the folder above it counts.
+/// The family under which a case is counted: the name of its folder, "NAME/"; for a folder edge-edge or
+/// vertex-face, the name of the folder above it.
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
@@ -65,7 +65,7 @@ struct Pass {
   std::function<void(const CaseSink&)> read;
 };
 
-/// The answers of the recordings, which are judged without asking anybody.
+/// Passes whose answers come from recordings, so that no subject is asked.
 std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {
@@ -89,11 +89,11 @@ std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& see
   return passes;
 }
 
-/// The cases of files and folders, and the subjects that are asked.
+/// The pass with the cases in files and folders, and the subjects to ask.
 Pass pass_of_cases(const Options& options, std::set<Kind>& seen, const Stop& stop) {
   Pass pass;
   pass.subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
-  for (const fs::path& path : options.paths)  // checks all files before anything is written
+  for (const fs::path& path : options.paths)  // checks all files before the command writes any
     read_cases(path, [&](const Case& each) { seen.insert(each.query.kind); });
   pass.read = [&options](const CaseSink& sink) {
     for (const fs::path& path : options.paths) read_cases(path, sink);
@@ -108,7 +108,7 @@ struct Replayed {
   std::map<Kind, std::uint64_t> with_separation = {};  ///< number of cases with a separation, by their kind
 };
 
-/// Lets the subjects of a pass decide its cases. Results go to the record.
+/// Lets the subjects of a pass decide its cases, and adds the results to the record.
 void hold(const Options& options, const Pass& pass, const Stop& stop, Record& record, Progress& progress,
           Replayed& replayed) {
   const bool shrinks = !options.trial.no_shrink && !options.as_answered;
@@ -130,7 +130,7 @@ void hold(const Options& options, const Pass& pass, const Stop& stop, Record& re
   };
   try {
     pass.read(add);
-  } catch (const Stopped&) {  // the results so far are still reported
+  } catch (const Stopped&) {  // still reports the results so far
   }
   stream.finish();
   trials.finish([&] {

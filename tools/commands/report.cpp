@@ -40,7 +40,7 @@ const nlohmann::ordered_json& list_in(const nlohmann::ordered_json& json, const 
   return json[key];
 }
 
-/// The JSON that nearmiss audit --json writes. Throws Error if the file is something else.
+/// Reads the JSON that nearmiss audit --json writes. Throws Error if the file is something else.
 std::string load_audit(const std::filesystem::path& file) {
   std::string text;
   read_json_file(file, "what nearmiss audit --json keeps", [&](const nlohmann::ordered_json& json) {
@@ -50,7 +50,8 @@ std::string load_audit(const std::filesystem::path& file) {
   return text;
 }
 
-/// The claims and the run of the JSON that nearmiss paper --json writes. Throws Error if the file is something else.
+/// Reads the claims and the run from the JSON that nearmiss paper --json writes. Throws Error if the file is
+/// something else.
 std::string load_paper(const std::filesystem::path& file) {
   nlohmann::ordered_json paper{{"run", nlohmann::ordered_json::object()},
                                {"claims", nlohmann::ordered_json::array()}};
@@ -69,7 +70,8 @@ std::string load_paper(const std::filesystem::path& file) {
   return json_text(paper);
 }
 
-/// The section of the JSON that nearmiss distance --json writes. Throws Error if the file is something else.
+/// Makes a report's section from the JSON that nearmiss distance --json writes. Throws Error if the file is
+/// something else.
 std::string load_distances(const std::filesystem::path& file) {
   std::string text;
   read_json_file(file, "what nearmiss distance --json keeps", [&](const nlohmann::ordered_json& json) {

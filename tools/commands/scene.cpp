@@ -72,7 +72,7 @@ class Export {
     };
     follow_plan(Plan(mesh, leave_out, jobs, is_over), write, {}, is_over);
   }
-  /// Gives the files their names, except empty ones. Throws Error if something could not be written.
+  /// Gives all files that are not empty their names. Throws Error if a file could not be written.
   void finish() {
     for (auto& [kind, file] : files_) {
       file.close();
@@ -84,7 +84,7 @@ class Export {
   std::map<Kind, NewFile> files_;
 };
 
-/// The options that the results of a run depend on, and the command that repeats the run.
+/// The options on which the results of a run depend, and the command that repeats the run.
 RunInfo run_info(const Options& options, const SceneSubjects& all) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + printable_argument(each);
@@ -104,8 +104,8 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   return info;
 }
 
-/// Shows the progress of a scene. In each step, subjects are asked; with --verify-plan, the plan (which pairs
-/// need no CCD) is then verified, which takes most of the time.
+/// Shows the progress of a scene. A step begins with asking the subjects. With --verify-plan, it then
+/// verifies the plan, which says which pairs need no CCD; verifying takes most of the time.
 class SceneProgress {
  public:
   SceneProgress(const Options& options, std::size_t steps, const Record& record)
@@ -171,7 +171,7 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
     trial.hold(step, mesh, [&](double part) { progress.asking(step, part); });
     held.asking += std::chrono::steady_clock::now() - start;
     if (!options.verify_plan) return;
-    record.save_now();  // because verifying takes long
+    record.save_now();  // before verifying, which takes long
     held.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
       progress.verifying(step, part);
       return !stop.is_due();
@@ -179,7 +179,7 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   };
   try {
     for_each_step(scene, is_over, hold);
-  } catch (const Stopped&) {  // the results so far are still reported
+  } catch (const Stopped&) {  // still reports the results so far
   }
   trials.finish([&] { progress.shrinking(trials.to_shrink()); });
   if (!stop.is_due()) exported.finish();
@@ -187,9 +187,9 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   return held;
 }
 
-/// A line for each subject that missed nothing in so few collisions that this says little.
+/// A line for each subject that missed nothing, but was asked too few collisions for this to say much.
 std::string what_few_collisions_show(const Statistics& statistics) {
-  constexpr double much = 0.01;  // of a miss rate
+  constexpr double much = 0.01;  // a rate of misses
   std::string lines;
   for (const auto& [subject, sum] : sums_by(statistics, &CountsKey::subject)) {
     const Counts& counts = sum.counts;
@@ -230,7 +230,7 @@ std::string hunt_around(const Options& options, const Family& family, const Subj
   const CampaignProgress reached = run_campaign(
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
-        std::map<std::size_t, Finding> shrunk;  // by their numbers among all findings of the command
+        std::map<std::size_t, Finding> shrunk;  // by number among all findings of the command
         for (auto& [number, finding] : result.shrunk) shrunk[before + number] = std::move(finding);
         result.shrunk = std::move(shrunk);
         record.add(std::move(result));
@@ -267,7 +267,7 @@ int run(Options options) {
   if (options.plan_only) options.trial.subjects = {h > 0 ? "exact" : "wang"};
   options.record.summary = !options.plan_only;
   const Stop stop(interrupted());
-  (void)options.trial.make_subjects(stop);  // unknown names are refused before meshes are read
+  (void)options.trial.make_subjects(stop);  // refuses unknown names before it reads meshes
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
   if (h > 0) scene = with_separation(std::move(scene), h);
@@ -292,7 +292,7 @@ int run(Options options) {
   std::string longer;
   if (!few.empty() && !stop.is_requested()) {
     const bool is_own_bound =
-        options.bounds == Options().bounds;  // another may be too small around the pairs
+        options.bounds == Options().bounds;  // any other bound may be too small around the pairs
     try {
       const auto family = family_around(options, scene);
       if (family) longer = longer_hunt(options);

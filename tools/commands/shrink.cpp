@@ -29,7 +29,7 @@ struct Options {
   SeparationOption separation;
 };
 
-/// The only case of the file, with the separation of --separation if that is given.
+/// The only case in the file, with the value of --separation if that option is given.
 Case read_one(const Options& options) {
   std::vector<Case> cases;
   read_cases(options.in, [&](Case&& each) { cases.push_back(std::move(each)); });
@@ -39,7 +39,7 @@ Case read_one(const Options& options) {
   return cases.front();
 }
 
-/// How a query fails. The oracle is checked first, because it judges the subject.
+/// The failure on a query. Checks the oracle before the subject, because the oracle judges the subject.
 Finding find_failure(const Case& each, const Subject& subject) {
   std::optional<Failure> failure = oracle_failure(each.query);
   if (!failure) failure = Judge(subject).failure(each.query);
@@ -57,8 +57,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-/// The subject, restricted to one side of its contract. If this query keeps the contract, the subject is
-/// asked only queries that keep it; otherwise, only queries that break it.
+/// The subject, wrapped so that it is asked only queries on the same side of its contract as this query:
+/// those that keep the contract if this query keeps it, otherwise those that break it.
 std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();
@@ -77,7 +77,7 @@ Case shrunk_case(const Finding& finding, const std::string& became) {
           .provenance = "shrunk from " + finding.provenance};
 }
 
-/// Writes a text to a file, whole or not at all, or to stdout.
+/// Writes a text to the file of --out, all of it or nothing; without --out, to stdout.
 void write(const std::string& text, const Options& options, const std::string& became) {
   if (options.out.empty()) {
     fmt::print("{}", text);

@@ -40,7 +40,7 @@ void list_scenes(std::FILE* out) {
     fmt::print(out, "{:<10}{:>7}  {}\n", scene.name, scene.default_size, scene.description);
 }
 
-/// The facts of a run, with every option that its results depend on.
+/// The facts of a run, including every option on which its results depend.
 RunInfo run_info(const Options& options, const Subjects& subjects) {
   const SimulationOptions& of = options.simulation;
   RunInfo info = options.trial.run_info("simulate " + of.scene, subjects);
@@ -52,7 +52,8 @@ RunInfo run_info(const Options& options, const Subjects& subjects) {
   return info;
 }
 
-/// The folder of a subject's meshes: its name as far as it is part of a valid file name.
+/// The name of the folder of a subject's meshes: the subject's name without characters that no file name may
+/// have.
 std::string folder_name(const std::string& subject) {
   const std::string name = file_name(subject);
   return name.find_first_not_of('.') == std::string::npos ? "_" + name : name;
@@ -119,7 +120,7 @@ ScenePicture last_picture(const Simulation& simulation, const std::string& famil
   return marks.picture(fmt::format("{} with {}", family, subject), simulation.motion(), {});
 }
 
-/// Simulates the scene with one subject as its CCD, until the stop is due.
+/// Simulates the scene with one subject as its CCD, to the last step or until `stop` is due.
 void simulate(const Options& options, Simulation simulation, const Subjects& subject, Record& record,
               const Stop& stop, const std::function<void(std::size_t step, std::size_t steps)>& progress) {
   using Clock = std::chrono::steady_clock;
@@ -152,7 +153,7 @@ void simulate(const Options& options, Simulation simulation, const Subjects& sub
       frames.add(step + 1, simulation.motion());
     }
     record.add(last_picture(simulation, scene_family(named), name));
-  } catch (const Stopped&) {  // the steps so far are still reported
+  } catch (const Stopped&) {  // still reports the steps so far
   }
   trials.finish();
 }
@@ -162,7 +163,7 @@ int run(const Options& options) {
     throw Error("--versions: found simulations, in which each subject is asked other queries");
   if (std::error_code error; !options.frames.empty() && fs::exists(options.frames, error))
     throw Error(fmt::format("{}: exists already, expected a new folder", options.frames.string()));
-  const Simulation simulation = options.simulation.simulation();  // bad options are refused before any work
+  const Simulation simulation = options.simulation.simulation();  // refuses bad options before any work
   const Stop stop(interrupted());
   Subjects subjects = options.trial.make_subjects(stop);
   if (!options.frames.empty()) expect_folders(subjects);

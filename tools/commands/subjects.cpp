@@ -24,14 +24,14 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// For which kinds a plug-in uses separations, in words; "" for none.
+/// Says for which kinds a plug-in takes separations; "" if for none.
 std::string separations_of(const DetectorInfo& info) {
   if (info.separation_kinds == 0) return "";
   if (info.separation_kinds == info.kinds) return "takes a separation; ";
   return fmt::format("takes a separation for {}; ", names_of_kinds(info.separation_kinds, " and "));
 }
 
-/// Of which kinds a plug-in gives distances and filters steps, in words; "" for none.
+/// Says for which kinds a plug-in gives distances, and for which it filters steps; "" if for none.
 std::string further_questions(const DetectorInfo& info) {
   std::string text;
   for (const auto& [what, of] :
@@ -40,7 +40,7 @@ std::string further_questions(const DetectorInfo& info) {
   return text;
 }
 
-/// Prints some lines about a plug-in.
+/// Prints some lines about a subject that is a plug-in.
 void print(const Subject& subject) {
   const DetectorInfo& info = *plugin_info(subject);
   constexpr std::array<const char*, 4> times{"no time", "an estimate of the time",
@@ -64,9 +64,9 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*subject);
 }
 
-/// Prints each libFuzzer target that fits a subject, followed by the subject in the form that the target
-/// takes; for a published CCD, this is its path. Prints nothing for a program, because libFuzzer sees no
-/// coverage of another process. Throws Error if two subjects have the same name.
+/// Prints a line for each subject and each libFuzzer target that fits it: the target, and the subject in the
+/// form that the target takes (the path of its plug-in for a published CCD). Prints nothing for a program,
+/// because libFuzzer sees no coverage of another process. Throws Error if two subjects have the same name.
 void print_targets(const std::vector<std::string>& texts) {
   std::vector<std::unique_ptr<Subject>> subjects;
   for (const std::string& text : texts) {

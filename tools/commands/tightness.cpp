@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> names{"all"}, values;
   bool among_vertices = false;
   std::string time;
-  CampaignOptions campaign;  ///< for the values of an option; seed, jobs and record also apply to tolerances
+  CampaignOptions campaign;  ///< for values of an option; seed, jobs and record also for tolerances
 };
 
 constexpr const char* usual_time = "60s";
@@ -80,8 +80,8 @@ void expect_different(const std::vector<std::string>& values) {
                                 excerpt(at->second), excerpt(value)));
 }
 
-/// The subjects, with each of the values in place of the star in KEY=*. Throws Error if no subject has a
-/// star.
+/// The subjects. One with KEY=* occurs once for each value, with the value in place of the star. Throws
+/// Error if no subject has a star.
 std::vector<std::string> with_values(const std::vector<std::string>& subjects,
                                      const std::vector<std::string>& values) {
   constexpr std::string_view any = "=*";

@@ -24,8 +24,8 @@ struct Options {
   bool rounded = false;
 };
 
-/// The distance bound by which a false positive is judged: " B claimed", or " B wang" if the subject claims
-/// no bound.
+/// The bound B by which a false positive is judged: " B claimed" if the subject claims a bound, otherwise "
+/// B wang" with wang's bound.
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
   const BoundAnswer answer = judge.ask_unit(query);
   if (answer.fault == Fault::error)

@@ -18,7 +18,7 @@ namespace nearmiss::tools::paper {
 
 namespace {
 
-/// In the order of Judgement.
+/// The names of the values of Judgement, in their order.
 constexpr std::array<std::string_view, 5> names{"holds", "holds with a condition", "does not hold",
                                                 "a question, answered", "cannot be measured here"};
 
@@ -28,7 +28,7 @@ using enum Judgement;
 Judgement holds_if(bool it_does) { return it_does ? holds : does_not_hold; }
 Judgement with_condition_if(bool it_does) { return it_does ? holds_with_condition : does_not_hold; }
 
-/// A count of a subject, over all kinds.
+/// The sum of a subject's counter over all kinds.
 std::uint64_t count(const ordered_json& results, const std::string& subject, const std::string& key) {
   std::uint64_t sum = 0;
   for (const auto& kind : results.at("subjects").at(subject)) sum += kind.at(key).get<std::uint64_t>();
@@ -40,13 +40,13 @@ double share(const ordered_json& results, const std::string& subject, const std:
          static_cast<double>(count(results, subject, "queries"));
 }
 
-/// The number of queries that a subject rejected for a reason.
+/// The number of queries of a kind that a subject rejected for the reason `why`.
 std::uint64_t rejected(const ordered_json& results, const std::string& subject, const std::string& kind,
                        const char* why) {
   return results.at("subjects").at(subject).at(kind).at("rejected_by").value(why, std::uint64_t{0});
 }
 
-/// The number of queries that reached the vertex-edge tests.
+/// The number of queries of a kind that reached the subject's vertex-edge tests.
 std::uint64_t vertex_edge_tests(const ordered_json& results, const std::string& subject,
                                 const std::string& kind) {
   const ordered_json& counts = results.at("subjects").at(subject).at(kind);
@@ -57,7 +57,7 @@ std::uint64_t vertex_edge_tests(const ordered_json& results, const std::string& 
   return sum;
 }
 
-/// The ratio of a subject's time to that of the first one, for one kind and input.
+/// The run time of a subject divided by that of the first subject of the bench, for one kind and input.
 double time_ratio(const ordered_json& results, const std::string& subject, const std::string& input,
                   const std::string& kind) {
   for (const auto& row : results.at("results"))
@@ -83,7 +83,7 @@ const ordered_json& tolerances(const ordered_json& audit, int exponent) {
   throw std::out_of_range(fmt::format("no tolerances for 2^{}", exponent));
 }
 
-/// The distance bound of the paper's closed forms, in units of B.
+/// The distance bound of the paper's closed forms for an epsilon of 2^exponent, in units of B.
 double in_B(const ordered_json& audit, int exponent) {
   return tolerances(audit, exponent).at("paper_bound").get<double>() * std::exp2(exponent / 4.0);
 }
@@ -99,7 +99,8 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// About what the paper says, with room for the noise of a busy machine.
+/// The largest ratio of run times that counts as the overhead of the paper; leaves room for the noise of a
+/// busy machine.
 constexpr double small_overhead = 1.1;
 
 std::string in_words(const Ratios& ratios) {
@@ -108,7 +109,7 @@ std::string in_words(const Ratios& ratios) {
 
 constexpr std::array<std::string_view, 4> scenes{"knot", "cloths", "spikes", "hair"};
 
-/// A counter of a simulation with a subject, step by step.
+/// The values of a counter in all steps of a simulation with this subject.
 const ordered_json& steps(const ordered_json& results, std::string_view scene, const std::string& subject,
                           const std::string& key) {
   return results.at("simulations").at(fmt::format("scene:sim:{}", scene)).at(subject).at(key);
@@ -121,7 +122,8 @@ std::uint64_t simulated(const ordered_json& results, std::string_view scene, con
   return sum;
 }
 
-/// How much larger a count is with wang than with exact in each scene, as a part, and in words.
+/// By how much a count is larger with wang than with exact: in each scene as a part of the count with exact,
+/// and in words for all scenes.
 struct Changes {
   std::vector<double> parts;
   std::string text;
@@ -526,7 +528,8 @@ const std::vector<std::string_view> all_simulations{"simulate knot --subject exa
                                                     "simulate spikes --subject exact,wang,basic --no-shrink",
                                                     hair_simulation};
 
-/// All simulations, and that of cloths in which basic fails (fuzz/simulation/README.md).
+/// The commands of all simulations, and of the simulation of cloths in which basic fails
+/// (fuzz/simulation/README.md).
 std::vector<std::string_view> with_soft_cloths() {
   auto commands = all_simulations;
   commands.push_back(

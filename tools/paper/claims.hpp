@@ -17,32 +17,33 @@ enum class Judgement {
   holds,
   holds_with_condition,
   does_not_hold,
-  answered,  ///< the paper asks, and claims nothing
+  answered,  ///< the paper only asks a question, and nearmiss answers it
   not_measured
 };
 
-/// As the table shows it, such as "holds with a condition".
+/// The name of a judgement in tables, such as "holds with a condition".
 std::string_view name(Judgement judgement);
 
 /// The judgement with this name; nothing if there is none.
 std::optional<Judgement> judgement_named(std::string_view name);
 
 struct Measured {
-  std::string text;  ///< with all figures, and the condition if there is one
+  std::string text;  ///< what was measured, with all figures, and the condition if the claim holds with one
   Judgement judgement = Judgement::not_measured;
 };
 
-/// The JSON of each of a claim's commands, in their order.
+/// The JSON that a claim's commands write, in the order of the commands.
 using Results = std::vector<nlohmann::ordered_json>;
 
 struct Claim {
-  std::string_view name;     ///< unique, a word on the command line
-  std::string_view section;  ///< of the paper
+  std::string_view name;     ///< the claim's name on the command line, which no other claim has
+  std::string_view section;  ///< the section of the paper
   std::string_view says;
-  /// The subcommands of nearmiss that measure it, without --json. If there is none, `measure` does it itself.
+  /// The subcommands of nearmiss that measure the claim, without --json. If there are none, `measure` works
+  /// alone.
   std::vector<std::string_view> commands = {};
   Measured (*measure)(const Results& results, const Stop& stop) = nullptr;
-  std::string_view why_not = {};  ///< why it cannot be measured here, if `measure` is null
+  std::string_view why_not = {};  ///< if `measure` is null, why the claim cannot be measured here
 
   [[nodiscard]] Measured measured(const Results& results, const Stop& stop) const {
     return measure == nullptr ? Measured{.text = std::string(why_not)} : measure(results, stop);

@@ -1,5 +1,6 @@
-// Lets the interpreter exit while other threads are still in a call. Python ends a thread that asks for its
-// lock after that, and a thread that is ended within C++ aborts the program.
+// Lets the interpreter exit while other threads are still in a call. Once the interpreter exits, Python ends
+// every other thread that asks for Python's lock, and a thread that Python ends within C++ aborts the
+// program.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,30 +14,32 @@ namespace nearmiss::python {
 
 /// Whether the interpreter is exiting.
 inline std::atomic<bool> is_ending = false;
-/// The thread in which it exits. Functions that Python calls at its exit may still make calls there.
+/// The thread in which the interpreter exits. Functions that Python calls at its exit may still make calls
+/// in it.
 inline std::thread::id ending_thread;
-/// The number of calls that are under way, and their threads, which are known while one has Python's lock.
+/// The number of calls that are under way, and their threads. `threads_of_calls` may be used only with
+/// Python's lock.
 inline std::atomic<int> running = 0;
 inline std::multiset<unsigned long> threads_of_calls;
 
-/// Whether a call in this thread must end.
+/// Whether calls in this thread must end.
 inline bool must_end() { return is_ending && std::this_thread::get_id() != ending_thread; }
 
-/// Ends a call by the exception that ends its thread without a word. A thread that prints while the
-/// interpreter exits aborts the program, too.
+/// Ends a call by SystemExit, which ends the call's thread without output: a thread that printed while the
+/// interpreter exits would also abort the program.
 [[noreturn]] inline void end_silently() {
   PyErr_SetNone(PyExc_SystemExit);
   throw pybind11::error_already_set();
 }
 
-/// Whether calls in this thread must end, as an object that changes when they must. Calls that Python makes at
-/// its exit are not to end.
+/// A flag that becomes true when calls in this thread must end. It stays false for calls that Python makes
+/// at its exit.
 inline const std::atomic<bool>& ending() {
   static constinit const std::atomic<bool> never = false;
   return is_ending && !must_end() ? never : is_ending;
 }
 
-/// Notes that a call is under way. It is made and destroyed while this thread has Python's lock.
+/// Notes that a call is under way. Make and destroy this object while the thread has Python's lock.
 struct Running {
   Running() {
     if (must_end()) end_silently();
@@ -53,19 +56,20 @@ struct Running {
   const unsigned long thread = PyThread_get_thread_ident();
 };
 
-/// Forgets the calls of a parent's other threads, in a child that was forked from this one.
+/// In a forked child, forgets the calls of all threads of the parent except the thread that forked.
 inline void forget_other_threads() {
   const unsigned long own = PyThread_get_thread_ident();
   std::erase_if(threads_of_calls, [&](unsigned long each) { return each != own; });
   running = static_cast<int>(threads_of_calls.size());
 }
 
-/// Ends all calls; the package calls it when the interpreter exits. Waits a second at most, because a Python
-/// function under trial may not return.
+/// Ends all calls. The package calls this function when the interpreter exits. Waits at most a second,
+/// because a Python function on trial may never return.
 inline void end_calls() {
   ending_thread = std::this_thread::get_id();
   is_ending = true;
-  // A Python function that computes on would be ended within C++.
+  // Raises SystemExit in Python functions that still compute: otherwise, Python would end their threads
+  // within C++.
   for (const unsigned long each : threads_of_calls) PyThreadState_SetAsyncExc(each, PyExc_SystemExit);
   const pybind11::gil_scoped_release others_run;
   constexpr std::chrono::milliseconds pause(1), patience(1000);

@@ -14,9 +14,9 @@
 namespace nearmiss::python {
 
 /// Calls function(kind, x, separation) for queries of one kind, with x of shape (n, 2, v, 3), where v is the
-/// kind's number of vertices, and separation (n,). The function returns bools (n,), together with times (n,)
-/// if the subject gives times (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The
-/// caller must not hold Python's global interpreter lock.
+/// kind's number of vertices, and separation of shape (n,). The function returns bools (n,); if the subject
+/// gives times, it returns times (n,) as well. src/nearmiss/_trials.py checks the answers. Passes on
+/// exceptions of the function. The caller must not hold Python's global interpreter lock.
 class FunctionSubject final : public DescribedSubject {
  public:
   FunctionSubject(DetectorInfo info, pybind11::function function)
@@ -26,14 +26,15 @@ class FunctionSubject final : public DescribedSubject {
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override;
 
   [[nodiscard]] BoundAnswer ask_bound(const Query& /*query*/) const override {
-    return BoundAnswer::given(HUGE_VAL);  // it claims none
+    return BoundAnswer::given(HUGE_VAL);  // claims no bound
   }
 
  private:
   pybind11::function function_;
 };
 
-/// Queries of kinds with as many vertices v as `kind` as an array (n, 2, v, 3), and their separations (n,).
+/// Queries as an array (n, 2, v, 3), and their separations (n,). All queries must have the v vertices of
+/// `kind`.
 pybind11::array_t<double> coordinates_of(Kind kind, std::span<const Query> queries);
 pybind11::array_t<double> separations_of(std::span<const Query> queries);
 

@@ -1,5 +1,5 @@
-// nearmiss._interface: the functions of the C interface over NumPy arrays, whose shapes and types the
-// package's Python code has checked (src/nearmiss/_queries.py).
+// nearmiss._interface: the functions of the C interface over NumPy arrays. The package's Python code has
+// checked the arrays' shapes and types (src/nearmiss/_queries.py).
 #include <pthread.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -26,8 +26,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// Queries in arrays, which this object keeps alive. `start` and `end` have the same strides, and the shape
-/// (n, vertices of a query, 3), or (v, 3) if the pairs of a mesh are given.
+/// Queries in arrays, which this object keeps alive. `start` and `end` have the same strides. Their shape is
+/// (n, vertices of a query, 3); for pairs of a mesh, it is (vertices of the mesh, 3).
 class Queries {
  public:
   Queries(int kind, py::array start, py::array end, std::optional<py::array> pairs, py::array separation)
@@ -85,8 +85,8 @@ class Queries {
   nearmiss_queries layout_;
 };
 
-/// Sets plain arithmetic (round to nearest, no flush to zero) for a `with` block, in which NumPy converts
-/// numbers.
+/// Sets plain arithmetic (round to nearest, no flush to zero) for a `with` block of Python, in which NumPy
+/// converts numbers.
 class PlainBlock {
  public:
   void enter() { guard_.emplace(); }
@@ -103,8 +103,9 @@ py::array_t<T> one_for_each(const Queries& queries) {
 }
 
 /// Calls ask(part, first) for one part of the queries after the other, until the interpreter exits. Between
-/// parts it handles signals, at most every tenth of a second; slow queries get smaller parts, so that signals
-/// are handled soon. Returns the first status other than NEARMISS_OK at once.
+/// parts, at most every tenth of a second, lets Python handle signals. If queries are slow, takes smaller
+/// parts, so that signals do not wait long. Returns at the first status other than NEARMISS_OK, with this
+/// status.
 template <class Ask>
 int ask_until_the_end(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
@@ -127,7 +128,7 @@ int ask_until_the_end(const Queries& queries, const Ask& ask) {
   return NEARMISS_OK;
 }
 
-/// As ask_until_the_end, while other Python threads run.
+/// As ask_until_the_end, but without Python's lock, so that other Python threads run.
 template <class Ask>
 int ask_in_parts(const Queries& queries, const Ask& ask) {
   const Running this_call;
@@ -139,8 +140,8 @@ int ask_in_parts(const Queries& queries, const Ask& ask) {
   return status;
 }
 
-/// Raises the exception for a status. Queries are asked in parts, and only the last part that was asked has
-/// no answers. Therefore the first query without an answer is in this part, and its fault is the message.
+/// Raises the exception for a status. Only the part of the queries that was asked last has no answers.
+/// Therefore the first query without an answer is in this part, and the message is the fault of this query.
 template <class IsAnswered>
 void check(int status, const Queries& queries, const IsAnswered& is_answered) {
   if (status == NEARMISS_OK) return;
@@ -194,8 +195,8 @@ py::tuple time_of_impact(const Queries& queries, double tmax) {
   return py::make_tuple(answers, times);
 }
 
-/// Calls a function of the C interface that computes two numbers, which enclose a time or a distance, for
-/// each query.
+/// Calls a function of the C interface that computes two numbers for each query, which enclose a time or a
+/// distance.
 template <int (*enclose)(const nearmiss_queries*, double, double*, double*)>
 py::tuple enclosures(const Queries& queries, double width) {
   auto lower = one_for_each<double>(queries);

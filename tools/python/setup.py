@@ -1,7 +1,7 @@
 """Builds the extension modules with CMake, in build/wheel of the source tree.
 
 The environment variable NEARMISS_COMPONENTS='oracle;python' leaves out trials, and the libraries that only
-they need. NEARMISS_BUILD names a build folder that already has the modules.
+trials need. The environment variable NEARMISS_BUILD names a build folder that already has the modules.
 """
 
 import os

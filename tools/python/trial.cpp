@@ -1,4 +1,4 @@
-// nearmiss._trial: trials of Python functions. src/nearmiss/_trials.py gives the results their form.
+// nearmiss._trial: trials of Python functions. src/nearmiss/_trials.py turns the results into Python objects.
 #include <pthread.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -55,7 +55,8 @@ std::unique_ptr<Subject> function_of(const py::object& each) {
   return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
 }
 
-/// The subjects for objects of the Python class Subject and names, which are those of `nearmiss fuzz`.
+/// The subjects for a list of objects of the Python class Subject, and of texts as `nearmiss fuzz --subject`
+/// takes them.
 Subjects subjects_of(const py::list& of, const Stop& stop) {
   isolation::PluginLimits limits;
   limits.most_late = most_slow;
@@ -77,8 +78,8 @@ Subjects subjects_of(const py::list& of, const Stop& stop) {
   return subjects;
 }
 
-/// The kinds that are asked if no families are named: those that a function decides; without functions, those
-/// of a campaign with these subjects.
+/// The kinds that are asked if no families are named: all that some function decides or, without functions,
+/// those that a campaign with these subjects asks.
 std::vector<Kind> kinds_of(const Subjects& subjects) {
   const auto is_function = [](const auto& each) {
     return dynamic_cast<const FunctionSubject*>(each.get()) != nullptr;
@@ -92,7 +93,7 @@ std::vector<Kind> kinds_of(const Subjects& subjects) {
   return asked;
 }
 
-/// The named families; without names, all of the kinds that are asked.
+/// The named families; without names, all families of the kinds that are asked.
 std::vector<Family> families_of(const std::vector<std::string>& names, const Subjects& subjects) {
   if (names.empty()) return families_asked({}, kinds_of(subjects));
   return families_asked(names, kinds);
@@ -104,10 +105,10 @@ void let_python_handle_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-/// Receives the number of cases that are decided, and that of the misses so far.
+/// A function that receives the number of decided cases and the number of misses so far.
 using Report = std::function<void(std::uint64_t cases, std::uint64_t missed)>;
 
-/// What is known of each subject before a batch.
+/// What is known about each subject before a batch.
 std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, const SoFar& so_far) {
   std::vector<Known> known;
   for (const auto& subject : subjects)
@@ -115,7 +116,7 @@ std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, co
   return known;
 }
 
-/// Asks the subjects the queries of a campaign's plan, in its order.
+/// Asks the subjects the queries of a campaign's plan, in the plan's order.
 TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const Stop& stop,
                        const Report& report) {
   TrialResult result;
@@ -143,7 +144,7 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   return result;
 }
 
-/// Shrinks the first findings of each signature and class.
+/// Shrinks the first `of_each` findings of each signature and class.
 void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each,
             const Stop& stop) {
   const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);
@@ -155,7 +156,8 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
   }
 }
 
-/// The farthest false positive, by its bound: infinite where only double ends.
+/// The largest distance / bound of a false positive; infinity for the largest double, which stands for a
+/// bound of 0.
 double farthest(const Counts& counts) {
   const double ratio = counts.max_ratio();
   return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;
@@ -209,7 +211,7 @@ py::dict columns(const std::vector<Finding>& findings) {
   return of;
 }
 
-/// Passes reports on to a Python function, or to nobody.
+/// A Report that calls a Python function, or does nothing for None.
 Report report_to(const py::object& function) {
   if (function.is_none()) return [](std::uint64_t /*cases*/, std::uint64_t /*missed*/) {};
   return [&function](std::uint64_t cases, std::uint64_t missed) {
@@ -237,7 +239,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
     std::erase_if(result.findings, [](const Finding& each) { return is_only_shown(each.what); });
     shrink(result.findings, subjects, shrunk_of_each, stop);
   } catch (const Stopped&) {
-    end_silently();  // only the end of the interpreter stops a trial
+    end_silently();  // Stopped can only mean that the interpreter exits
   }
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }

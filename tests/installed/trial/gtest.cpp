@@ -13,7 +13,7 @@
 
 namespace {
 
-/// The exact answer, as a CCD without a bug.
+/// A CCD without a bug: gives the exact answer.
 bool exact(const nearmiss::Question& q) {
   const nearmiss::Kind kind = *nearmiss::kind_of_bit(q.kind);
   std::int8_t answer = -1;
@@ -80,7 +80,7 @@ TEST(MyCcd, AnExceptionIsAFaultOfItsQuery) {
   EXPECT_NE(report.text().find("not on my"), std::string::npos) << report;
 }
 
-/// At most 15 lines of 79 columns.
+/// Expects at most 15 lines, of at most 79 columns each.
 void expect_short(const nearmiss::TrialReport& report) {
   std::istringstream lines{std::string(report.text())};
   int count = 0;
@@ -118,7 +118,7 @@ TEST(MyCcd, OfAnyFormMayPromiseLowerBounds) {
     EXPECT_NE(report.text().find(".time <="), std::string_view::npos) << report;
   }
   EXPECT_TRUE(nearmiss::trial(answer, {.cases = 500}).clean());
-  EXPECT_THROW(nearmiss::trial(exact, promises), std::invalid_argument);  // it gives no times
+  EXPECT_THROW(nearmiss::trial(exact, promises), std::invalid_argument);  // `exact` gives no times
 }
 
 TEST(MyCcd, FaultsAndUnsafeStepsHaveExamplesThatFail) {
@@ -155,7 +155,7 @@ TEST(MyCcd, FamiliesMayBeGroupsWithBlanks) {
   const auto report = nearmiss::trial(exact, {.families = "uniform, vertices,", .kinds = 15, .cases = 1000});
   EXPECT_TRUE(report.clean());
   EXPECT_GT(report.counts(nearmiss::Kind::vertex_vertex).queries, 0U);
-  // A function of a question within a detector may return a bool.
+  // In a detector, too, a function that takes a Question may return a bool.
   EXPECT_TRUE(nearmiss::trial(nearmiss::plugin::detector("d").edge_edge(exact), {.cases = 500}).clean());
 }
 

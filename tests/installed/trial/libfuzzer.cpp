@@ -1,4 +1,4 @@
-// An entry for libFuzzer: each input is the seed of a short trial.
+// A libFuzzer target: each input is the seed of a short trial.
 #include <cstdint>
 #include <cstring>
 #include <iostream>

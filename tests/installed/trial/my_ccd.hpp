@@ -1,5 +1,5 @@
-// The CCD of a user who tests it with nearmiss: a vertex and a triangle, by the signs of the volume at the
-// ends of the step. It misses vertices that pass the triangle's plane twice.
+// The CCD of a user who tests it with nearmiss. For a vertex and a triangle, it compares the signs of the
+// volume at both ends of the step, so it misses vertices that pass the triangle's plane twice.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@ import { count, folder, open, pageOf } from "./session.mjs";
 
 const axe = readFileSync(new URL("../../../reports/page/node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 
-/** The barriers that axe-core finds on a page. */
+/** The barriers to access that axe-core finds on a page. */
 export async function axeViolations(page) {
   await page.evaluate(axe);
   const { violations } = await page.evaluate(() => axe.run({ resultTypes: ["violations"], selectors: false }));
@@ -38,7 +38,10 @@ function withFindings(name, many) {
   return pathToFileURL(file).href;
 }
 
-/** With any number of findings, the page draws a few and finds any other. Prints the times. */
+/**
+ * With any number of findings, the page draws only a few, and still finds any other finding. Prints the
+ * times.
+ */
 export async function staysQuickWithManyFindings(browser) {
   for (const many of [10, 10000]) {
     const page = await open(browser, withFindings("found", many));

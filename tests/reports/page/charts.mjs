@@ -1,9 +1,9 @@
-// Tests charts of sweeps, of refuted claims of a bound of 0, of misses, and of deciders.
+// Tests charts: of sweeps, of false positives that refute a bound of 0, of misses, and of deciders.
 import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
 import { count, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
-/** Subjects may have the names of members of every object. */
+/** A subject may have a name that is a member of every object, such as toString. */
 export async function showsSubjectsWithTheNamesOfMembers(browser) {
   const page = await open(browser, makeReport("members", ["--cases", "600", "--no-shrink", "--subject", "toString=basic,constructor=wang"]));
   for (const name of ["toString", "constructor"])
@@ -16,7 +16,7 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Each value above 0 has one more mark.
+  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Each result above 0 has one more mark.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);
@@ -25,7 +25,10 @@ export async function showsSweeps(browser) {
   await page.close();
 }
 
-/** A subject that was asked one value of a parameter, or one with a separation, has no sweep: its misses are among the others. */
+/**
+ * A single value of a parameter is no sweep, with or without a separation: its misses are shown with those
+ * of other families.
+ */
 export async function showsASingleValueBesideASweep(browser) {
   const family = "end-contact@1";
   run("fuzz", "--subject", "basic", "--cases", "200", "--no-shrink", "--family", family, "--db", "single-basic.db");
@@ -39,7 +42,10 @@ export async function showsASingleValueBesideASweep(browser) {
   await page.close();
 }
 
-/** Each option has a row of charts, with a point for each class and value that has the number shown. */
+/**
+ * Each option has a row of charts. A chart has a point for each class and value for which its number is
+ * known.
+ */
 export async function showsValuesOfOptions(browser) {
   const plugin = join(dirname(nearmiss), "plugins", "sampling.so");
   run("tightness", "--subject", `wang,${plugin}:tolerance=*`, "--values", "0,0.01,1", "--cases", "1200", "--db", "options.db");
@@ -59,7 +65,7 @@ export async function showsValuesOfOptions(browser) {
 export async function showsSweepsOfWhatIsNeverWrong(browser) {
   const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
   assert.equal(await count(page, ".units:visible"), 0); // every subject claims a bound
-  // All values are 0, except the times.
+  // All numbers except the times are 0.
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2);
   await page.close();
 }
@@ -72,11 +78,11 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
   const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
   assert.ok((await ends("error-time")).includes("∞"));
-  // One mark for each subject, and a cross for the failed one.
+  // Each subject has a mark, and the failed subject also has a cross.
   assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 4);
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
   await page.close();
-  // The bound is on the chart, also if all false positives are beyond it.
+  // The chart shows the bound even if all false positives are beyond it.
   const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin]));
   assert.ok((await beyond.locator("#distances .role-axis-label text").allTextContents()).includes("1"));
   // The certificate of a refuted bound has a plane between the primitives.
@@ -85,8 +91,8 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
 }
 
 /**
- * The map of misses has a column for each subject that missed, and a cell for each family in which any did.
- * Classes are apart.
+ * The map of misses has a column for each subject with a miss, and a row for each family with a miss. Each
+ * class has a map of its own.
  */
 export async function showsWhereCollisionsAreMissed(browser) {
   const page = await open(browser, pageOf("found"));

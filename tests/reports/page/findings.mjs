@@ -1,4 +1,5 @@
-// Tests findings, verdicts and counters, in a campaign with failures, in one without, and with a baseline.
+// Tests findings, verdicts and counters: in a campaign with failures, in one without failures, and with a
+// baseline.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, renameSync, writeFileSync } from "node:fs";
@@ -92,7 +93,7 @@ async function checkFindings(page, report) {
   assert.equal(await shrunk.isVisible(), true);
 }
 
-/** Findings are filtered by their fields and by words. A subject in the first table links to its findings. */
+/** The filter takes fields of findings, and words. A subject in the first table links to its findings. */
 async function checkFilter(page, report) {
   const shown = () => page.textContent("#findings-count");
   const of = (test) => report.findings.filter(test).length;
@@ -123,7 +124,7 @@ async function checkFilter(page, report) {
   await page.locator(`#${await idOf(page, report.verdicts[0].finding)}.open`).waitFor();
 }
 
-/** A finding opens large: it turns, comes nearer, and runs through the step, as its plots do. */
+/** A finding opens large: its picture turns, zooms in, and runs through the step together with its plots. */
 async function checkThatAFindingOpensLarge(page) {
   assert.equal(await count(page, "#findings svg.picture"), 24);
   const card = page.locator("#findings .card").first();
@@ -162,8 +163,8 @@ async function checkThatAFindingOpensLarge(page) {
 }
 
 /**
- * What failed comes first, then its simplest example, then the findings. A finding's address opens it in every report
- * that has it.
+ * The failed subjects come first, then their simplest example, then the findings. The address of a finding
+ * opens it in every report that has this finding.
  */
 async function checkOrderAndAddresses(browser, page, report) {
   const titles = await page.locator("nav a").allTextContents();
@@ -187,7 +188,7 @@ async function checkOrderAndAddresses(browser, page, report) {
   await again.close();
 }
 
-/** The texts that the first finding's buttons copy: the command, the query, and its certificate. */
+/** The buttons of the first finding copy the command, the query, and its certificate. */
 async function checkCopies(page, report, command) {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   const card = page.locator(`#${await idOf(page, 0)}`);
@@ -256,9 +257,9 @@ export async function showsFindings(browser) {
 }
 
 /**
- * Two vertices, and a vertex and an edge: the text of a query says where its own vertices are, and how far away
- * counts as contact; its picture has them; its command fails again; its certificate is that of its kind. Tables
- * and charts have both kinds.
+ * Findings of the kinds vv and ve. The text of a query has the places of its vertices, and the separation;
+ * its picture has the vertices; its command fails again; its certificate is for its kind. Tables and charts
+ * have both kinds.
  */
 export async function showsVerticesAndEdges(browser) {
   const page = await open(browser, makeReport("vertices", ["--cases", "20000", "--subject", "basic", "--kind", "vv,ve"]));

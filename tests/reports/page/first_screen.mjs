@@ -5,8 +5,8 @@ import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 const failing = "basic,basic-plain,defect:vv,defect:proximity,defect:D2*0,defect:S*0,defect:psi*0,defect:rho*0,defect:lambda2*0,defect:mu*0";
 
 /**
- * A common screen shows without scrolling: is it safe, what does it cost, what is new, how is a failure
- * replayed.
+ * A screen of common size shows, without scrolling, whether a CCD is safe, what it costs, what is new, and
+ * how to replay a failure.
  */
 async function answersEverything(browser, name) {
   const page = await open(browser, pageOf(name), { viewport: { width: 1440, height: 900 } });
@@ -33,8 +33,8 @@ async function answersEverything(browser, name) {
 }
 
 /**
- * A night that also has a scene and a ladder. Only the ladder's many subjects are folded, and the page is
- * neither too wide nor too long.
+ * For a night that also has a scene and a ladder, the page folds only the many subjects of the ladder, and
+ * is neither too wide nor too long.
  */
 async function answersBesideAScene(browser) {
   run("ladder", "--scalar", "float,p40,p48,p56,p64", "--cases", "160", "--db", "rungs.db");

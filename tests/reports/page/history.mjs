@@ -5,7 +5,10 @@ import { join } from "node:path";
 import { axeViolations } from "./access.mjs";
 import { count, folder, nearmiss, open, pageOf, run } from "./session.mjs";
 
-/** Three nights: a textbook CCD that fails, one that is right under its name, and it again. */
+/**
+ * Three nights of a subject: a textbook CCD that fails, a right CCD under the same name, and the textbook
+ * CCD again.
+ */
 export async function showsTheNights(browser) {
   const stores = [];
   for (const [i, subject] of ["mine=basic,wang", "mine=exact", "mine=basic"].entries()) {
@@ -21,7 +24,7 @@ export async function showsTheNights(browser) {
     assert.equal(await count(page, "#nights tbody tr"), 3);
     assert.deepEqual(await page.locator("#nights tbody tr").first().locator("td").first().allTextContents(), ["2026-11-03"]);
     assert.match(await page.locator("#nights tbody tr").nth(1).textContent(), /ways to fail gone/);
-    assert.equal(await count(page, "#subjects .chart"), 8); // four charts of two subjects
+    assert.equal(await count(page, "#subjects .chart"), 8); // four charts for each of two subjects
     assert.ok(await count(page, "#ways tbody td.bad") > 0);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
     assert.deepEqual(await axeViolations(page), []);

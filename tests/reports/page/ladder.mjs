@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
 import { count, jsonOf, nearmiss, open, pageOf, run } from "./session.mjs";
 
-/** Algorithms have colours. Labels name scalars, and do not overlap. */
+/** Each algorithm has a colour. Labels name the scalars, and do not overlap. */
 async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
   assert.equal(await page.isVisible("#error-time-of-ladder"), true);
   assert.equal(await page.isVisible("#error-time-of-each"), false);
@@ -13,8 +13,8 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
     const points = await fills(`${inPanel} .mark-symbol.role-mark path`);
     assert.equal(points.length, Object.keys(subjects).length);
     assert.equal(new Set(points).size, 2);
-    // One line is the front. Each algorithm has two lines: one for the machine's scalars, and one for
-    // emulated scalars.
+    // One line is the front. Each of two algorithms has two lines: one for the machine's scalars, and one
+    // for emulated scalars.
     assert.equal(await count(page, `${inPanel} .mark-line path`), 1 + 4);
     const labels = await page.locator(`${inPanel} .mark-text.role-mark text`).evaluateAll((all) => all
       .filter((each) => each.getAttribute("stroke") === null || each.getAttribute("stroke") === "none")
@@ -28,7 +28,7 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
   const pale = () => count(page, "#error-time .mark-symbol.role-mark path[opacity='0.1']");
   assert.equal(await pale(), 0);
   await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
-  assert.equal(await pale(), Object.keys(subjects).length); // half of the points, in each of two panels
+  assert.equal(await pale(), Object.keys(subjects).length); // half of the points in each of two panels
   await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
 }
 
@@ -40,7 +40,7 @@ export async function showsTheLadderAndTheAudit(browser) {
   run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json", "--paper", "paper.json", "--distances", "distances.json");
   const page = await open(browser, pageOf("ladder"));
   assert.equal(await count(page, "#ladder tbody tr"), 6);
-  assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
+  assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds of both algorithms
   const report = jsonOf("ladder");
   await showsErrorTimeOfTheLadder(page, report.error_against_time);
   assert.match(await page.textContent("#ladder-fits"), /^wang: the farthest distance goes as ε to the power of 0\.\d+ ± [\d.]+ \(95 % confidence\), at [\d.]+–[\d.]+ of the claimed distance for 3 subjects with 3 precisions\. wang-tight: the farthest are at 0\.9\d+–0\.9\d+ of the claimed distance for 3 subjects with 3 precisions\. The paper predicts a power of ¼\.$/);

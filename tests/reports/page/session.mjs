@@ -10,7 +10,7 @@ export const nearmiss = process.argv[2];
 export const folder = mkdtempSync(join(tmpdir(), "nearmiss-page-"));
 export const removeFolder = () => rmSync(folder, { recursive: true });
 
-/** Runs nearmiss. Exit code 1, which means that something was found, is no error here. */
+/** Runs nearmiss. Exit code 1 is no error here, because it only means that nearmiss found a failure. */
 export function run(...args) {
   try {
     execFileSync(nearmiss, args, { cwd: folder, stdio: "pipe" });
@@ -32,7 +32,7 @@ export function makeReport(name, fuzz, report = []) {
   return pageOf(name);
 }
 
-/** Opens a page. It must draw without errors, and without the network. */
+/** Opens a page. Expects that it draws without errors, and without the network. */
 export async function open(browser, url, options = {}) {
   const page = await browser.newPage({ offline: true, ...options });
   const complaints = [];

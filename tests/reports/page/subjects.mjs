@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
 /**
- * Failed subjects and the Pareto front are chosen first. A changed choice redraws the charts, with a row or
- * line for each subject.
+ * At first, failed subjects and the Pareto front are chosen. A change of the choice redraws the charts that
+ * have a row or a line for each subject.
  */
 export async function showsAChoiceOfManySubjects(browser) {
   const names = "wang:float,wang:p40,wang:p64,wang-tight:float,wang-tight:p40,wang,wang-tight,basic,basic-plain,exact,adaptive".split(",");
@@ -59,7 +59,7 @@ export async function showsAChoiceOfManySubjects(browser) {
   await press("wang");
   await isAsChosen(ofWang);
   await press("all");
-  await press("wang"); // before all charts are drawn
+  await press("wang"); // even before all charts are drawn
   await isAsChosen(names.filter((name) => !ofWang.includes(name)));
   await press("reset");
   await isAsChosen(first);
@@ -67,7 +67,7 @@ export async function showsAChoiceOfManySubjects(browser) {
   await page.close();
 }
 
-/** What root parity misses beyond its contract is shown, with an example, but as no failure. */
+/** The page shows what root parity misses beyond its contract, with an example, but not as a failure. */
 export async function showsWhatIsBeyondAContract(browser) {
   const page = await open(browser, makeReport("beyond", ["--cases", "4000", "--family", "small-integer", "--subject", "wang,parity", "--beyond-contract"]));
   assert.equal(jsonOf("beyond").headline.clean, true);
@@ -79,8 +79,8 @@ export async function showsWhatIsBeyondAContract(browser) {
 }
 
 /**
- * The first chart shows every subject. If there are more subjects than colours, the clean ones are chosen
- * first.
+ * The first chart shows every subject. If there are more subjects than colours, the choice begins with
+ * subjects without failures.
  */
 export async function drawsManySubjectsWithoutALadder(browser) {
   const defects = ["D2*0.01", "D2*0", "S*0", "vv", "proximity", "psi*0", "rho*0", "lambda2*0"].map((name) => `defect:${name}`);
@@ -110,7 +110,7 @@ export async function drawsManySubjectsWithoutALadder(browser) {
   await page.close();
 }
 
-/** One chart shows a ladder, subjects that are on no ladder, and a scene together. */
+/** The page draws a campaign with a ladder, with subjects that are on no ladder, and with a scene. */
 export async function drawsAMixOfRuns(browser) {
   run("scene", "spikes@100", "--subject", "wang,wang-time", "--db", "spikes.db");
   run("report", "many.db", "plain.db", "spikes.db", "-o", "mixed");

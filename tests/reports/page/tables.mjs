@@ -25,7 +25,9 @@ export async function showsEnvironments(browser) {
   await page.close();
 }
 
-/** In the dark theme, on a phone and on paper, everything is shown, and nothing extends beyond the page. */
+/**
+ * The page shows everything in the dark theme, on a phone and on paper, and nothing extends beyond the page.
+ */
 export async function fitsEveryMedium(browser) {
   const url = pageOf("found");
   for (const each of [url, pageOf("timed"), pageOf("night")])

@@ -7,7 +7,7 @@ import { count, folder, jsonOf, makeReport, nearmiss, open, pageOf, run } from "
 const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
 const texts = (page, selector) => page.locator(selector).allTextContents();
 
-/** Each subject that gives times has a mark with its name; the late one has a cross, too. */
+/** Each subject that gives times has a mark with its name; the subject with late times also has a cross. */
 async function checkEarliness(page, { error_against_time }) {
   assert.deepEqual(error_against_time.front_by_earliness, ["exact"]);
   assert.equal(await count(page, "#earliness .mark-symbol.role-mark path"), 3 + 1);
@@ -16,7 +16,7 @@ async function checkEarliness(page, { error_against_time }) {
   assert.equal(await count(page, "#earliness .mark-rect.role-mark path"), 2 * 3);
   const dashed = await page.locator("#earliness .mark-rule.role-mark line").evaluateAll((all) =>
     all.filter((each) => each.getAttribute("stroke-dasharray") === "4,3").length);
-  assert.equal(dashed, 1); // the estimate
+  assert.equal(dashed, 1); // only the subject whose times are estimates
   assert.deepEqual(new Set(await texts(page, "#earliness .mark-text.role-mark text")), new Set(["always", "exact", "sampling"]));
   assert.deepEqual(await texts(page, "#earliness .role-legend-label text"), ["lower bound", "estimate"]);
 }
@@ -47,7 +47,7 @@ async function checkTable(page, { subjects }) {
   assert.deepEqual(new Set(cells), new Set(counts.map((each) => (each.times_promised > 0 ? each.late.toLocaleString("en-US") : "–"))));
 }
 
-/** Each subject and kind has a strip, with early times left of the middle, and times after t* right of it. */
+/** Each subject and kind has a strip. Early times are left of the middle, times after t* are right of it. */
 async function checkHistograms(page, { subjects }) {
   const sum = (list) => list.reduce((a, b) => a + b, 0);
   for (const [subject, ofKind] of Object.entries(subjects))
@@ -60,7 +60,7 @@ async function checkHistograms(page, { subjects }) {
     }
   assert.equal(await count(page, "#time-errors .mark-area path"), 3 * 2);
   assert.equal(await count(page, "#time-errors .mark-rule.role-mark line"), 3 * 2);
-  // The row headers, left of the charts of the first kind.
+  // The headers of the rows, which stand left of the charts of the first kind.
   assert.deepEqual((await texts(page, "#time-errors .role-row-header text")).filter((text) => text.includes("(")),
     ["always (lower bound)", "exact (lower bound)", "sampling (estimate)"]);
   const ticks = await texts(page, "#time-errors .role-axis-label text");
@@ -111,7 +111,7 @@ export async function showsSeparations(browser) {
   const page = await open(browser, makeReport("apart",
     ["--family", "uniform", "--separation", "0.25", "--cases", "400", "--subject", `exact,${plugin("promises")}`]));
   assert.match(await page.textContent("#runs"), /, separation 0\.25, /);
-  // The separation is simplified together with the coordinates.
+  // Shrinking simplifies the separation together with the coordinates.
   const ofFinding = jsonOf("apart").findings[0].shrunk[24];
   for (const [section, h] of [["findings", ofFinding], ["farthest", 0.25], ["extreme-times", 0.25]]) {
     assert.ok((await page.locator(`#${section} figcaption`).first().textContent()).startsWith(`h = ${h}`), section);
@@ -128,8 +128,8 @@ export async function showsSeparations(browser) {
 }
 
 /**
- * A lower bound after t* is not late if the distance only touches h. The first query is such a case; the
- * second has a late time.
+ * A lower bound after t* is not late if the distance at t* only touches h. The first query is such a case;
+ * the second query has a late time.
  */
 export async function showsWhichTimesAreLate(browser) {
   const [end, triangle] = ["0.25 0.25", "0 0 0  1 0 0  0 1 0"];
@@ -146,7 +146,10 @@ export async function showsWhichTimesAreLate(browser) {
   }
 }
 
-/** Each subject has a strip for each kind, also for one that it was not asked about, so that names stand at their strips. */
+/**
+ * Each subject has a strip for each kind, even for a kind that it was not asked about, so that names stand
+ * beside their strips.
+ */
 export async function namesEveryStripOfTimes(browser) {
   run("fuzz", "--subject", "exact", "--cases", "40", "--kind", "vt", "--family", "planted", "--db", "strips-exact.db");
   run("fuzz", "--subject", "basic", "--cases", "40", "--kind", "ee", "--family", "planted", "--seed", "2", "--db", "strips-basic.db");

@@ -7,20 +7,20 @@ True
 >>> nearmiss.earliest_time('vt', x)
 Interval(lo=0.5, hi=0.5)
 
-A query is vertices that move linearly from t = 0 to t = 1, and form two closed primitives. The question
-is whether the distance of the primitives is at most the separation at some t in [0, 1]. All coordinates have
-the same, arbitrary unit; times are fractions of the step. Every function takes
+A query consists of vertices that move linearly from t = 0 to t = 1 and form two closed primitives. The
+question is whether the distance of the primitives is at most the separation at some t in [0, 1]. All
+coordinates have the same, arbitrary unit; times are fractions of the step. Every function takes
 
 kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, 'ee' for the edges x0x1 and x2x3, 'vv' for the vertices
        x0 and x1, or 've' for a vertex x0 and an edge x1x2
 x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or
-       MeshPairs; with 2 and 4 in place of 4 and 8 for 'vv', 3 and 6 for 've'. (2, 4, 3) or (8, 3) is one query,
-       for which results are NumPy scalars instead of arrays (n,). float64 and float32 are read in place, with
-       any strides; integers are converted to float64.
+       MeshPairs. For 'vv', 2 and 4 take the place of 4 and 8; for 've', 3 and 6. An x of shape (2, 4, 3) or
+       (8, 3) is one query, and its results are NumPy scalars instead of arrays (n,). Functions read float64
+       and float32 in place, with any strides, and convert integers to float64.
 
 and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation
-that is negative or not finite. Other Python threads run during a call. trial() puts a CCD that is a Python
-function, a Subject, on trial.
+that is negative or not finite. Other Python threads run during a call. trial() puts CCDs on trial, such as a
+Python function; wrap the function in a Subject to describe it.
 """
 
 from nearmiss import _built  # noqa: F401, before all that needs the compiled modules

@@ -27,8 +27,8 @@ _WIDTH, _HEIGHT, _MARGIN = 320, 240, 16  # of a picture, in pixels
 class Finding:
     """A query on which a subject fails.
 
-    x, separation:     the simplest query that fails in the same way, if is_shrunk, else the query itself:
-                       (2, v, 3), with v = 4, or 2 for 'vv' and 3 for 've'
+    x, separation:     if is_shrunk, the simplest query that fails in the same way, otherwise the original
+                       query; x is (2, v, 3), where v is 4, or 2 for 'vv' and 3 for 've'
     kind, what, class_, subject, family, signature, provenance: as in Findings
     """
 
@@ -72,7 +72,7 @@ class Finding:
         return ax
 
     def _places(self) -> NDArray[np.float64]:
-        """The vertices at t = 0, and at contact if there is one, else at t = 1: (2, v, 3)."""
+        """The vertices at t = 0, and at contact or, without contact, at t = 1: (2, v, 3)."""
         end = float(earliest_time(self.kind, self.x, self.separation).lo)
         t = end if 0 < end <= 1 else 1.0
         with np.errstate(all='ignore'):
@@ -97,8 +97,8 @@ class Finding:
 
 
 def _segments(kind: str, places: NDArray[np.float64]) -> list[tuple[int, str, bool, Any, Any]]:
-    """Lines to draw, each with its primitive, color, whether it is dashed, and ends. A vertex is a line of
-    length 0."""
+    """The lines to draw: (primitive, color, is dashed, one end, other end). A vertex is a line of length
+    0."""
     split = 2 if kind == 'ee' else 1
     lines = []
     for primitive, (edges, color) in enumerate(zip(_LINES[kind], _COLORS)):
@@ -134,7 +134,7 @@ def _picture(kind: str, places: NDArray[np.float64]) -> str:
 
 
 def finding_of(columns: dict[str, Any], explain: Callable[..., str]) -> Finding:
-    """The finding whose properties are these, by the names of Findings."""
+    """Makes a finding. `columns` has its properties, under the names of those of Findings."""
     kind: Any = str(columns['kind'])
     count = _LAYOUTS[kind_of(kind)].vertices
     shrunk = bool(columns['is_shrunk'])

@@ -82,8 +82,7 @@ def collides(
 
     kind, x:    the queries, as help(nearmiss) describes them
     separation: a number for all queries, or (n,), in the unit of the coordinates
-    decided_by: whether to return a pair instead: the answers, and what decided each of them, as values of
-                DecidedBy
+    decided_by: if true, returns a pair: the answers, and what decided each of them, as values of DecidedBy
     """
     asked = Asked(kind, x, separation)
     answers, deciders = _interface.collides(asked.queries)
@@ -98,11 +97,11 @@ def earliest_time(
     *,
     width: float = 0.0,
 ) -> Interval:
-    """The earliest time t* at which the distance is at most the separation: lo <= t* <= hi.
+    """Encloses the earliest time t* at which the distance is at most the separation: lo <= t* <= hi.
 
-    By default, lo and hi are equal if t* is a double, and neighbouring doubles if it is not. With `width`, hi
-    - lo may be as large as `width`. lo is a safe time of impact: nothing happens before it. Both are infinite
-    if there is no collision.
+    By default, lo and hi are equal if t* is a double, and neighbouring doubles if it is not. With `width`,
+    hi - lo may be as large as `width`. lo is a safe time of impact: the distance exceeds the separation at
+    all earlier times. Both are infinite if there is no collision.
 
     kind, x, separation: as for collides()
     """
@@ -119,11 +118,11 @@ def time_of_impact(
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """Whether each query is a collision at some t in [0, tmax], and its time of impact.
 
-    The time is the largest double that is not after the earliest time, so nothing happens before it. It is
-    infinite if there is no collision.
+    The time is the largest double that is not after t* (earliest_time()), so the distance exceeds the
+    separation at all earlier times. It is infinite if there is no collision.
 
     kind, x, separation: as for collides()
-    tmax:                a part of the step, at most 1
+    tmax:                the end of the part of the step to look at, at most 1
     """
     tmax = at_most_1('tmax', tmax)
     asked = Asked(kind, x, separation)
@@ -134,9 +133,10 @@ def time_of_impact(
 def smallest_distance(
     kind: KindLike, x: Union[ArrayLike, MeshPairs], *, relative_width: float = 1e-3
 ) -> Interval:
-    """The smallest distance d over the step, in the unit of the coordinates: lo <= d <= hi.
+    """Encloses the smallest distance d over the step, in the unit of the coordinates: lo <= d <= hi.
 
-    hi - lo is at most relative_width * hi, or as small as doubles allow; both are 0 if the primitives touch.
+    hi - lo is at most relative_width * hi, or as small as doubles allow. lo and hi are 0 if the primitives
+    touch.
 
     kind, x: as for collides()
     """
@@ -147,7 +147,7 @@ def smallest_distance(
     )
 
 
-_PROOFS = ('decision', 'time', 'distance')  # in the order of the numbers of the C interface
+_PROOFS = ('decision', 'time', 'distance')  # the index of each is its number in the C interface
 
 
 def certificate(
@@ -157,22 +157,23 @@ def certificate(
     *,
     prove: Literal['decision', 'time', 'distance'] = 'decision',
 ) -> Any:
-    """A proof of the answer to each query, which a short program checks with fractions alone.
+    """A proof of the answer to each query, which a short program checks with nothing but fractions.
 
-    For one query, the proof is a string; for several, there is an array (n,) of strings. A string has one or
-    two lines of JSON, for tools/certificates/check.py of the sources. Each line proves one statement, which
-    check() returns; compare it with what you asked. On average, a certificate takes a millisecond and has a
-    thousand characters.
+    For one query, returns the proof as a string; for several, returns an array (n,) of strings. A string has
+    one or two lines of JSON. check() of tools/certificates/check.py, in the sources, reads a line and
+    returns the statement that it proves; compare the statement with what you asked. On average, a
+    certificate takes a millisecond and has a thousand characters.
 
-    Statements without a proof are left out. This happens only if the distance touches the separation at an
-    irrational time, where it neither falls below it nor stays at it. If nothing is left, there is None
-    instead of a string.
+    A string leaves out statements without a proof. A statement has no proof only if the distance reaches the
+    separation at an irrational time, and neither falls below it nor stays equal to it. If no statement is
+    left, returns None in place of a string.
 
     kind, x, separation: as for collides()
     prove: 'decision': the answer of collides();
-           'time': that nothing happens before `lo` of earliest_time(), and something between `lo` and `hi`;
-           'distance': bounds of the smallest distance as those of smallest_distance(), which ignore the
-           separation
+           'time': that the distance exceeds the separation before `lo` of earliest_time(), and is at most the
+           separation at some time from `lo` to `hi`;
+           'distance': bounds of the smallest distance, as smallest_distance() gives them; they ignore
+           `separation`
     """
     try:
         what = _PROOFS.index(prove)
@@ -189,8 +190,8 @@ def wang(
 ) -> NDArray[np.bool_]:
     """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
 
-    It reports every collision. It may also report other queries, but only if their primitives come as near as
-    wang_bound().
+    It reports every collision. It may also report another query, but only if the distance of the primitives
+    falls to at most wang_bound() plus the separation.
 
     kind, x, separation: as for collides(); only 'vv' and 've' take a separation
     """

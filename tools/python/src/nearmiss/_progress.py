@@ -9,7 +9,7 @@ class Progress:
     """The line of one trial, from its beginning to its end."""
 
     def __init__(self, cases: int, is_wanted: Optional[bool]) -> None:
-        """is_wanted: None shows the line in a terminal and in a notebook."""
+        """If is_wanted is None, shows the line only in a terminal and in a notebook."""
         self.is_shown = is_interactive() if is_wanted is None else is_wanted
         self._cases = cases
         self._start = time.monotonic()
@@ -41,6 +41,6 @@ class Progress:
 
 
 def is_interactive() -> bool:
-    """Whether somebody reads stderr: it is a terminal, or the output of a notebook's cell."""
+    """Whether somebody reads stderr, because it is a terminal or the output of a notebook's cell."""
     is_terminal = getattr(sys.stderr, 'isatty', lambda: False)()
     return bool(is_terminal) or type(sys.stderr).__module__.startswith('ipykernel.')

@@ -1,6 +1,6 @@
 """Checks queries in arrays, and describes them for the C interface.
 
-Coordinates are copied only if the C interface cannot read them in place.
+Copies coordinates only if the C interface cannot read them in place.
 """
 
 import enum
@@ -29,8 +29,8 @@ KindLike = Union[Kind, Literal['vt', 'ee', 'vv', 've']]
 
 
 class _Layout(NamedTuple):
-    number: int  # of the kind in the C interface
-    vertices: int  # of a query
+    number: int  # number of the kind in the C interface
+    vertices: int  # number of vertices of a query
 
 
 _LAYOUTS = {
@@ -113,11 +113,11 @@ class Asked:
         return (each[:, 0], each[:, 1]) if by_time else (each[:, :v], each[:, v:])
 
     def answers(self, array: NDArray[Any]) -> Any:
-        """The answers to the queries; a NumPy scalar if there is a single one."""
+        """The answers to the queries; for a single query, a NumPy scalar."""
         return array[0] if self.is_single else array
 
     def are_collisions(self, answers: NDArray[np.int8]) -> Any:
-        """The answers to the queries as bools; they must be 0 or 1."""
+        """The answers to the queries as bools. `answers` must be 0 or 1."""
         return self.answers(answers.view(np.bool_))
 
 
@@ -155,7 +155,7 @@ def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool
 
 
 def _numbers(values: ArrayLike, name: str) -> Coordinates:
-    """The values as an aligned float64 or float32 array. Raises an exception if that would round."""
+    """The values as an aligned float64 or float32 array. Raises an exception if that needs rounding."""
     array = np.asarray(values)
     if array.dtype not in (np.float64, np.float32):
         if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:
@@ -202,7 +202,7 @@ def _vertices(values: ArrayLike, name: str) -> Coordinates:
 
 
 def _checked_pairs(values: ArrayLike, vertices_of_pair: int, vertices: int) -> NDArray[np.int32]:
-    """A copy, so that no other thread can change the numbers after they have been checked."""
+    """The pairs after a check, as a copy, so that no other thread can change the numbers after the check."""
     _expect_no_mask(values, 'pairs')
     pairs = np.array(values)
     if pairs.ndim != 2 or pairs.shape[1] != vertices_of_pair:

@@ -24,7 +24,7 @@ def record(
 
     x:       the queries, (n, 2, v, 3) or (n, 2 v, 3), with v = 4, or 2 for 'vv' and 3 for 've'; without n for one query
     answers: what the CCD answered: bools, or 0, 1 and 2 for "cannot tell"
-    times:   the times that it gave, NaN where it gave none
+    times:   the times that the CCD gave, NaN where it gave none
     tmax:    the CCD was asked about t in [0, tmax]
     keep:    whether to keep these records longer, as for slow queries
     All but x are a number for all queries, or (n,). Other shapes raise a ValueError.

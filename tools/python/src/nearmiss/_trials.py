@@ -34,16 +34,16 @@ CCD = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
 class Subject:
     """A CCD on trial.
 
-    function: gets kind ('vt', 'ee', 'vv' or 've'), x (n, 2, v, 3), where v is 4, or 2 for 'vv' and
-              3 for 've', and separation (n,), and returns bools (n,): whether each query is a
-              collision. It must answer a query in the same way whenever it is asked.
-    name:     its name in results; by default that of the function
-    time:     if it is not 'none', the function returns (bools, times) instead, with the time of each
-              collision in [0, 1]: 'estimate' for a time near the earliest one, 'lower-bound' for a time that
-              is never after the earliest one, 'free-step' if also nothing happens on the way to x0 + time
-              (x1 - x0), rounded
-    kinds:    the kinds of queries that it is asked
-    takes_separation: whether it is asked queries with a separation h > 0
+    function: function(kind, x, separation) returns bools (n,): whether each query is a collision. kind is
+              'vt', 'ee', 'vv' or 've'; x is (n, 2, v, 3), where v is 4, or 2 for 'vv' and 3 for 've';
+              separation is (n,). The function must answer a query in the same way whenever it is asked.
+    name:     the subject's name in results; by default, the name of the function
+    time:     unless it is 'none', the function returns (bools, times), with a time in [0, 1] for each
+              collision. 'estimate': the times are near the earliest ones; 'lower-bound': they are never after
+              the earliest ones; 'free-step': also, the rounded step to x0 + time (x1 - x0) has no contact on
+              the way
+    kinds:    the kinds of queries that the subject is asked
+    takes_separation: whether the subject is asked queries with a separation h > 0
     """
 
     function: CCD
@@ -107,15 +107,15 @@ class Subject:
 class Counts:
     """Counters of a subject's answers."""
 
-    queries: int = 0  # queries of its kinds, also those beyond its contract
+    queries: int = 0  # queries of the subject's kinds, including those beyond its contract
     collisions: int = 0  # true collisions among the queries that it answered
     missed: int = 0  # collisions that it did not report
-    false_positives: int = 0  # queries that it reported and that are not collisions
-    late: int = 0  # times promised as lower bounds that are after the earliest time
-    committed: int = 0  # sound times for which the rounded step to them has contact before its end
+    false_positives: int = 0  # queries that it reported and that are no collisions
+    late: int = 0  # times after the earliest time, although promised as lower bounds
+    committed: int = 0  # sound times to which the rounded step has contact before its end
     no_answer: int = 0  # queries without an answer, such as a collision without a time
-    beyond_contract: int = 0  # queries that it was not asked, because its contract leaves them out
-    farthest: float = 0.0  # largest distance of a false positive / bound (its own, or wang's)
+    beyond_contract: int = 0  # queries that it was not asked, because its contract excludes them
+    farthest: float = 0.0  # largest distance of a false positive / bound (or wang's bound)
 
     def __add__(self, other: 'Counts') -> 'Counts':
         sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
@@ -125,12 +125,12 @@ class Counts:
 
 @dataclass(frozen=True)
 class Findings:
-    """Queries on which subjects fail, with an array for each property. findings[mask] selects some of them, and
-    findings[i] is one of them, a Finding, as in `for finding in findings`.
+    """Queries on which subjects fail, with an array for each property. findings[mask] has some of them, and
+    findings[i] is one of them, a Finding. `for finding in findings` also gives each as a Finding.
 
     x, separation:             the queries: (m, 2, 4, 3) and (m,); 'vv' and 've' repeat their last vertex
-    shrunk, shrunk_separation: where is_shrunk is true, the simplest queries that fail in the same way; else
-                               the queries themselves
+    shrunk, shrunk_separation: where is_shrunk is true, the simplest queries that fail in the same way;
+                               elsewhere the queries themselves
     kind:                      'vt', 'ee', 'vv' or 've'
     what:                      'false-negative', 'late', 'fault' or 'refuted-bound' of a subject; or
                                'oracle-disagreement'
@@ -250,18 +250,18 @@ def trial(
 ) -> TrialResult:
     """Asks subjects hard random queries, and compares their answers with the exact ones.
 
-    subjects: a Subject or a function like that of a Subject, a name or a plug-in as in `nearmiss fuzz` ('wang',
-              'fcl', './mine.so'), or several of these. Plug-ins and published CCDs run in processes of their
-              own, which needs the program nearmiss of the same version
+    subjects: one or several of these: a Subject; a function as a Subject has it; the name of a CCD or the
+              path of a plug-in, as for `nearmiss fuzz` ('wang', 'fcl', './mine.so'). Plug-ins and published
+              CCDs run in processes of their own, for which they need the program nearmiss of the same version
     cases:    total number of queries, divided among the families
     families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By
-              default, all that ask for contact, and those of vertices and edges with drawn
-              separations, as far as one of the functions decides their kinds
-    seed:     seed of the random queries, which are those of `nearmiss fuzz` with the same families, cases and
-              seed
-    shrunk:   how many findings of each signature and class are shrunk; to shrink one may ask a subject
-              thousands of queries
-    progress: whether a line on stderr shows the progress; by default, if it is a terminal or a notebook
+              default, all families that ask for contact, and those of vertices and edges, which
+              draw separations; without those of kinds that none of the functions decides
+    seed:     seed of the random queries; `nearmiss fuzz` asks the same queries with the same families, cases
+              and seed
+    shrunk:   how many findings of each signature and class are shrunk; shrinking one finding may ask a
+              subject thousands of queries
+    progress: whether a line on stderr shows the progress; by default, only in a terminal or a notebook
 
     Exceptions of a function end the trial, and are passed on.
     """
@@ -311,7 +311,7 @@ def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
     if len(set(names)) != len(names):
         raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
     for name in names:
-        # This also refuses a lone surrogate, which cannot be written.
+        # This also refuses a lone surrogate, which UTF-8 cannot encode.
         if not str.isprintable(name):
             raise ValueError(f'found the name {name!r}, expected printable characters')
     return chosen
@@ -327,7 +327,7 @@ def _several(name: str, values: Any, expected: str) -> list[Any]:
 
 
 def _family(name: Any) -> str:
-    """The name of a family, which the extension knows or refuses."""
+    """The name of a family. The extension refuses unknown names."""
     if not isinstance(name, str):
         raise TypeError(f'found the family {name!r}, expected a name')
     if not str.isprintable(name):
@@ -348,7 +348,7 @@ def _count(name: str, value: Any) -> int:
 
 
 def families() -> dict[str, str]:
-    """The families of random queries, and what is hard about each."""
+    """The names of the families of random queries, each with what is hard about its queries."""
     return dict(_extension().families())
 
 
