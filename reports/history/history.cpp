@@ -316,7 +316,7 @@ ordered_json history_json(const History& history) {
 
 std::string describe(const History& history) {
   constexpr std::size_t most_nights = 10;
-  constexpr std::size_t widest = 96;  // " ..." follows what is cut off
+  constexpr std::size_t widest = 100;
   constexpr std::size_t widest_name = 30;
   const auto some = std::span(history.nights).last(std::min(history.nights.size(), most_nights));
   std::vector<std::vector<std::string>> rows;

@@ -89,10 +89,12 @@ std::string wrapped(std::string text, std::string_view indent, std::size_t most_
   std::string lines;
   for (std::size_t line = 1; line <= most_lines; ++line) {
     if (text.size() <= widest) return lines + text + "\n";
-    const std::size_t blank = text.rfind(' ', widest - (line == most_lines ? 4 : 0));
-    const std::size_t end = blank == std::string::npos || blank <= indent.size() ? widest : blank;
+    const std::size_t limit = widest - (line == most_lines ? 4 : 0);  // " ..."
+    const std::size_t blank = text.rfind(' ', limit);
+    const bool has_blank = blank != std::string::npos && blank > indent.size();
+    const std::size_t end = has_blank ? blank : limit;
     lines += text.substr(0, end) + (line == most_lines ? " ...\n" : "\n");
-    text = std::string(indent) + text.substr(std::min(end + 1, text.size()));
+    text = std::string(indent) + text.substr(end + (has_blank ? 1 : 0));
   }
   return lines;
 }

@@ -43,6 +43,12 @@ TEST(Text, ATimeThatIsMissingIsADash) {
   EXPECT_EQ(whole_ns(std::nullopt), "-");
 }
 
+TEST(Text, IsBrokenAtBlanksAndLosesNoCharacterWithoutThem) {
+  EXPECT_EQ(wrapped("one two three", "  ", 2, 9), "one two\n  three\n");
+  EXPECT_EQ(wrapped("abcdefghij", "  ", 2, 9), "abcdefghi\n  j\n");
+  EXPECT_EQ(wrapped("abcdefghij", "", 1, 9), "abcde ...\n");
+}
+
 TEST(Shell, QuotesWhatItMust) {
   EXPECT_EQ(shell_quoted("./plugin.so"), "./plugin.so");
   EXPECT_EQ(shell_quoted("my plugin"), "'my plugin'");
