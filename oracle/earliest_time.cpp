@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ccd/query/arithmetic.hpp"
+#include "oracle/distance/crossing.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/filter/filter.hpp"
@@ -130,13 +131,9 @@ bool EarliestTime::makes_late(double time) {
 
 Enclosure EarliestTime::enclosure(double width) {
   const PlainArithmetic guard;
-  const auto is_narrow = [&](const KnownTime& known) {
-    const auto [lo, hi] = known.time;
-    return hi - lo <= width || (known.is_between && std::nextafter(lo, 2.0) == hi);
-  };
-  if (is_narrow(rough_)) return rough_.time;
+  if (rough_.is_known_to(width)) return rough_.time;
   const bool is_unique = width == 0;  // so a known exact time gives the same enclosure
-  if (!(is_unique && exact_) && is_narrow(narrow())) return narrow().time;
+  if (!(is_unique && exact_) && narrow().is_known_to(width)) return narrow().time;
   return enclose(exact().time, width);
 }
 
@@ -151,6 +148,8 @@ const KnownTime& EarliestTime::narrow() {
     narrow_ = rough_;
     if (query_.separation == 0)
       narrow_ = *time_of_contact(query_, 0);
+    else if (const auto neighbours = certified::narrow_crossing(query_, rough_.time))
+      narrow_ = KnownTime{*neighbours, true};
     else if (is_certified_)
       narrow_ = between(known_approach(query_, 0).time, is_certified_);
   }

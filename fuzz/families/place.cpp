@@ -82,7 +82,7 @@ Query joined(const Query& query, const Place& place, int point) {
   for (int pass = 0; pass < 2; ++pass)  // the second pass corrects the rounding of the first
     for (std::size_t k = 0; k < 3; ++k) {
       DoubleWord gap;
-      for (std::size_t i = 0; i < 8; ++i) gap = gap + share[i] * result.x[3 * i + k];
+      for (std::size_t i = 0; i < 8; ++i) gap = gap + share[i] * DoubleWord(result.x[3 * i + k]);
       result.x[3 * p + k] -= gap.hi / share[p].hi;
     }
   return result;

@@ -34,7 +34,11 @@ class ExactSubject final : public Subject {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
   [[nodiscard]] Verdict decide(const Query& query) const override {
-    return verdict(query, query.separation > 0 ? filter_with_separation(query) : filter(query));
+    if (query.separation > 0) return verdict(query, filter_with_separation(query), unknown_time);
+    if (!entry_.is_timed) return verdict(query, filter(query), unknown_time);
+    KnownTime time;
+    const FilterStage stage = filter_for_time(query, time);
+    return verdict(query, stage, time);
   }
 
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
@@ -44,11 +48,17 @@ class ExactSubject final : public Subject {
       Subject::decide(queries, verdicts);
       return;
     }
-    std::array<FilterStage, 256> stages;
-    for (std::size_t first = 0; first < queries.size(); first += stages.size()) {
-      const auto some = queries.subspan(first, std::min(stages.size(), queries.size() - first));
-      filter(some, stages);
-      for (std::size_t i = 0; i < some.size(); ++i) verdicts[first + i] = verdict(some[i], stages[i]);
+    constexpr std::size_t at_once = 256;
+    std::array<FilterStage, at_once> stages;
+    std::array<KnownTime, at_once> times;
+    for (std::size_t first = 0; first < queries.size(); first += at_once) {
+      const auto some = queries.subspan(first, std::min(at_once, queries.size() - first));
+      if (entry_.is_timed)
+        filter_for_times(QueryRows(some), stages, times);
+      else
+        filter(some, stages);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        verdicts[first + i] = verdict(some[i], stages[i], times[i]);
     }
   }
 
@@ -60,15 +70,18 @@ class ExactSubject final : public Subject {
   }
 
  private:
-  /// The verdict if the filter ended with this stage. A distance of exactly h is reported.
-  [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage) const {
+  static constexpr KnownTime unknown_time{{0, 1}};
+
+  /// The verdict if the filter ended with this stage, and with this time. A distance of exactly h is reported.
+  [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage, const KnownTime& time) const {
     if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(name_);
     const Decision decision = settle(query, stage);
     const bool filtered = stage != FilterStage::undecided;
     if (!decision.collision && !decision.is_tie)
       return Verdict::rejected(filtered ? Rejection::filter : Rejection::exact);
     Verdict hit{.hit = true, .stage = filtered ? Stage::filter : Stage::exact};
-    if (entry_.is_timed) hit.time = EarliestTime(query, decision.known).enclosure().lo;
+    if (entry_.is_timed)
+      hit.time = time.is_known_to(0) ? time.time.lo : EarliestTime(query, decision.known).enclosure().lo;
     return hit;
   }
 

@@ -15,8 +15,8 @@ namespace nearmiss::certified {
 /// 2^-103 >= 5u² for a double word.
 template <class Real>
 inline constexpr double roundoff = 0x1p-53;
-template <>
-inline constexpr double roundoff<DoubleWord> = 0x1p-103;
+template <class Real>
+inline constexpr double roundoff<DoubleWordOf<Real>> = 0x1p-103;
 
 /// The smallest positive double; every double below 2^-1022 is a multiple of it.
 inline constexpr double smallest = 0x1p-1074;
@@ -32,20 +32,32 @@ inline constexpr double smallest = 0x1p-1074;
 /// 1/2, and 1 for the further products.
 template <class Real>
 inline constexpr double product_underflow = 0.5;
-template <>
-inline constexpr double product_underflow<DoubleWord> = 8;
+template <class Real>
+inline constexpr double product_underflow<DoubleWordOf<Real>> = 8;
 
 /// The type of bounds, magnitudes and times: double, or one double per lane.
 template <class Real>
 struct BoundOf {
   using Type = double;
 };
+template <class Half>
+struct BoundOf<DoubleWordOf<Half>> {
+  using Type = Half;
+};
 template <class Real>
 using Bound = typename BoundOf<Real>::Type;
 
+template <class Real>
+inline constexpr bool is_double_word = false;
+template <class Half>
+inline constexpr bool is_double_word<DoubleWordOf<Half>> = true;
+
 /// A number converted to the type of its bounds.
 inline double approximate(double x) { return x; }
-inline double approximate(const DoubleWord& x) { return x.hi; }
+template <class Half>
+Half approximate(const DoubleWordOf<Half>& x) {
+  return x.hi;
+}
 
 /// The sign, 1 or -1, that all numbers certainly have in spite of an error of at most `error`; 0 if none is
 /// certain, as with a NaN or an infinite error. (The upper half of a double word is within a factor of 1 ±
@@ -133,20 +145,22 @@ struct Bernstein {
     Bound<Real> steepest = abs(approximate(b[1]) - approximate(b[0]));
     for (std::size_t i = 1; i + 1 < n; ++i)
       steepest = max(steepest, Bound<Real>(abs(approximate(b[i + 1]) - approximate(b[i]))));
-    if constexpr (std::is_same_v<Real, DoubleWord>) steepest += upper_halves * largest();
+    if constexpr (is_double_word<Real>) steepest += upper_halves * largest();
     const Bound<Real> spread =
         spread_growth * (n - 1) * (h + end_rounding) * (steepest + slope_errors * error);
     return spread_growth * (error + spread);
   }
 
- private:
   /// The largest magnitude of a coefficient's upper half.
-  [[nodiscard]] double largest() const {
-    double all = 0;
-    for (const Real& x : b) all = std::max(all, std::abs(approximate(x)));
+  [[nodiscard]] Bound<Real> largest() const {
+    using std::abs;
+    using std::max;
+    Bound<Real> all = abs(approximate(b[0]));
+    for (std::size_t i = 1; i < n; ++i) all = max(all, Bound<Real>(abs(approximate(b[i]))));
     return all;
   }
 
+ private:
   /// A step of de Casteljau's algorithm at time t: s = 1 - t, products, sum.
   struct DeCasteljauStep {
     Real t, s;
@@ -159,5 +173,19 @@ struct Bernstein {
     }
   };
 };
+
+inline constexpr double slope_growth = 6.1;
+inline constexpr double slope_rounding = 50;
+inline constexpr double slope_underflow = 4;
+
+/// The derivative of a cubic, in double or in lanes. Its coefficients are 3 (b_i+1 - b_i): the errors of two
+/// b add at most 6 `error`, two roundings of at most 6 `largest` add 12.1 U, and two levels of de Casteljau's
+/// algorithm 36.7 U. Underflow adds at most 5 H, and may make the bound smaller by 2 H.
+template <class Real>
+Bernstein<Real, 3> derivative(const Bernstein<Real, 4>& F) {
+  return {
+      {3 * (F.b[1] - F.b[0]), 3 * (F.b[2] - F.b[1]), 3 * (F.b[3] - F.b[2])},
+      slope_growth * F.error + slope_rounding * roundoff<Real> * F.largest() + slope_underflow * smallest};
+}
 
 }  // namespace nearmiss::certified

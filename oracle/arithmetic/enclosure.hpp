@@ -1,6 +1,8 @@
 // A number known to lie between two doubles.
 #pragma once
 
+#include <cmath>
+
 namespace nearmiss {
 
 /// lo <= the exact value <= hi.
@@ -15,6 +17,11 @@ struct Enclosure {
 struct KnownTime {
   Enclosure time;
   bool is_between = false;  ///< whether the time is certainly neither end of the enclosure
+
+  /// Whether the enclosure is at most `width` wide, or as narrow as doubles allow.
+  [[nodiscard]] bool is_known_to(double width) const {
+    return time.hi - time.lo <= width || (is_between && std::nextafter(time.lo, 2.0) == time.hi);
+  }
 };
 
 }  // namespace nearmiss

@@ -3,8 +3,8 @@
 namespace nearmiss::certified {
 
 [[gnu::flatten]] void filter_with_avx2(const QueryRows& queries, double caution, FilterStage* stages,
-                                       const QueryRows& ahead) {
-  filter_batch<4>(queries, caution, stages, ahead);
+                                       KnownTime* times, const QueryRows& ahead) {
+  filter_batch<4>(queries, caution, stages, times, ahead);
 }
 
 }  // namespace nearmiss::certified

@@ -12,6 +12,7 @@
 #include "oracle/filter/batch_look.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/filter/instruction_sets.hpp"
+#include "oracle/filter/neighbours.hpp"
 #include "oracle/filter/planes.hpp"
 #include "oracle/filter/step_part.hpp"
 
@@ -28,13 +29,16 @@ class BatchFilter {
       : queries_(queries), ahead_(ahead), caution_(caution) {}
 
   /// Processes the queries of kind `kind` in a batch of at most batch_size. It sets stages[i] if it decides
-  /// query i, and leaves it `undecided` otherwise.
-  void run(FilterStage* stages) {
+  /// query i, and leaves it `undecided` otherwise. If `times` is set, it sets times[i] if it knows between which
+  /// neighbouring doubles the first contact is.
+  void run(FilterStage* stages, KnownTime* times) {
     const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);
     const Rows unsure = cull_by_sign(crossing, stages);
     prepare_weights(unsure);
+    asks_first_ = times != nullptr;
     search(unsure, stages);
+    if (asks_first_) find_neighbours(unsure, times);
   }
 
  private:
@@ -245,9 +249,11 @@ class BatchFilter {
   };
 
   /// Examines the whole step of every query, then the remaining parts until none remains.
-  void search(const Rows& rows, FilterStage* stages) const {
+  void search(const Rows& rows, FilterStage* stages) {
     PendingParts parts;
     PendingParts next;
+    if (asks_first_)
+      for (OfBatch* const column : {&first_lo_, &unclear_from_}) std::fill_n(column->begin(), rows.size(), 1);
     for (std::size_t i = 0; i < rows.size(); ++i) stages[rows[i]] = FilterStage::weights;
     look_at_steps(rows, stages, next);
     while (next.count > 0) {
@@ -258,18 +264,17 @@ class BatchFilter {
     }
   }
 
-  void look_at_steps(const Rows& rows, FilterStage* stages, PendingParts& next) const {
+  void look_at_steps(const Rows& rows, FilterStage* stages, PendingParts& next) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const auto [F, weights] = polynomials([&](const OfBatch& c) { return Real::load(&c[i]); });
       const auto whole = [&](std::size_t l) {
         return PendingPart{0, 1, static_cast<std::uint8_t>(i + l), 0};
       };
-      take_over(look(F, weights, Real(0), Real(1)), rows.size() - i, whole, rows, stages, next);
+      take_over(look(F, weights, Real(0), Real(1), asks_first_), rows.size() - i, whole, rows, stages, next);
     }
   }
 
-  void look_at_parts(const PendingParts& parts, const Rows& rows, FilterStage* stages,
-                     PendingParts& next) const {
+  void look_at_parts(const PendingParts& parts, const Rows& rows, FilterStage* stages, PendingParts& next) {
     for (std::size_t i = 0; i < parts.count; i += n) {
       const PendingPart* const pack = &parts.parts[i];
       const auto [F, weights] = polynomials(
@@ -277,14 +282,14 @@ class BatchFilter {
       const Real lo = Real::gather([&](std::size_t l) { return pack[l].lo; });
       const Real hi = Real::gather([&](std::size_t l) { return pack[l].hi; });
       const auto part = [&](std::size_t l) { return pack[l]; };
-      take_over(look(F, weights, lo, hi), parts.count - i, part, rows, stages, next);
+      take_over(look(F, weights, lo, hi, asks_first_), parts.count - i, part, rows, stages, next);
     }
   }
 
-  /// Sets the stages from the results for n parts, and adds the parts to examine next.
+  /// Sets the stages and first contacts from the results for n parts, and adds the parts to examine next.
   template <class PartOfLane>
-  static void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
-                        FilterStage* stages, PendingParts& next) {
+  void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
+                 FilterStage* stages, PendingParts& next) {
     std::array<double, n> left;
     std::array<double, n> right;
     seen.left.store(left.data());
@@ -293,29 +298,68 @@ class BatchFilter {
       if (outcome == 0) return;
       const PendingPart part = part_of_lane(l);
       FilterStage& stage = stages[rows[part.place]];
-      if ((outcome & Look::collision) != 0) stage = FilterStage::sign_change;
-      if (stage == FilterStage::sign_change) return;
-      const auto push = [&](double lo, double hi) {
-        if (!next.push(part, lo, hi)) stage = FilterStage::undecided;
+      if ((outcome & Look::collision) != 0) {
+        stage = FilterStage::sign_change;
+        if (asks_first_ && left[l] < first_lo_[part.place]) {
+          first_lo_[part.place] = left[l];
+          first_hi_[part.place] = right[l];
+        }
+      }
+      if (stage == FilterStage::sign_change && !(asks_first_ && part.lo < first_lo_[part.place])) return;
+      const auto leave_unclear = [&] {
+        if (stage != FilterStage::sign_change) stage = FilterStage::undecided;
+        if (asks_first_) unclear_from_[part.place] = std::min(unclear_from_[part.place], part.lo);
       };
-      if ((outcome & Look::unknown) != 0) stage = FilterStage::undecided;
+      const auto push = [&](double lo, double hi) {
+        if (!next.push(part, lo, hi)) leave_unclear();
+      };
+      if ((outcome & Look::unknown) != 0) leave_unclear();
       if ((outcome & Look::before) != 0) push(part.lo, left[l]);
       if ((outcome & Look::middle) != 0) push(left[l], right[l]);
       if ((outcome & Look::behind) != 0) push(right[l], part.hi);
     });
   }
 
+  /// Finds the neighbouring doubles around those first contacts before which nothing is unclear.
+  void find_neighbours(const Rows& rows, KnownTime* times) const {
+    const Rows places(rows.size(),
+                      [&](std::size_t place) { return first_lo_[place] < unclear_from_[place]; });
+    for (std::size_t i = 0; i < places.size(); i += n) {
+      const auto take = [&](const OfBatch& column) {
+        return Real::gather([&](std::size_t l) { return column[places[i + l]]; });
+      };
+      std::array<std::uint8_t, n> packed;
+      for (std::size_t l = 0; l < n; ++l) packed[l] = static_cast<std::uint8_t>(rows[places[i + l]]);
+      const Bernstein<Real, 4> F{{take(F_[0]), take(F_[1]), take(F_[2]), take(F_[3])}, take(F_[4])};
+      const Neighbours<Real> near = neighbours_of_root(whole_step<DoubleWordOf<Real>>(points(packed.data())),
+                                                       F, take(first_lo_), take(first_hi_));
+      std::array<double, n> lo;
+      std::array<double, n> hi;
+      near.lo.store(lo.data());
+      near.hi.store(hi.data());
+      for_lanes(near.hold.as(1), places.size() - i, [&](std::size_t l, std::int64_t holds) {
+        if (holds != 0) times[rows[places[i + l]]] = {{lo[l], hi[l]}, true};
+      });
+    }
+  }
+
   QueryRows queries_, ahead_;
   double caution_;  ///< factor of all bounds, at least 1
+  bool asks_first_ = false;
   // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
   std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error
   std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
+  // For each query, the bracket around the first contact that has been found, and the beginning of the first
+  // part that is unclear; 1 if there is none.
+  OfBatch first_lo_, first_hi_, unclear_from_;
 };
 
 template <int n>
-void filter_batch(const QueryRows& queries, double caution, FilterStage* stages, const QueryRows& ahead) {
+void filter_batch(const QueryRows& queries, double caution, FilterStage* stages, KnownTime* times,
+                  const QueryRows& ahead) {
   std::fill_n(stages, queries.size(), FilterStage::undecided);
-  for_each_kind_of_meshes([&]<Kind kind>() { BatchFilter<n, kind>(queries, caution, ahead).run(stages); });
+  for_each_kind_of_meshes(
+      [&]<Kind kind>() { BatchFilter<n, kind>(queries, caution, ahead).run(stages, times); });
 }
 
 }  // namespace nearmiss::certified

@@ -133,10 +133,12 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
   return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
 }
 
-/// Examines F and the weights of n queries, each on a part [lo, hi] of its step.
+/// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is asked
+/// for, a collision is only found with a bracket [left, right] around its root, and what is before that bracket
+/// must be examined next.
 template <int n, std::size_t count>
 Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
-             const Lanes<n>& lo, const Lanes<n>& hi) {
+             const Lanes<n>& lo, const Lanes<n>& hi, bool asks_first) {
   using Mask = typename Lanes<n>::Mask;
   const auto f = F.on(lo, hi);
   const Signs<n> whole = certain_signs(f, F.error);
@@ -154,10 +156,12 @@ Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n
   result.right = select(root.holds, root.behind, divided);
   const Signs<n> before = certain_signs(F.on(lo, result.left), F.error);
   const Signs<n> behind = certain_signs(F.on(result.right, hi), F.error);
-  const Mask found = ends.changes & (in_all.agree | (root.holds & near.agree)) & (!dropped);
+  const Mask first(asks_first);
+  const Mask found =
+      ends.changes & (!dropped) & ((root.holds & (in_all.agree | near.agree)) | (in_all.agree & (!first)));
   const Mask go_on = ends.known & (!dropped) & (!found);
   result.outcome = found.as(Look<n>::collision) | ((!ends.known) & (!dropped)).as(Look<n>::unknown) |
-                   (go_on & (!(before.positive | before.negative))).as(Look<n>::before) |
+                   ((go_on | (found & first)) & (!(before.positive | before.negative))).as(Look<n>::before) |
                    (go_on & root.holds & (!near.opposed)).as(Look<n>::middle) |
                    (go_on & (!(behind.positive | behind.negative))).as(Look<n>::behind);
   return result;

@@ -7,6 +7,7 @@
 #include "oracle/filter/box.hpp"
 #include "oracle/filter/end_contact.hpp"
 #include "oracle/filter/instruction_sets.hpp"
+#include "oracle/filter/neighbours.hpp"
 #include "oracle/filter/planes.hpp"
 #include "oracle/filter/search.hpp"
 
@@ -20,36 +21,57 @@ bool separated_by_a_plane(const Points& x) {
   return separated_across_axes<kind>(x) || separated_across_diagonals<kind>(x);
 }
 
+/// The result of a search, and an interval that contains the first contact, if there is one and its time is
+/// asked for; no interval if there certainly is none.
+struct Found {
+  FilterStage stage;
+  std::optional<KnownTime> time;
+};
+
 template <class Real>
-FilterStage search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Real>& whole) {
-  return ContactSearch<Real>(query.kind, whole, whole, F, 0).run();
+Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Real>& whole,
+             Asked asked = Asked::whether) {
+  ContactSearch<Real> search(query.kind, whole, whole, F, 0, asked);
+  const FilterStage stage = search.run();
+  if (const auto first = search.first()) return {stage, KnownTime{*first, search.is_between()}};
+  return {stage, std::nullopt};
 }
 
 FilterStage search_in_double_words(const Query& query) {
   const auto whole = whole_step<DoubleWord>(coordinates(query));
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
-  return search(query, F, whole);
+  return search(query, F, whole).stage;
 }
 
-[[gnu::noinline]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
-                                          const Bernstein<double, 4>& F) {
-  for (const int time : {0, 1})
-    if (!(std::abs(F.b[time == 0 ? 0 : 3]) > F.error) && touch_at_end(query, time))
-      return FilterStage::at_an_end;
-  const FilterStage stage = search(query, F, whole);
-  return stage == FilterStage::undecided ? search_in_double_words(query) : stage;
+/// The neighbouring doubles around the first contact, if it is in an interval and this can be shown. All is
+/// inlined, because much of what the functions compute is not needed at one time.
+[[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query, const Bernstein<double, 4>& F,
+                                            const Enclosure& time) {
+  const auto [lo, hi, hold] =
+      neighbours_of_root(whole_step<DoubleWord>(coordinates(query)), F, time.lo, time.hi);
+  if (!hold) return std::nullopt;
+  return KnownTime{{lo, hi}, true};
 }
 
-/// An interval that contains the first contact, if there is one; nothing if there certainly is none.
-template <class Real>
-std::optional<KnownTime> search_for_time(const Query& query, const Bernstein<Real, 4>& F,
-                                         const StepPart<Real>& whole, Asked asked) {
-  ContactSearch<Real> search(query.kind, whole, whole, F, 0, asked);
-  search.run();
-  const auto first = search.first();
-  if (!first) return std::nullopt;
-  return KnownTime{*first, search.is_between()};
+/// Decides a query whose F may have a root. If `time` is not null, it also sets the time of the first contact if
+/// neighbouring doubles are known between which it lies.
+[[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
+                                          const Bernstein<double, 4>& F, KnownTime* time) {
+  const auto touches_at = [&](int end) {
+    return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error) && touch_at_end(query, end);
+  };
+  if (touches_at(0)) {
+    if (time != nullptr) *time = {{0, 0}};
+    return FilterStage::at_an_end;
+  }
+  if (time == nullptr && touches_at(1)) return FilterStage::at_an_end;
+  const Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
+  if (time != nullptr && found.time)
+    if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
+  if (found.stage != FilterStage::undecided) return found.stage;
+  if (time != nullptr && touches_at(1)) return FilterStage::at_an_end;
+  return search_in_double_words(query);
 }
 
 FilterBatch* filter_with(Instructions instructions) {
@@ -64,21 +86,18 @@ FilterBatch* filter_with(Instructions instructions) {
 }
 
 void filter_all(const QueryRows& queries, double caution, std::span<FilterStage> stages,
-                Instructions instructions) {
+                std::span<KnownTime> times, Instructions instructions) {
   const PlainArithmetic guard;
   FilterBatch* const filter_batch = filter_with(instructions);
   for (std::size_t first = 0; first < queries.size(); first += batch_size) {
     const std::size_t count = std::min(batch_size, queries.size() - first);
     const std::size_t ahead = std::min(first + batch_size, queries.size() - count);
-    filter_batch(queries.part(first, count), caution, &stages[first], queries.part(ahead, count));
+    filter_batch(queries.part(first, count), caution, &stages[first], times.empty() ? nullptr : &times[first],
+                 queries.part(ahead, count));
   }
 }
 
-}  // namespace
-}  // namespace certified
-
-FilterStage filter(const Query& query) {
-  using namespace certified;
+[[gnu::flatten]] FilterStage filter(const Query& query, KnownTime* time) {
   const PlainArithmetic guard;
   if (!is_finite(query)) return FilterStage::undecided;
   const auto x = coordinates(query);
@@ -90,7 +109,30 @@ FilterStage filter(const Query& query) {
   if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
   whole.x21 = difference<double>(x, 2, 1);
   whole.x31 = difference<double>(x, 3, 1);
-  return look_closer(query, whole, F);
+  return look_closer(query, whole, F, time);
+}
+
+/// Decides many queries, and finds the times of their first contacts if `times` is not empty.
+void filter(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
+            Instructions instructions) {
+  filter_all(queries, 1, stages, times, instructions);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (stages[i] == FilterStage::undecided) {
+      const Query query = queries[i];
+      if (is_finite(query))
+        stages[i] =
+            boxes_meet(query) ? filter(query, times.empty() ? nullptr : &times[i]) : FilterStage::boxes;
+    }
+}
+
+}  // namespace
+}  // namespace certified
+
+FilterStage filter(const Query& query) { return certified::filter(query, nullptr); }
+
+FilterStage filter_for_time(const Query& query, KnownTime& time) {
+  time = {{0, 1}};
+  return certified::filter(query, &time);
 }
 
 std::optional<KnownTime> time_of_contact(const Query& query, double width) {
@@ -101,26 +143,29 @@ std::optional<KnownTime> time_of_contact(const Query& query, double width) {
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return std::nullopt;
   if (!(std::abs(F.b[0]) > F.error) && touch_at_end(query, 0)) return KnownTime{{0, 0}};
-  if (width > 0) {  // an enclosure in double is always wider than 0
-    const auto time = search_for_time(query, F, whole, Asked::when);
-    if (!time || time->time.hi - time->time.lo <= width) return time;
-  }
+  const auto time = search(query, F, whole, Asked::when).time;
+  if (!time || time->time.hi - time->time.lo <= width) return time;
+  const bool is_precise = width < rough_time;
+  if (is_precise)
+    if (const auto neighbours = between_neighbours(query, F, time->time)) return neighbours;
   const auto in_words = whole_step<DoubleWord>(coordinates(query));
-  return search_for_time(query, coplanarity(in_words.a, in_words.b, in_words.c), in_words,
-                         width < rough_time ? Asked::when_precisely : Asked::when);
+  return search(query, coplanarity(in_words.a, in_words.b, in_words.c), in_words,
+                is_precise ? Asked::when_precisely : Asked::when)
+      .time;
 }
 
 void filter(const QueryRows& queries, std::span<FilterStage> stages, Instructions instructions) {
-  certified::filter_all(queries, 1, stages, instructions);
-  for (std::size_t i = 0; i < queries.size(); ++i)
-    if (stages[i] == FilterStage::undecided) {
-      const Query query = queries[i];
-      if (is_finite(query)) stages[i] = boxes_meet(query) ? filter(query) : FilterStage::boxes;
-    }
+  certified::filter(queries, stages, {}, instructions);
+}
+
+void filter_for_times(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
+                      Instructions instructions) {
+  std::ranges::fill(times, KnownTime{{0, 1}});
+  certified::filter(queries, stages, times, instructions);
 }
 
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages) {
-  certified::filter_all(QueryRows(queries), caution, stages, chosen_instructions());
+  certified::filter_all(QueryRows(queries), caution, stages, {}, chosen_instructions());
 }
 
 }  // namespace nearmiss

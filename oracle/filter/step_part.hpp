@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 
 #include "ccd/query/query.hpp"
 #include "oracle/arithmetic/bernstein.hpp"
@@ -95,7 +94,7 @@ Vec<Bound<Real>> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
 /// rounded once otherwise.
 template <class Real, class Points>
 Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
-  constexpr bool is_exact = std::is_same_v<Real, DoubleWord>;
+  constexpr bool is_exact = is_double_word<Real>;
   const auto at = [&](std::size_t time, std::size_t k) -> Real {
     if constexpr (is_exact)
       return two_sum(x(time, i, k), -x(time, j, k));
@@ -171,8 +170,9 @@ template <class Real>
 Real third(const Real& x) {
   return x / 3;
 }
-inline DoubleWord third(const DoubleWord& x) {
-  return x * DoubleWord{0x1.5555555555555p-2, 0x1.5555555555555p-56};  // 1/3 within 2^-108
+template <class Half>
+DoubleWordOf<Half> third(const DoubleWordOf<Half>& x) {
+  return x * DoubleWordOf<Half>{0x1.5555555555555p-2, 0x1.5555555555555p-56};  // 1/3 within 2^-108
 }
 
 /// F = a · (b × c).

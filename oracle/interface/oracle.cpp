@@ -49,28 +49,53 @@ struct Answers {
   }
 };
 
-/// Encloses a number of each query, at most about `width` wide: lo[q] <= enclosure_of(query) <= hi[q].
-template <class EnclosureOf>
-int enclose(const nearmiss_queries* queries, double width, double* lo, double* hi,
-            const EnclosureOf& enclosure_of) {
-  const PlainArithmetic guard;
-  if (lo == nullptr || !(width >= 0)) return NEARMISS_BAD_ARGUMENT;
-  const auto set = [&](std::size_t q, const Enclosure& enclosure) {
+/// The arrays of the lower and upper ends of enclosures; `hi` may be null.
+struct Enclosures {
+  double *lo, *hi;
+
+  void set(std::size_t q, const Enclosure& enclosure) const {
     lo[q] = enclosure.lo;
     if (hi != nullptr) hi[q] = enclosure.hi;
-  };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return for_each_query(
-      queries, [&](const Query& query, std::size_t q) { set(q, enclosure_of(query)); },
-      [&](std::size_t q) {
-        set(q, {nan, nan});
-      });
-}
+  }
+  void refuse(std::size_t q) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    set(q, {nan, nan});
+  }
+};
 
 /// An enclosure of a query's t*, at most `width` wide; infinite if there is no collision.
 Enclosure enclosed_time(const Query& query, double width) {
   auto time = earliest_time(query);
   return time ? time->enclosure(width) : Enclosure{HUGE_VAL, HUGE_VAL};
+}
+
+/// Calls set(q, enclosed_time(query, width)) for each query that can be answered, and refuse(q) for each of the
+/// others.
+template <class Set, class Refuse>
+int for_each_time(const nearmiss_queries* queries, double width, const Set& set, const Refuse& refuse) {
+  return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
+    std::array<FilterStage, block_size> stages;
+    std::array<KnownTime, block_size> times;
+    // A wider enclosure would depend on how it is found.
+    const bool side_by_side =
+        width == 0 && block.size() >= fewest_side_by_side && ask_for_contact(*queries, first, block.size());
+    if (side_by_side) filter_for_times(block, stages, std::span(times).first(block.size()));
+    int status = NEARMISS_OK;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const bool is_decided = side_by_side && stages[i] != FilterStage::undecided;
+      if (is_decided && !is_collision(stages[i])) {
+        set(first + i, Enclosure{HUGE_VAL, HUGE_VAL});
+      } else if (is_decided && times[i].is_known_to(0)) {
+        set(first + i, times[i].time);
+      } else if (const Query query = block[i]; is_answerable(query)) {
+        set(first + i, enclosed_time(query, width));
+      } else {
+        refuse(first + i);
+        status = NEARMISS_NOT_FINITE;
+      }
+    }
+    return status;
+  });
 }
 
 Certificates certificates_of(const Query& query, int what) {
@@ -114,6 +139,7 @@ using nearmiss::FilterStage;
 using nearmiss::Query;
 using nearmiss::QueryRows;
 using nearmiss::interface::Answers;
+using nearmiss::interface::Enclosures;
 
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by) {
   const nearmiss::PlainArithmetic guard;
@@ -138,23 +164,25 @@ int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t*
 }
 
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi) {
-  return nearmiss::interface::enclose(queries, width, lo, hi, [&](const Query& query) {
-    return nearmiss::interface::enclosed_time(query, width);
-  });
+  const nearmiss::PlainArithmetic guard;
+  if (lo == nullptr || !(width >= 0)) return NEARMISS_BAD_ARGUMENT;
+  const Enclosures to{lo, hi};
+  return nearmiss::interface::for_each_time(
+      queries, width, [&](std::size_t q, const nearmiss::Enclosure& time) { to.set(q, time); },
+      [&](std::size_t q) { to.refuse(q); });
 }
 
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi) {
   const nearmiss::PlainArithmetic guard;
   if (answers == nullptr || toi == nullptr || !(tmax <= 1)) return NEARMISS_BAD_ARGUMENT;
   const Answers to{answers, nullptr};
-  return nearmiss::interface::for_each_query(
-      queries,
-      [&](const Query& query, std::size_t q) {
+  return nearmiss::interface::for_each_time(
+      queries, 0,
+      [&](std::size_t q, const nearmiss::Enclosure& time) {
         // If t* is not a double, it is at most tmax if and only if the next double is.
-        const auto enclosure = nearmiss::interface::enclosed_time(query, 0);
-        const bool is_collision = enclosure.hi <= tmax;
+        const bool is_collision = time.hi <= tmax;
         answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
-        toi[q] = is_collision ? enclosure.lo : HUGE_VAL;
+        toi[q] = is_collision ? time.lo : HUGE_VAL;
       },
       [&](std::size_t q) {
         to.refuse(q);
@@ -164,15 +192,21 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi) {
+  const nearmiss::PlainArithmetic guard;
+  if (lo == nullptr || !(relative_width >= 0)) return NEARMISS_BAD_ARGUMENT;
   nearmiss_queries without_separations;
   if (queries != nullptr) {
     without_separations = *queries;
     without_separations.separation = nullptr;
     queries = &without_separations;
   }
-  return nearmiss::interface::enclose(queries, relative_width, lo, hi, [&](const Query& query) {
-    return nearmiss::minimum_distance(query, std::min(relative_width, 0.5));
-  });
+  const Enclosures to{lo, hi};
+  return nearmiss::interface::for_each_query(
+      queries,
+      [&](const Query& query, std::size_t q) {
+        to.set(q, nearmiss::minimum_distance(query, std::min(relative_width, 0.5)));
+      },
+      [&](std::size_t q) { to.refuse(q); });
 }
 
 int nearmiss_certificate(const nearmiss_queries* queries, size_t q, int what, char* text, size_t size,

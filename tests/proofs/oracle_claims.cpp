@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "oracle/filter/neighbours.hpp"
 #include "oracle/filter/search.hpp"
 #include "tests/proofs/claims.hpp"
 #include "tests/proofs/oracle_errors.hpp"
@@ -72,6 +73,40 @@ double seen_slope(const Inputs& in) {
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));
   const Rational exact = abs(Rational(in.at("b1")) + e - (Rational(in.at("b0")) - e));
   return ratio(exact - slope, abs(e));
+}
+
+/// The error of the derivative of a cubic at t, for exact coefficients, in units of u times the largest one.
+double seen_slope_rounding(const Inputs& in) {
+  const double t = in.at("t");
+  if (!(t >= 0 && t <= 1)) return 0;
+  const Bernstein<double, 4> F{{in.at("b0"), in.at("b1"), in.at("b2"), in.at("b3")}, 0};
+  const Rational s = Rational(1) - Rational(t);
+  const auto slope = [&](std::size_t i) -> Rational { return 3 * (Rational(F.b[i + 1]) - Rational(F.b[i])); };
+  const Rational exact = s * s * slope(0) + 2 * s * Rational(t) * slope(1) + Rational(t) * t * slope(2);
+  return ratio(abs(Rational(derivative(F).at(t)) - exact), Rational(F.largest()) * Rational(u));
+}
+
+/// The error of the derivative at t = 0 that comes from those of the coefficients, divided by them.
+double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
+
+/// The error of F(t) + S (d - t), in units of u (|F(t)| + |S (d - t)|).
+double seen_secant(const Inputs& in) {
+  const double v = in.at("v");
+  const double S = in.at("S");
+  const double g = in.at("d") - in.at("t");
+  const Rational exact_g = Rational(in.at("d")) - Rational(in.at("t"));
+  const Rational lower = Rational(in.at("lower")) * Rational(v) * Rational(u);
+  const Rational exact = Rational(v) + lower + Rational(S) * exact_g;
+  if (!(std::abs(in.at("lower")) <= 1)) return 0;
+  return ratio(abs(Rational(v + S * g) - exact),
+               (Rational(std::abs(v)) + abs(Rational(S) * exact_g)) * Rational(u));
+}
+
+/// The error of a derivative of tiny coefficients beyond its relative error, in units of the smallest double.
+double seen_slope_underflow(const Inputs& in) {
+  const Bernstein<double, 4> F{{in.at("b0"), in.at("b1"), in.at("b2"), in.at("b3")}, 0};
+  if (F.largest() > 0x1p-1060) return 0;
+  return seen_slope_rounding(in) * F.largest() * u / smallest;
 }
 
 double seen_upper_halves(const Inputs& in) {
@@ -216,6 +251,23 @@ void add_others(std::vector<OracleClaim>& claims) {
        draw_from({{"b0", {-1, 1}}, {"b1", {-1, 1}}, {"b2", {-1, 1}}, {"h", {0, 1}}})});
   add({"slope_errors", bernstein, "error", slope_errors, gappa, proven_slope_errors, seen_slope,
        draw_from({{"b0", {-1, 1}}, {"b1", {-1, 1}}, {"e", {0, 1}}})});
+  const std::map<std::string, std::pair<double, double>> cubics{
+      {"b0", {-1, 1}}, {"b1", {-1, 1}}, {"b2", {-1, 1}}, {"b3", {-1, 1}}, {"t", {0, 1}}};
+  add({"slope_rounding", bernstein, "U largest", slope_rounding, gappa, proven_slope_rounding,
+       seen_slope_rounding, draw_from(cubics)});
+  add({"slope_growth", bernstein, "error", slope_growth, gappa, proven_slope_growth, seen_slope_growth,
+       draw_from({{"b0", {-1, 1}}, {"b1", {-1, 1}}, {"e", {0, 1}}})});
+  add({"slope_underflow", bernstein, "2^-1074", slope_underflow, "argument beside it", [] { return 3.5; },
+       seen_slope_underflow,
+       [cubics](Random& random) {
+         Inputs in = draw_from(cubics)(random);
+         for (auto& [name, value] : in)
+           if (name != "t") value *= 0x1p-1060;
+         return in;
+       }});
+  add({"secant_rounding", "oracle/filter/neighbours.hpp", "U (|v| + |S| g)", secant_rounding, gappa,
+       proven_secant_rounding, seen_secant,
+       draw_from({{"v", {-1, 1}}, {"lower", {-1, 1}}, {"S", {-1, 1}}, {"t", {0, 1}}, {"d", {0, 1}}})});
   add({"end_rounding", bernstein, "2^-54", end_rounding * 0x1p54, gappa, proven_end_rounding, seen_end,
        draw_from({{"t", {0.5, 1}}, {"h", {0, 0x1p-50}}})});
   add({"upper_halves", bernstein, "2^-52", upper_halves * 0x1p52, gappa, proven_upper_halves,

@@ -178,6 +178,35 @@ double proven_upper_halves() {
       "{ a in [1, 2] /\\ al in [-1b-53, 1b-53] /\\ bl in [-1b-53, 1b-53] -> (al - bl) / a * 1b52 in ? }\n");
 }
 
+// A coefficient 3 (b_i+1 - b_i) is rounded twice, and three times in each of two levels of de Casteljau's
+// algorithm. The bound is rounded in at most two products and two sums.
+constexpr int roundings_of_slope = 8;
+constexpr int roundings_of_slope_bound = 4;
+
+double proven_slope_rounding() {
+  Factors factors;
+  const std::string missed =
+      fmt::format("6 * ({} - 1) * {:a}", factors.product(roundings_of_slope, u), 1 / u);
+  return proven_upper_end(
+      factors.script(quotient(missed, factors.product(roundings_of_slope_bound, u)) + " in ?"));
+}
+
+double proven_slope_growth() {
+  Factors factors;
+  const std::string grown = fmt::format("6 * {}", factors.product(roundings_of_slope, u));
+  return proven_upper_end(
+      factors.script(quotient(grown, factors.product(roundings_of_slope_bound, u)) + " in ?"));
+}
+
+// In the value, S g is rounded three times. The term R g of the bound loses up to four roundings, and R is at most
+// |S|. The term of these roundings is itself rounded at most six times.
+double proven_secant_rounding() {
+  Factors factors;
+  const std::string missed =
+      fmt::format("(({} - 1) + (1 - {})) * {:a}", factors.product(3, u), factors.product(4, u), 1 / u);
+  return proven_upper_end(factors.script(quotient(missed, factors.product(6, u)) + " in ?"));
+}
+
 double proven_zoom_rounding() {
   const auto script = [](char outward, char back) {
     const std::string c = script_text(zoom_rounding);

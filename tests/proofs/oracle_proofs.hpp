@@ -26,6 +26,14 @@ double proven_slope_errors();
 double proven_end_rounding();
 double proven_upper_halves();
 
+/// Constants of `derivative`: the roundings of a slope, in units of U times the largest coefficient, and the number
+/// of errors in it.
+double proven_slope_rounding();
+double proven_slope_growth();
+
+/// Constant of `neighbours_of_root`: the roundings of a value beside t, in units of U (|v| + |S| g).
+double proven_secant_rounding();
+
 /// The error of the ends of a part within a part of the step, in units of 2^-52.
 double proven_zoom_rounding();
 

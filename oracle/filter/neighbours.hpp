@@ -1,0 +1,72 @@
+// The two neighbouring doubles between which the time of a contact lies, in double or in lanes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/arithmetic/bernstein.hpp"
+#include "oracle/arithmetic/doubles_around.hpp"
+#include "oracle/filter/step_part.hpp"
+
+namespace nearmiss::certified {
+
+inline bool any_of(bool mask) { return mask; }
+
+inline constexpr double value_growth = 1.02;   ///< factor by which roundings and underflow increase E
+inline constexpr double secant_rounding = 10;  ///< roundings, in units of U (|v| + |S| g)
+
+/// Two neighbouring doubles, and the lanes in which the root certainly lies between them.
+template <class Real>
+struct Neighbours {
+  using Mask = decltype(Real() < Real());
+  Real lo, hi;
+  Mask hold;
+};
+
+/// Looks for the neighbouring doubles around a root of F that lies in [lo, hi]; F is given over the whole
+/// `step`. They hold only if F is monotone in [lo, hi], so that this is its only root there.
+///
+/// After Newton's method in double, one more step from a time t, with F in double words, gives both doubles.
+/// The mean value theorem gives the signs of F at them: F(d) = F(t) + F'(s) (d - t) for an s between t and d.
+/// F(t) = v is computed within a bound E, and F'(s) is S within a bound R < |S|. With g >= |d - t|, the
+/// roundings of v to its upper half, of d - t, of its product with S, and of the sum add 2 U |v| + 3 U |S| g,
+/// and those of R g another 4 U |S| g. Underflow adds at most 5 H, and E is at least 512 H.
+template <class Real>
+Neighbours<Real> neighbours_of_root(const StepPart<DoubleWordOf<Real>>& step, const Bernstein<Real, 4>& F,
+                                    const Real& lo, const Real& hi) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  using Mask = typename Neighbours<Real>::Mask;
+  const Bernstein<Real, 3> slopes = derivative(F);
+  Real guess = lo + 0.5 * (hi - lo);
+  const Mask is_monotone(abs(slopes.at(guess)) > slopes.error_near(hi - lo));
+  const auto in_bracket = [&](const Real& time) { return min(max(time, lo), hi); };
+  constexpr int newton_steps = 3;
+  for (int i = 0; i < newton_steps; ++i) guess = in_bracket(guess - F.at(guess) / slopes.at(guess));
+
+  const auto look_from = [&](const Real& t) -> Neighbours<Real> {
+    const auto at_t = [&](const Motion<DoubleWordOf<Real>>& motion) { return part_of(motion, t, t); };
+    const Bernstein<DoubleWordOf<Real>, 4> at = coplanarity(at_t(step.a), at_t(step.b), at_t(step.c));
+    const Real value = approximate(at.b[0]);
+    const Real slope = slopes.at(t);
+    const DoubleWordOf<Real> root = two_sum(t, Real(-value / slope));
+    const auto [below, above] = doubles_around(root);
+    const Real reach = max(abs(below - t), abs(above - t));
+    const Real slope_error = slopes.error_near(reach);
+    const Real error = value_growth * at.error + slope_error * reach +
+                       secant_rounding * roundoff<double> * (abs(value) + abs(slope) * reach);
+    const Real rise = select(slope > 0, Real(1), Real(-1));
+    const auto sign = [&](const Real& time) { return rise * (value + slope * (time - t)); };
+    return {below, above,
+            Mask(is_monotone & (abs(slope) > slope_error) & (below >= lo) & (above <= hi) &
+                 (sign(below) < -error) & (sign(above) > error))};
+  };
+  const Neighbours<Real> first = look_from(guess);
+  if (!any_of(!first.hold)) return first;
+  const Neighbours<Real> second = look_from(in_bracket(first.lo));
+  return {select(first.hold, first.lo, second.lo), select(first.hold, first.hi, second.hi),
+          Mask(first.hold | second.hold)};
+}
+
+}  // namespace nearmiss::certified
