@@ -298,12 +298,10 @@ class BatchFilter {
       if (outcome == 0) return;
       const PendingPart part = part_of_lane(l);
       FilterStage& stage = stages[rows[part.place]];
-      if ((outcome & Look::collision) != 0) {
-        stage = FilterStage::sign_change;
-        if (asks_first_ && left[l] < first_lo_[part.place]) {
-          first_lo_[part.place] = left[l];
-          first_hi_[part.place] = right[l];
-        }
+      if ((outcome & Look::collision) != 0) stage = FilterStage::sign_change;
+      if (asks_first_ && (outcome & Look::bracket) != 0 && left[l] < first_lo_[part.place]) {
+        first_lo_[part.place] = left[l];
+        first_hi_[part.place] = right[l];
       }
       if (stage == FilterStage::sign_change && !(asks_first_ && part.lo < first_lo_[part.place])) return;
       const auto leave_unclear = [&] {

@@ -72,10 +72,10 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
 }
 
 /// The outcome for a part of the step, and which of its parts must be examined next: [lo, left], [left,
-/// right] and [right, hi].
+/// right] and [right, hi]. With `bracket`, there is a collision in [left, right].
 template <int n>
 struct Look {
-  enum : std::int64_t { collision = 1, unknown = 2, before = 4, middle = 8, behind = 16 };
+  enum : std::int64_t { collision = 1, unknown = 2, before = 4, middle = 8, behind = 16, bracket = 32 };
   typename Lanes<n>::Integers outcome;
   Lanes<n> left, right;
 };
@@ -134,8 +134,8 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
 }
 
 /// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is asked
-/// for, a collision is only found with a bracket [left, right] around its root, and what is before that bracket
-/// must be examined next.
+/// for, the part of a collision without a bracket must be divided, and what is before a bracket must be
+/// examined next.
 template <int n, std::size_t count>
 Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
              const Lanes<n>& lo, const Lanes<n>& hi, bool asks_first) {
@@ -156,14 +156,17 @@ Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n
   result.right = select(root.holds, root.behind, divided);
   const Signs<n> before = certain_signs(F.on(lo, result.left), F.error);
   const Signs<n> behind = certain_signs(F.on(result.right, hi), F.error);
-  const Mask first(asks_first);
-  const Mask found =
-      ends.changes & (!dropped) & ((root.holds & (in_all.agree | near.agree)) | (in_all.agree & (!first)));
-  const Mask go_on = ends.known & (!dropped) & (!found);
-  result.outcome = found.as(Look<n>::collision) | ((!ends.known) & (!dropped)).as(Look<n>::unknown) |
-                   ((go_on | (found & first)) & (!(before.positive | before.negative))).as(Look<n>::before) |
-                   (go_on & root.holds & (!near.opposed)).as(Look<n>::middle) |
-                   (go_on & (!(behind.positive | behind.negative))).as(Look<n>::behind);
+  const Mask changes = ends.changes & (!dropped);
+  const Mask bracketed = changes & root.holds & (in_all.agree | near.agree);
+  const Mask found = bracketed | (changes & in_all.agree);
+  const Mask asked(asks_first);
+  const Mask go_on = ends.known & (!dropped) & (!(bracketed | (found & (!asked))));
+  result.outcome =
+      found.as(Look<n>::collision) | bracketed.as(Look<n>::bracket) |
+      ((!ends.known) & (!dropped)).as(Look<n>::unknown) |
+      ((go_on | (bracketed & asked)) & (!(before.positive | before.negative))).as(Look<n>::before) |
+      (go_on & root.holds & (!near.opposed)).as(Look<n>::middle) |
+      (go_on & (!(behind.positive | behind.negative))).as(Look<n>::behind);
   return result;
 }
 

@@ -46,8 +46,9 @@ FilterStage search_in_double_words(const Query& query) {
 
 /// The neighbouring doubles around the first contact, if it is in an interval and this can be shown. All is
 /// inlined, because much of what the functions compute is not needed at one time.
-[[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query, const Bernstein<double, 4>& F,
-                                            const Enclosure& time) {
+[[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
+                                                             const Bernstein<double, 4>& F,
+                                                             const Enclosure& time) {
   const auto [lo, hi, hold] =
       neighbours_of_root(whole_step<DoubleWord>(coordinates(query)), F, time.lo, time.hi);
   if (!hold) return std::nullopt;
@@ -57,7 +58,7 @@ FilterStage search_in_double_words(const Query& query) {
 /// Decides a query whose F may have a root. If `time` is not null, it also sets the time of the first contact if
 /// neighbouring doubles are known between which it lies.
 [[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
-                                          const Bernstein<double, 4>& F, KnownTime* time) {
+                                                        const Bernstein<double, 4>& F, KnownTime* time) {
   const auto touches_at = [&](int end) {
     return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error) && touch_at_end(query, end);
   };
@@ -66,9 +67,12 @@ FilterStage search_in_double_words(const Query& query) {
     return FilterStage::at_an_end;
   }
   if (time == nullptr && touches_at(1)) return FilterStage::at_an_end;
-  const Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
-  if (time != nullptr && found.time)
+  Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
+  if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
+    // Another part is unclear, before which the search would have ended without a time.
+    if (!found.time->is_between) found = search(query, F, whole);
+  }
   if (found.stage != FilterStage::undecided) return found.stage;
   if (time != nullptr && touches_at(1)) return FilterStage::at_an_end;
   return search_in_double_words(query);
