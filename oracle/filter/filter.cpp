@@ -37,7 +37,7 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return {stage, std::nullopt};
 }
 
-FilterStage search_in_double_words(const Query& query) {
+[[gnu::noinline]] FilterStage search_in_double_words(const Query& query) {
   const auto whole = whole_step<DoubleWord>(coordinates(query));
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
