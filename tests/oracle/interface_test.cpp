@@ -11,9 +11,11 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "ccd/nearmiss_subject.h"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -208,6 +210,28 @@ TEST(Interface, EarliestTimesLieBetweenTheirSpans) {
   EXPECT_EQ(earliest_times(Queries::packed(Kind::vertex_triangle, x), lo, hi), Status::ok);
   EXPECT_EQ(lo[0], 1. / 3);  // rounded down
   EXPECT_EQ(hi[0], std::nextafter(1. / 3, 1));
+}
+
+TEST(Interface, TheTimesOfManyQueriesAreThoseOfEach) {
+  std::vector<double> x;
+  for (std::size_t q = 0; q < 300; ++q) {
+    Random random(31, 0, q);
+    const Query query = testing::uniform_query(random, Kind::edge_edge);
+    x.insert(x.end(), query.x.begin(), query.x.end());
+  }
+  const Queries all = Queries::packed(Kind::edge_edge, x);
+  std::vector<double> lo(300), hi(300), toi(300);
+  std::vector<std::int8_t> answers(300);
+  EXPECT_EQ(earliest_times(all, lo, hi), Status::ok);
+  EXPECT_EQ(times_of_impact(all, answers, toi), Status::ok);
+  EXPECT_EQ(toi, lo);
+  std::size_t collisions = 0;
+  for (std::size_t q = 0; q < 300; ++q) {
+    const Interval one = earliest_time(Kind::edge_edge, Coordinates(&x[24 * q], 24));
+    EXPECT_EQ(std::pair(lo[q], hi[q]), std::pair(one.lo, one.hi)) << q;
+    collisions += answers[q] == NEARMISS_COLLISION ? 1 : 0;
+  }
+  EXPECT_GT(collisions, 30);
 }
 
 TEST(Interface, AnswersNoQueriesAtAll) {
