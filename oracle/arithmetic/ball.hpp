@@ -7,8 +7,8 @@
 
 namespace nearmiss::certified {
 
-/// A number within `error` of x; Real is double or DoubleWord. If anything overflows, the error is infinite or
-/// NaN, and no sign is certain.
+/// A number within `error` of x; Real is double or DoubleWord. If anything overflows, the error is
+/// infinite or NaN, and no sign is certain.
 ///
 /// The result of an operation is within U |x| of that of exact operands, and underflow adds at most H to a
 /// product (product_underflow). The magnitude of an upper half and the bound itself, which has at most six

@@ -14,8 +14,8 @@ namespace nearmiss::certified {
 /// to 1/2. For subnormal numbers, the result may also be x itself.
 inline constexpr double to_next = 0x1.2p-53;
 
-/// The largest double that is not above x > 0, and the next one; a smaller double or the same one twice if x is
-/// subnormal.
+/// The largest double that is not above x > 0, and the next one; a smaller double or the same one twice if
+/// x is subnormal.
 template <class Half>
 std::pair<Half, Half> doubles_around(const DoubleWordOf<Half>& x) {
   const Half below = select(x.lo < 0, x.hi - to_next * x.hi, x.hi);

@@ -1,8 +1,8 @@
-// Let y and z be points of the two primitives, and n = y - z. They are the closest points iff n · (a - y) >= 0
-// for all vertices a of the first primitive, and n · (b - z) <= 0 for all vertices b of the second one. If y
-// and z are the feet of the common perpendicular of two features, these products are 0 for the vertices of
-// the features, so it suffices that the feet lie in the features and that the signs of the other products are
-// known.
+// Let y and z be points of the two primitives, and n = y - z. They are the closest points iff n · (a - y)
+// >= 0 for all vertices a of the first primitive, and n · (b - z) <= 0 for all vertices b of the second
+// one. If y and z are the feet of the common perpendicular of two features, these products are 0 for the
+// vertices of the features, so it suffices that the feet lie in the features and that the signs of the
+// other products are known.
 #include "oracle/distance/crossing.hpp"
 
 #include <algorithm>

@@ -28,9 +28,9 @@ class BatchFilter {
   BatchFilter(const QueryRows& queries, double caution, const QueryRows& ahead)
       : queries_(queries), ahead_(ahead), caution_(caution) {}
 
-  /// Processes the queries of kind `kind` in a batch of at most batch_size. It sets stages[i] if it decides
-  /// query i, and leaves it `undecided` otherwise. If `times` is set, it sets times[i] if it knows between which
-  /// neighbouring doubles the first contact is.
+  /// Processes the queries of kind `kind` in a batch of at most batch_size. It sets stages[i] if it
+  /// decides query i, and leaves it `undecided` otherwise. If `times` is set, it sets times[i] if it knows
+  /// between which neighbouring doubles the first contact is.
   void run(FilterStage* stages, KnownTime* times) {
     const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);

@@ -133,9 +133,9 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
   return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
 }
 
-/// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is asked
-/// for, the part of a collision without a bracket must be divided, and what is before a bracket must be
-/// examined next.
+/// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is
+/// asked for, the part of a collision without a bracket must be divided, and what is before a bracket must
+/// be examined next.
 template <int n, std::size_t count>
 Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
              const Lanes<n>& lo, const Lanes<n>& hi, bool asks_first) {

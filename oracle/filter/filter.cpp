@@ -55,8 +55,8 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return KnownTime{{lo, hi}, true};
 }
 
-/// Decides a query whose F may have a root. If `time` is not null, it also sets the time of the first contact if
-/// neighbouring doubles are known between which it lies.
+/// Decides a query whose F may have a root. If `time` is not null, it also sets the time of the first
+/// contact if neighbouring doubles are known between which it lies.
 [[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
                                                         const Bernstein<double, 4>& F, KnownTime* time) {
   const auto touches_at = [&](int end) {

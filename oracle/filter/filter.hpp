@@ -59,9 +59,9 @@ inline void filter(std::span<const Query> queries, std::span<FilterStage> stages
   filter(QueryRows(queries), stages, instructions);
 }
 
-/// Decides as filter() does. For a collision, `time` is set to the neighbouring doubles between which the first
-/// contact lies, or to that time itself, or to [0, 1] if it is not known so precisely. If there is no collision,
-/// `time` means nothing.
+/// Decides as filter() does. For a collision, `time` is set to the neighbouring doubles between which the
+/// first contact lies, or to that time itself, or to [0, 1] if it is not known so precisely. If there is
+/// no collision, `time` means nothing.
 FilterStage filter_for_time(const Query& query, KnownTime& time);
 void filter_for_times(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
                       Instructions instructions = chosen_instructions());

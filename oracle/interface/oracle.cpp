@@ -69,8 +69,8 @@ Enclosure enclosed_time(const Query& query, double width) {
   return time ? time->enclosure(width) : Enclosure{HUGE_VAL, HUGE_VAL};
 }
 
-/// Calls set(q, enclosed_time(query, width)) for each query that can be answered, and refuse(q) for each of the
-/// others.
+/// Calls set(q, enclosed_time(query, width)) for each query that can be answered, and refuse(q) for each
+/// of the others.
 template <class Set, class Refuse>
 int for_each_time(const nearmiss_queries* queries, double width, const Set& set, const Refuse& refuse) {
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {

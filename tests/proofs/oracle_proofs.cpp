@@ -198,8 +198,8 @@ double proven_slope_growth() {
       factors.script(quotient(grown, factors.product(roundings_of_slope_bound, u)) + " in ?"));
 }
 
-// In the value, S g is rounded three times. The term R g of the bound loses up to four roundings, and R is at most
-// |S|. The term of these roundings is itself rounded at most six times.
+// In the value, S g is rounded three times. The term R g of the bound loses up to four roundings, and R is
+// at most |S|. The term of these roundings is itself rounded at most six times.
 double proven_secant_rounding() {
   Factors factors;
   const std::string missed =

@@ -26,8 +26,8 @@ double proven_slope_errors();
 double proven_end_rounding();
 double proven_upper_halves();
 
-/// Constants of `derivative`: the roundings of a slope, in units of U times the largest coefficient, and the number
-/// of errors in it.
+/// Constants of `derivative`: the roundings of a slope, in units of U times the largest coefficient, and
+/// the number of errors in it.
 double proven_slope_rounding();
 double proven_slope_growth();
 
