@@ -59,9 +59,9 @@ class CandidateFinder {
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes each pair of a part to `sink` once, except pairs of primitives with a common vertex; returns the
-  /// number of these. Stores no pairs, so a scene of any size can be streamed. Calls `is_over` now and then;
-  /// if it returns true, returns early or throws Stopped.
+  /// Passes each pair of a part to `sink` once, but leaves out pairs of primitives with a common vertex, and
+  /// returns how many it left out. Stores no pairs, so a scene of any size can be streamed. Calls `is_over` now
+  /// and then; if it returns true, returns early or throws Stopped.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:

@@ -34,8 +34,8 @@ class Shrinking {
   /// Takes on a finding, and gives it the next number, from 0 on.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
-  /// Takes on the first findings of each signature and class (FirstFindings) in a result, and gives them
-  /// certificates; removes all other findings from the result. Adds the findings that have been shrunk since
+  /// Keeps in a result only the first findings of each signature and class (FirstFindings), gives them
+  /// certificates, and queues them to be shrunk. Adds the findings that have been shrunk since
   /// the last call. Throws what shrinking threw.
   void sift(TrialResult& result);
 

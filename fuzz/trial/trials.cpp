@@ -126,8 +126,8 @@ void Trials::ask(OnItsWay& item, const Batch& batch) {
   }
 }
 
-/// What is known about each subject before the next trial of a piece of work: the cases that counted when the
-/// work began, and those that the work itself has decided since.
+/// What is known about each subject before the next trial of a piece of work: what was known when the work
+/// began, and the queries over the time limit in the earlier trials of this work.
 std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
   std::vector<Known> known;
   for (const auto& subject : subjects_) {

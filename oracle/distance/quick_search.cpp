@@ -52,8 +52,8 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
 }
 
 /// The next time to look at in a gap, as an offset from one of its ends. The gap has the length `open`, and
-/// beyond that end, a bound covers the length `covered`. If little is covered, the distance is small there,
-/// so the offset is short.
+/// beyond that end, a bound covers the length `covered`. A bound covers less time where the distance is
+/// smaller. So if it covers little, the primitives are close at that end, and the next time is near it.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }

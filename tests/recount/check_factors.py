@@ -9,7 +9,7 @@ from check_numbers import ROUNDING
 
 
 def check_common_factors(comparison, where, report, answers):
-    """Checks the shares of the values that missed collisions have in common."""
+    """Checks the values of factors that misses have in common: their shares of misses and collisions."""
     for found in report.get('common_factors', []):
         subject, kind, family = found['subject'], found['kind'], found['family']
         counts = _counts(answers, subject, kind, family)

@@ -22,7 +22,7 @@ class Within:
 
 @dataclass
 class Comparison:
-    """Counts compared values by sort of check, and keeps a line of text for each difference."""
+    """Counts the values compared by each sort of check, and keeps a line for each difference."""
 
     compared: dict = field(default_factory=dict)
     differences: list = field(default_factory=list)

@@ -110,7 +110,8 @@ constexpr double least_size(const Allows& allows) {
 /// D² depends only on R, and grows with it, so R is minimised first. Let g² = R² - r². The constraint on the
 /// short edge allows E up to 2g. The one on the height allows η up to 2g/√3 - error/E, and η is at most B.
 /// The one on the quadrilateral's area allows τ up to 4g²/√3 - error (the one on the triangle's area allows a
-/// larger τ). Larger values of E, η and τ make everything else smaller. The constraint on the weight requires
+/// larger τ). Each takes the largest value allowed, because
+/// larger values make g0 and r(g), below, smaller. The constraint on the weight requires
 /// g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then rises. S,
 /// ρ = ε and `edge_tolerances` follow.
 ///

@@ -39,8 +39,8 @@ struct PluginLimits {
 /// The most queries that a worker gets at once: as many as the detector wants, but at least least_capacity.
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
-/// The bytes of memory that a worker shares with nearmiss for a batch of this size, or of the worker's
-/// capacity if this is less. Throws a TrialError if they exceed the plug-in's limit.
+/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries, or of as many as
+/// the worker can take at once if these are fewer. Throws a TrialError if they exceed the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A call with several queries may take this many times the limit of one query.

@@ -164,9 +164,9 @@ def certificate(
     returns the statement that it proves; compare the statement with what you asked. On average, a
     certificate takes a millisecond and has a thousand characters.
 
-    A string leaves out statements without a proof. A statement has no proof only if the distance reaches the
-    separation at an irrational time, and neither falls below it nor stays equal to it. If no statement is
-    left, returns None in place of a string.
+    A certificate contains only the statements that can be proved. A statement has no proof only if the
+    distance reaches the separation at an irrational time, and neither falls below it nor stays equal to it.
+    If no statement is left, returns None in place of a string.
 
     kind, x, separation: as for collides()
     prove: 'decision': the answer of collides();
