@@ -114,7 +114,9 @@ class Night:
         self.after = self.draw.uniform(0.02, seconds)
         self.seconds = seconds
         self.saves_first = self.draw.random() < 0.5
-        self.room = self.draw.randrange(300_000)  # bytes that can be written until the disk is full
+        self.room = self.draw.randrange(
+            300_000
+        )  # bytes that can be written until the disk is full
         self.jobs = self.draw.choice([1, 2, 3])
         self.jumps = self.draw.random() < 0.3
 

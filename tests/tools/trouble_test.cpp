@@ -113,7 +113,7 @@ TEST_F(CommandLine, ASceneOutlastsALockOfItsStore) {
   }
   scene.stop(0);
   EXPECT_EQ(scene.code(), 130) << read("error.txt");
-  EXPECT_EQ(report_of("a.db")["pictures"].size(), 1);
+  EXPECT_GE(report_of("a.db")["pictures"].size(), 1);
 }
 
 TEST_F(CommandLine, AnInterruptSavesEverything) {

@@ -76,7 +76,7 @@ export async function showsSceneStepsAndMeshes(browser) {
   run("report", "scene.db", "mat@300.db", "-o", "two-scenes");
   const two = await open(browser, pageOf("two-scenes"));
   const names = await two.locator(".mesh-controls select").first().locator("option").allTextContents();
-  assert.equal(names.length, 2);
+  assert.ok(names.length > 2 && names.some((name) => name.startsWith("mat")), "pictures of several steps");
   for (const name of names) {
     await two.locator(".mesh-controls select").first().selectOption(name);
     assert.equal(await two.locator(".scene-picture strong").textContent(), name);
