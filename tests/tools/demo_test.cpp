@@ -1,6 +1,7 @@
 // nearmiss demo, nearmiss completion, and the first example of README.md.
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "tests/tools/command_line.hpp"
@@ -32,6 +33,9 @@ TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
                     ContainsRegex("of degenerate and extreme families, basic has missed [0-9]+ collision"),
                     HasSubstr("wang, the failure-proof CCD, reports it."), ContainsRegex("\n  +[ .o#]*[0-3]"),
                     HasSubstr("nearmiss replay 'a miss.case' --subject bridson:thickness=0,wang\n")));
+  std::istringstream lines(output.out);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(line.size() <= 100 || line.starts_with("  x")) << line;
   const Output replayed = expect_code(1, "replay 'a miss.case' --subject bridson:thickness=0,wang,basic");
   EXPECT_THAT(replayed.out,
               AllOf(ContainsRegex("^FAIL bridson:thickness=0: MISSED the collision\n ok  basic: reports the "

@@ -72,25 +72,30 @@ struct PlainMiss {
   }
 };
 
+/// Prints a paragraph in lines of at most 100 columns.
+void say(const std::string& paragraph) { fmt::print("{}", wrapped(paragraph, "", 10, 100)); }
+
 /// What a CCD misses in ordinary families: its simplest miss, and the picture.
 void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
-  fmt::print(
+  say(fmt::format(
       "{} is a textbook CCD: it solves a cubic for the times at which the four vertices are coplanar, in "
-      "double\narithmetic, and tests whether the primitives meet there, without a tolerance. An exact oracle "
-      "decides "
-      "the same\nrandom queries.\n\n"
-      "After {} of ordinary families, it has missed {}. The last of these is from the family {}:\n{}\n",
-      finding.subject, counted(miss.queries, "query", "queries"),
-      counted(miss.misses, "collision", "collisions"), finding.family, vertex_lines(finding.query));
+      "double arithmetic, and tests whether the primitives meet there, without a tolerance. An exact oracle "
+      "decides the same random queries.",
+      finding.subject));
+  fmt::print("\n");
+  say(fmt::format("After {} of ordinary families, it has missed {}. The last of these is from the family {}:",
+                  counted(miss.queries, "query", "queries"), counted(miss.misses, "collision", "collisions"),
+                  finding.family));
+  fmt::print("{}\n", vertex_lines(finding.query));
+  say(fmt::format("The simplest ordinary query that it misses in the same way ({}):",
+                  to_text(explain(finding.shrunk))));
   const double time = earliest_time(finding.shrunk)->enclosure().lo;
-  fmt::print(
-      "The simplest ordinary query that it misses in the same way ({}):\n{}\n{}\nAt t = {:.4g}, {} meet. In "
-      "the "
-      "picture, the first "
-      "primitive is drawn with o, the second with #,\nvertices with their numbers, and their paths with "
-      "dots.\n\n",
-      to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk), terminal_picture(finding.shrunk, time),
-      time, has_triangle(finding.shrunk.kind) ? "the vertex and the triangle" : "the edges");
+  fmt::print("{}\n{}\n", vertex_lines(finding.shrunk), terminal_picture(finding.shrunk, time));
+  say(fmt::format(
+      "At t = {:.4g}, {} meet. In the picture, the first primitive is drawn with o, the second with #, "
+      "vertices with their numbers, and their paths with dots.",
+      time, has_triangle(finding.shrunk.kind) ? "the vertex and the triangle" : "the edges"));
+  fmt::print("\n");
 }
 
 /// What other CCDs answer to an ordinary query, and the simplest miss of one of them, which is not ordinary.
@@ -101,13 +106,14 @@ void show_exotic_miss(const Query& ordinary) {
   const auto basic = make_subject("basic");
   const PlainMiss miss(*basic, false);
   const Finding& finding = miss.finding;
-  fmt::print(
-      "wang, the failure-proof CCD, {} it. basic, a more careful textbook CCD, {} it, too.\nAfter {} of "
-      "degenerate and "
-      "extreme families, basic has missed {}.\nThe last of these, simplified, is {} ({}):\n{}\n",
-      answer(*make_subject("wang")), answer(*basic), counted(miss.queries, "query", "queries"),
-      counted(miss.misses, "collision", "collisions"), name(finding.query_class),
-      to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk));
+  say(fmt::format("wang, the failure-proof CCD, {} it. basic, a more careful textbook CCD, {} it, too.",
+                  answer(*make_subject("wang")), answer(*basic)));
+  say(fmt::format("After {} of degenerate and extreme families, basic has missed {}.",
+                  counted(miss.queries, "query", "queries"),
+                  counted(miss.misses, "collision", "collisions")));
+  say(fmt::format("The last of these, simplified, is {} ({}):", name(finding.query_class),
+                  to_text(explain(finding.shrunk))));
+  fmt::print("{}\n", vertex_lines(finding.shrunk));
 }
 
 void run(const Options& options) {
@@ -123,8 +129,7 @@ void run(const Options& options) {
   fmt::print(
       "Replay the first:       nearmiss replay {0} --subject {1},wang\n"
       "Make a test from it:    nearmiss shrink {0} --subject {1} --as c++\n"
-      "Try your own CCD:       nearmiss fuzz --subject ./yours.so --cases 100000   (README.md, \"Your own "
-      "CCD\")\n",
+      "Try your own CCD:       nearmiss fuzz --subject ./yours.so --cases 100000   (see README.md)\n",
       shell_quoted(options.out.string()), careless->name());
 }
 
