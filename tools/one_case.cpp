@@ -67,7 +67,8 @@ std::string answer(const SubjectVerdict& verdict, const Counts& counts, const Fi
 /// "first contact at t* = 0.5", or that there is none, and how close the primitives come.
 std::string exact_answer(const Query& query) {
   const double h = query.separation;
-  if (!collides(query))
+  const Decision decision = decide(query);
+  if (!decision.collision && !decision.is_tie)
     return fmt::format("{}; the smallest distance is {:.6g}",
                        h > 0 ? fmt::format("never within {:.6g}", h) : "no contact",
                        minimum_distance(query).hi);
@@ -125,8 +126,12 @@ std::string describe(const OneCase& one, const Campaign& campaign, const Subject
     after.push_back("FAIL oracle: " + complaint);
   std::istringstream versions(version_lines(campaign.statistics));
   for (std::string line; std::getline(versions, line);) after.push_back(line);
-  after.push_back(fmt::format("exact: {}; {}", exact_answer(one.query), class_text(one.query)));
-  after.push_back("       " + to_text(explain(one.query)));
+  const auto add = [&](const std::string& text) {
+    std::istringstream wrapped_lines(wrapped(text, "       ", 2, columns));
+    for (std::string line; std::getline(wrapped_lines, line);) after.push_back(line);
+  };
+  add(fmt::format("exact: {}; {}", exact_answer(one.query), class_text(one.query)));
+  add("       " + to_text(explain(one.query)));
   std::istringstream vertices(vertex_lines(one.query, columns));
   for (std::string line; std::getline(vertices, line);) after.push_back(line);
   const auto last = commands(one, campaign, subjects, failing);

@@ -102,12 +102,21 @@ void RecordOptions::add_to(CLI::App& command) {
 }
 
 std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most) {
-  constexpr std::size_t most_bytes = 85;
-  std::vector<std::string> lines;
-  for (const std::string& line : error_lines(finding))
-    if (const std::size_t first = line.find_first_not_of(' '); first != line.npos && lines.size() < most)
-      lines.push_back("stderr: " + excerpt(std::string_view(line).substr(first), most_bytes));
-  return lines;
+  constexpr std::size_t most_bytes = 85, most_calls = 2;
+  std::vector<std::string> messages, calls;
+  for (const std::string& line : error_lines(finding)) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == line.npos) continue;
+    const bool is_call = line.find("+0x") != line.npos && line.ends_with(')');
+    if (is_call && (line.find("/libc.so") != line.npos || calls.size() == most_calls)) continue;
+    (is_call ? calls : messages)
+        .push_back("stderr: " + excerpt(std::string_view(line).substr(first), most_bytes));
+  }
+  calls.resize(std::min(calls.size(), most));
+  const std::size_t shown = std::min(messages.size(), most - calls.size());
+  messages.erase(messages.begin(), messages.end() - static_cast<std::ptrdiff_t>(shown));
+  messages.insert(messages.end(), calls.begin(), calls.end());
+  return messages;
 }
 
 RunInfo environment() {

@@ -41,8 +41,8 @@ RunInfo run_info(const std::string& command);
 /// The facts on which a run's times depend: the compiler, its flags and the processor.
 RunInfo environment();
 
-/// The first lines of what a finding's subject wrote to standard error, without blank ones: "stderr: no licence". Each
-/// has at most 96 bytes.
+/// The last lines that a finding's subject wrote to standard error, without blank ones, and the first two calls
+/// of its stack that are not in the C library: "stderr: no licence". Each has at most 96 bytes.
 std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most);
 
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.

@@ -10,7 +10,14 @@ const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
 
 /** The folder of this page, if it is a file. The report may have been copied since it was written, together with its cases. */
-const ownFolder = location.protocol === "file:" ? decodeURIComponent(location.pathname.replace(/[^/]*$/, "")) : "";
+const ownFolder = (() => {
+  if (location.protocol !== "file:") return "";
+  try {
+    return decodeURIComponent(location.pathname.replace(/[^/]*$/, ""));
+  } catch {
+    return ""; // the folder's name is not UTF-8, so commands work in the report's folder
+  }
+})();
 /** A text as a word of a shell. */
 const shellQuoted = (text) => (/^[\w./@%+=:,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 /** The command that replays a finding: in any folder, if the page is a file. */

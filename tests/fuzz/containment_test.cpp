@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -18,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "fuzz/subjects/isolation/computing_time.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/signatures.hpp"
@@ -27,6 +29,23 @@
 
 namespace nearmiss {
 namespace {
+
+// A process may end while its files in /proc are read.
+TEST(ComputingTime, OfProcessesThatEndMeanwhileIsNotAnError) {
+  std::atomic<bool> is_over = false;
+  std::thread parent([&] {
+    while (!is_over) {
+      const pid_t child = fork();
+      if (child == 0) _exit(0);
+      waitpid(child, nullptr, 0);
+    }
+  });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
+  while (std::chrono::steady_clock::now() < end)
+    EXPECT_NO_THROW((void)isolation::computing_time_of_tree(getpid()));
+  is_over = true;
+  parent.join();
+}
 
 using testing::answers_of;
 using testing::chosen;

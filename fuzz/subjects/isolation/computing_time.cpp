@@ -6,7 +6,6 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -24,7 +23,8 @@ namespace fs = std::filesystem;
 /// children.
 Duration time_of_ended_children(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::getline(file, text, '\0');  // empty if the process has ended, even after the file was opened
   std::istringstream fields(text.substr(text.rfind(')') + 1));  // after the name, which may contain ')'
   constexpr int before = 13;                                    // fields from `state` to `stime`: proc(5)
   std::string skipped;
@@ -35,9 +35,10 @@ Duration time_of_ended_children(pid_t process) {
 }
 
 void add_children(pid_t process, std::vector<pid_t>& found) {
-  std::error_code none;
-  for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(process) + "/task", none)) {
-    std::ifstream children(thread.path() / "children");
+  std::error_code ended;
+  for (fs::directory_iterator thread("/proc/" + std::to_string(process) + "/task", ended), none;
+       !ended && thread != none; thread.increment(ended)) {
+    std::ifstream children(thread->path() / "children");
     for (pid_t child = 0; children >> child;) found.push_back(child);
   }
 }

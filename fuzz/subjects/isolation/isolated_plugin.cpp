@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -100,7 +101,7 @@ class IsolatedPlugin final : public DescribedSubject {
 
   [[nodiscard]] std::string fault_errors(const Verdict& verdict) const override {
     const std::lock_guard lock(mutex_);
-    const auto found = errors_.find({verdict.fault, verdict.fault_code});
+    const auto found = errors_.find({std::this_thread::get_id(), verdict.fault, verdict.fault_code});
     return found == errors_.end() ? "" : found->second;
   }
 
@@ -144,7 +145,7 @@ class IsolatedPlugin final : public DescribedSubject {
     const std::int32_t code = has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
     if (failure.errors.empty()) return code;
     const std::lock_guard lock(mutex_);
-    errors_[{failure.fault, code}] = failure.errors;
+    errors_[{std::this_thread::get_id(), failure.fault, code}] = failure.errors;
     return code;
   }
 
@@ -326,8 +327,10 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable FaultTexts texts_;
   mutable std::atomic<int> failed_starts_ = 0;  // consecutive ones
   mutable std::mutex mutex_;
-  mutable std::string why_not_loaded_;                                    // at the last failed start
-  mutable std::map<std::pair<Fault, std::int32_t>, std::string> errors_;  // of the last fault with this code
+  mutable std::string why_not_loaded_;  // at the last failed start
+  /// What the process wrote at the last fault with this code in this thread: a thread asks about a query, and
+  /// then for the text.
+  mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };
 
