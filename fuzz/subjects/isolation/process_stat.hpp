@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
@@ -21,7 +20,8 @@ struct Memory {
 inline std::optional<Memory> memory_in(const std::string& folder) {
   std::ifstream file(folder + "/status");
   if (!file) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::getline(file, text, '\0');  // empty if the process has ended since the file was opened
   const auto bytes = [&](const char* name) -> std::uint64_t {
     constexpr std::uint64_t unit = 1024;
     const std::size_t line = text.find(name);
