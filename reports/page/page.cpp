@@ -22,6 +22,7 @@
   extern "C" const char name##_begin[], name##_end[]; \
   const std::string_view name(name##_begin, static_cast<std::size_t>(name##_end - name##_begin))
 
+NEARMISS_ASSET(nearmiss_page_frame, NEARMISS_PAGE "/frame.html");
 NEARMISS_ASSET(nearmiss_page_html, NEARMISS_PAGE "/page.html");
 NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
 NEARMISS_ASSET(nearmiss_page_history_html, NEARMISS_PAGE "/history.html");
@@ -78,17 +79,19 @@ std::string inside_script(const nlohmann::ordered_json& json) {
   return text;
 }
 
-/// A page of this HTML, with JSON as its data and the scripts in `files`, which draw the data.
-std::string page_of(std::string_view html, const char* data, const nlohmann::ordered_json& json,
+/// A page with this HTML as its body, with JSON as its data, and with the scripts in `files`, which draw the data.
+std::string page_of(std::string_view body, const char* data, const nlohmann::ordered_json& json,
                     std::initializer_list<std::string_view> files) {
   const std::string nonce = make_nonce();
   std::string scripts =
       fmt::format("<script type=\"application/json\" id=\"{}\">\n{}\n</script>", data, inside_script(json));
   for (const std::string_view each : files)
     scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);
-  std::string page(html);
+  std::string page(nearmiss_page_frame);
   replace(page, "NONCE", nonce);
+  replace(page, "DATA", data);
   replace(page, "/* page.css */", std::string(nearmiss_page_css));
+  replace(page, "<!-- body -->\n", std::string(body));
   replace(page, "<!-- scripts -->", scripts);
   return page;
 }

@@ -22,9 +22,7 @@ namespace fs = std::filesystem;
 /// The computing time of the ended children that a process has waited for, including that of their own such
 /// children.
 Duration time_of_ended_children(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text, '\0');  // empty if the process has ended, even after the file was opened
+  const std::string text = text_about_process("/proc/" + std::to_string(process) + "/stat");
   std::istringstream fields(text.substr(text.rfind(')') + 1));  // after the name, which may contain ')'
   constexpr int before = 13;                                    // fields from `state` to `stime`: proc(5)
   std::string skipped;

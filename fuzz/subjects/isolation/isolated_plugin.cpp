@@ -328,8 +328,8 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable std::atomic<int> failed_starts_ = 0;  // consecutive ones
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // at the last failed start
-  /// What the process wrote at the last fault with this code in this thread: a thread asks about a query, and
-  /// then for the text.
+  /// What the process wrote at the last fault with this code, for each thread that asked. A thread reads it
+  /// right after its fault, so it is not that of another thread's query.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

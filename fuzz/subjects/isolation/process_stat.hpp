@@ -16,12 +16,18 @@ struct Memory {
   std::uint64_t data = 0;       ///< private writable memory without the stack
 };
 
+/// The text of a file about a process in /proc; empty if the process has ended, even while the file is read.
+inline std::string text_about_process(const std::string& file) {
+  std::ifstream in(file);
+  std::string text;
+  std::getline(in, text, '\0');
+  return text;
+}
+
 /// The memory of the process with this folder in /proc; nothing if there is no such process.
 inline std::optional<Memory> memory_in(const std::string& folder) {
-  std::ifstream file(folder + "/status");
-  if (!file) return std::nullopt;
-  std::string text;
-  std::getline(file, text, '\0');  // empty if the process has ended since the file was opened
+  const std::string text = text_about_process(folder + "/status");
+  if (text.empty()) return std::nullopt;
   const auto bytes = [&](const char* name) -> std::uint64_t {
     constexpr std::uint64_t unit = 1024;
     const std::size_t line = text.find(name);
