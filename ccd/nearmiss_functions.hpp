@@ -293,7 +293,7 @@ auto squared(F f) {
 
 struct NoOptions {};
 
-/// A detector that its members describe step by step: each returns a copy with one more part or setting.
+/// A detector, described step by step: each of its functions returns a copy with one more part or setting.
 template <class Settings, class... Parts>
 struct Detector {
   nearmiss_subject subject;
@@ -476,7 +476,7 @@ double step_of(void* state, int kind, const double* x, double* y) {
 template <class Detector>
 nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
-  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the least that any function gives or takes
+  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // sort: the weakest that any function gives
   detector.for_each_part([&](const auto& part) {
     constexpr Role role = std::decay_t<decltype(part)>::role;
     if constexpr (role == Role::decide) {

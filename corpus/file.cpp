@@ -48,8 +48,8 @@ fs::path new_file_beside(const fs::path& place) {
   }
 }
 
-/// The path of a part file, as a signal handler can read it: it may use only lock-free objects and allocate
-/// nothing.
+/// The path of a part file, in a form that a signal handler can read: the handler may use only lock-free
+/// objects, and allocate nothing.
 struct KnownPart {
   enum State : std::uint8_t { unused, changing, used };
   std::atomic<State> state = unused;

@@ -24,7 +24,7 @@ bool LineReader::next() {
   if (in_.fail())
     throw Error(fmt::format("{}: found a line of more than {} bytes, expected a shorter one", where(),
                             most_line_bytes));
-  text_ = {buffer_.data(), in_.eof() ? taken : taken - 1};  // without the '\n' that was taken
+  text_ = {buffer_.data(), in_.eof() ? taken : taken - 1};  // gcount() counts the '\n', too
   if (number_ == 1) text_ = without_byte_order_mark(text_);
   return true;
 }

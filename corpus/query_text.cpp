@@ -70,8 +70,8 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Whether the shortest decimal that is read as this value equals it. It does if it has as many digits as the
-/// exact decimal of the value, because it is the nearest decimal with its number of digits.
+/// Whether the shortest decimal that is read as this value is exactly this value. It does if it has as many
+/// digits as the exact decimal of the value, because it is the nearest decimal with its number of digits.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // of any double
   std::array<char, most_digits + 10> text;

@@ -19,7 +19,7 @@ std::string_view without_byte_order_mark(std::string_view text);
 double parse_number(std::string_view text, std::string_view where);
 
 /// A number in the syntax of parse_number, rounded once to the nearest float. Throws Error "<where>: found
-/// '...', expected a number in the range of float", also if the number is too large.
+/// '...', expected a number in the range of float" for anything else, and for a number that is too large.
 float parse_float(std::string_view text, std::string_view where);
 
 /// A decimal integer without a plus sign; nothing if the text is not an integer in the range of the type.
@@ -60,10 +60,10 @@ Query parse_line(Kind kind, std::string_view line, std::string_view where);
 /// "vt", "ee", "vv" or "ve". Throws Error that starts with `where`.
 Kind parse_kind(std::string_view text, std::string_view where);
 
-/// The short names of the kinds whose bits are in `sum`, separated by `between`, as in "vt, ee".
+/// The short names of the kinds whose bits are set in `sum`, separated by `between`, as in "vt, ee".
 std::string names_of_kinds(int sum, std::string_view between);
 
-/// The short names of all kinds, as in "vt, ee, vv or ve", each after `before`.
+/// The short names of all kinds, as in "vt, ee, vv or ve", each with `before` in front.
 std::string names_of_kinds(std::string_view before = "");
 
 }  // namespace nearmiss

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The kind of the queries in files named by their kind, such as *.vt.
+/// The kind of the queries in a file whose name ends in the kind, such as *.vt.
 std::optional<Kind> kind_of_extension(const fs::path& extension) {
   for (const Kind kind : kinds)
     if (extension == fmt::format(".{}", short_name(kind))) return kind;

@@ -20,8 +20,8 @@ using CaseSink = std::function<void(Case&&)>;
 ///    truth. Every coordinate must be exactly a double. The name of the folder (edge-edge or vertex-face), or
 ///    the end of the file's name (ee or vf), determines the kind. FOLDER/NAME.csv may have no truths, or have
 ///    them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as CCD-Query-IO does;
-///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If the path is a file and not a
-///    folder, it may have any name if it begins as a recording;
+///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. A recording whose own path is
+///    given may have any name;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
 /// with file and line, also for a file that is empty, unreadable or of another format, for a recording without

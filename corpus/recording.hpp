@@ -20,7 +20,7 @@ struct Recorded {
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 
-  /// The query with its end of the step moved to tmax. Each operation is rounded to double.
+  /// The query whose step ends at tmax. Each operation is rounded to double.
   [[nodiscard]] Query asked() const;
 };
 

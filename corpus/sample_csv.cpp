@@ -32,8 +32,7 @@ Kind kind_of_file(const std::filesystem::path& path) {
                   path.string(), folder.string()));
 }
 
-/// The recorded truths of a file without a column for them: they are in the file sample_truths(), if it
-/// exists.
+/// The recorded truths for a file without a column for them, from the file sample_truths(), if it exists.
 class SeparateTruths {
  public:
   explicit SeparateTruths(const std::filesystem::path& csv)

@@ -22,7 +22,7 @@ struct SampleNames {
 /// The names for a kind; nothing for a kind that the format does not have.
 std::optional<SampleNames> sample_names(Kind kind);
 
-/// The file with the truths of the queries in `csv`, if that has no column for them.
+/// The file with the truths for a file `csv` that has no column for them.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);
 
 /// The eight lines of a query. It must have no separation, and a kind that the format has. The lines have a

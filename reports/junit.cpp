@@ -17,8 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The text, escaped for an element or an attribute of XML. Of the control characters, XML allows only ends
-/// of lines.
+/// The text, escaped for an element or an attribute of XML. XML allows no control characters except ends of
+/// lines.
 std::string escaped(std::string_view text) {
   std::string safe;
   for (const char c : text) {

@@ -19,7 +19,7 @@ class Sha256 {
 
   /// The digest of all bytes. Nothing may be added afterwards.
   [[nodiscard]] std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest();
-  /// The same in hexadecimal.
+  /// The digest in hexadecimal.
   [[nodiscard]] std::string hex_digest();
 
  private:

@@ -1,4 +1,4 @@
-// The first times of a query by the exact method, without any enclosure.
+// The first times of a query, computed by the exact method without any enclosure.
 #pragma once
 
 #include <optional>

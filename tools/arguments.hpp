@@ -92,7 +92,7 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
 
 /// Finds the families with these names: NAME, NAME@VALUE and so on (find_any_family). "all" stands for the
 /// families in `all`, "vertices" for the families of vertices and edges. Throws Error for an unknown or
-/// repeated name, and Stopped.
+/// repeated name, and Stopped if the user ends the command.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all, const Stop& stop);
 

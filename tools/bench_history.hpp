@@ -35,9 +35,9 @@ std::vector<BenchRun> read_history(const std::filesystem::path& file);
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
 /// A table of the differences between two series of runs, one from before a change and one from after it.
-/// Run i of one series is compared with run i of the other, made right before or after it, by the medians
-/// over passes. Throws Error if the series have different lengths or fewer than six runs, or if the runs
-/// used different processors.
+/// Compares run i of one series with run i of the other, which was made right before or after it, by the
+/// medians over passes. Throws Error if the series have different lengths or fewer than six runs, or if the
+/// runs used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

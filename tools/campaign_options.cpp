@@ -78,8 +78,8 @@ std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& s
   return chosen;
 }
 
-/// A family, of which a campaign asks only the chosen kinds. If --kind is given, throws Error for a family
-/// that has none of these kinds.
+/// The family, restricted to the chosen kinds. If --kind is given, throws Error for a family that has none of
+/// these kinds.
 Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
   if (const auto chosen = of_kinds(family, asked)) return *chosen;
   if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");
@@ -116,8 +116,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   const std::size_t of_meshes = known.size();
   known.insert(known.end(), vertex_families().begin(), vertex_families().end());
   known.insert(known.end(), near_within.begin(), near_within.end());
-  // "all" includes the families of vt and ee queries that have separations of their own only with
-  // --separation drawn.
+  // "all" includes families of vt and ee queries with separations of their own only if --separation is
+  // "drawn".
   std::vector<Family> all(
       known.begin(),
       known.begin() + static_cast<std::ptrdiff_t>(separation == drawn_separation ? of_meshes : contact));
@@ -166,7 +166,7 @@ std::string names_of_kinds_asked(const CampaignPlan& plan) {
   return names_of_kinds(sum, ",");
 }
 
-/// A digest of the content of files, and of all files below folders. Leaves out names of other things.
+/// A digest of the content of the named files, and of all files below the named folders. Ignores other names.
 template <class Paths>
 std::string digest_of(const Paths& paths) {
   namespace fs = std::filesystem;

@@ -70,7 +70,7 @@ class SimpleToml {
     return std::move(text_);
   }
 
-  /// The line of each option, or of what stands in its place.
+  /// The line of each name of an option, known or not.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

@@ -17,7 +17,7 @@ class ConfigurationFile final : public CLI::ConfigTOML {
   /// Throws Error, which begins with "--config:LINE: ".
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
-  /// The line of each option in the file that was read last, or of what stands in the place of an option.
+  /// The line of each name of an option, known or not, in the file that was read last.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

@@ -191,8 +191,8 @@ bool is_about(std::string_view message, const std::string& option) {
   return at != message.npos && (end == message.size() || !is_of_name(message[end]));
 }
 
-/// Throws Error with the message, behind the file and the line of the option that it is about, if that option was read
-/// from the configuration file and is not an argument. Returns otherwise.
+/// If a message is about an option that was read from the configuration file and is not an argument, throws
+/// Error with the file, the line and the message. Returns otherwise.
 void refuse_configuration(const CLI::App& app, const nearmiss::tools::ConfigurationFile& configuration,
                           const std::string& message, int argc, char** argv) {
   if (app.get_config_ptr()->count() == 0) return;

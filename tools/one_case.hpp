@@ -10,7 +10,7 @@
 
 namespace nearmiss::tools {
 
-/// A case that was replayed, alone.
+/// The only case of a replay.
 struct OneCase {
   Query query;
   std::string file;     ///< as the command line names it; "" if the file may have more than this case

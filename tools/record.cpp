@@ -66,7 +66,7 @@ void print_broken(std::FILE* text, const std::vector<Finding>& findings, const S
   }
 }
 
-/// The lines in the form for `text`: wrapped if it is a terminal.
+/// The lines, wrapped if `text` is a terminal.
 std::string shown_lines(std::FILE* text, const std::string& lines) {
   constexpr std::size_t columns = 100, most_lines = 6;
   if (isatty(fileno(text)) == 0) return lines;
@@ -162,7 +162,7 @@ void Record::begin() {
 }
 
 /// Loads the run in the store as the beginning of this run. Throws Error if the store has another run, and
-/// Stopped at an interrupt.
+/// Stopped if the user ends the command.
 void Record::go_on() {
   Campaign before;
   store_.emplace(options_.db, &before, [] { Stop(interrupted()).check(); });

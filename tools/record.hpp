@@ -75,8 +75,9 @@ class Record {
   void add_unasked(const Subjects& subjects);
 
   /// Saves, closes the store, prints the summary and the first findings, writes the JSON, and returns the
-  /// exit code. Once everything is saved, a signal ends the program at once (end_on_signals). If `describe` is
-  /// given, what it makes of the results replaces the summary and the findings, unless --verbose asks for them.
+  /// exit code. Once everything is saved, a signal ends the program at once (end_on_signals). If `describe`
+  /// is given, its text about the results replaces the summary and the findings, unless --verbose asks for
+  /// them.
   int finish(bool interrupted, bool complete,
              const std::function<std::string(const Campaign&)>& describe = {});
 

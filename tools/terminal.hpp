@@ -22,7 +22,7 @@ void end_on_signals();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that the program can save its results; a second
 /// signal, at least two seconds later, ends the program at once. Call this only once there is something to
-/// save, so that before that, for example while the program loads files, a signal ends it at once.
+/// save: until then, for example while the program loads files, a signal should end it at once.
 void stop_on_signals();
 /// The flag that these signals set.
 const std::atomic<bool>& interrupted();

@@ -22,7 +22,7 @@ enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< a time near t*
   lower_bound,  ///< a time that is not after t*: nothing happens before it
-  free_step,    ///< a lower bound; also, nothing happens on the step to the rounded positions then
+  free_step,    ///< a lower bound; nothing happens on the step to the rounded positions at that time, either
 };
 
 /// Names of the sorts of time in reports, in order.
@@ -72,7 +72,7 @@ struct DistanceAnswer {
   Fault fault = Fault::none;    ///< if not `none`, there is no distance
   std::int32_t fault_code = 0;  ///< as in Verdict
 
-  /// What a subject gave; a fault if it is not a distance.
+  /// A number that a subject gave as the distance; a fault if it is not a distance.
   static DistanceAnswer given(double distance, const std::array<double, 4>& weights) {
     const bool is_distance = distance >= 0 && distance <= std::numeric_limits<double>::max();
     return {distance, weights, is_distance ? Fault::none : Fault::invalid};
@@ -86,7 +86,8 @@ struct StepAnswer {
   Fault fault = Fault::none;                                    ///< if not `none`, there is no answer
   std::int32_t fault_code = 0;                                  ///< as in Verdict
 
-  /// What a subject gave for a number of vertices; a fault if it is not finite, or the clearance is negative.
+  /// The step that a subject gave for this many vertices; a fault if it is not finite, or the clearance is
+  /// negative.
   static StepAnswer given(const std::array<double, 12>& y, double clearance, int vertices) {
     constexpr double most = std::numeric_limits<double>::max();
     bool is_finite = clearance >= 0 && clearance <= most;
@@ -204,8 +205,8 @@ class Subject {
   }
 
  protected:
-  /// A subject that decides nothing and is asked like this one. Its time is subtracted from the time of this
-  /// one.
+  /// A subject that decides nothing, but is asked in the same way as this one. Its time is subtracted from
+  /// this one's.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 

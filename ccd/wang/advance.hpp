@@ -62,7 +62,7 @@ DifferencePolygon<kind, T> difference_polygon(const Query& query) {
 template <class T>
 struct NearestPoint {
   T squared_distance = std::numeric_limits<T>::infinity();
-  Vector3<T> direction;  ///< of any length; the polygon is beyond a plane perpendicular to it
+  Vector3<T> direction;  ///< of any length; the polygon lies beyond a plane perpendicular to it
 
   void consider(const Vector3<T>& point, const Vector3<T>& towards) {
     const T squared = dot(point, point);
@@ -157,7 +157,7 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
 }
 
 // From t until the returned time, all corners stay beyond `distance` along a direction. The returned time is
-// t if a corner is not beyond it at t, and at most t + 2.
+// t if a corner is not beyond `distance` at t, and at most t + 2.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {

@@ -7,8 +7,7 @@
 
 namespace nearmiss {
 
-/// The tolerances of a rule, where those that accept, taken as lengths, are multiplied by s: D, √δ, √ψ, S and
-/// ∛μ.
+/// The tolerances of a rule, with the accepting ones, taken as lengths, multiplied by s: D, √δ, √ψ, S and ∛μ.
 template <class Rule>
 struct Loosened {
   Rule tolerances;

@@ -50,9 +50,9 @@ inline constexpr int spread_error = 4400;
 
 /// `weight_error` for a configuration in a wider scalar, whose operations have relative errors of at most 4
 /// ε². The errors of the relative vectors remain: ε of a position and 3ε of a velocity, so k = 4 for x + t v,
-/// or 5 for the p of edges. Then N and p × q have k = 8, or 9 with that p. A weight has k = 16 with B_f = 12
-/// B⁴, or 17 for edges, the sum of two has 24 B⁴, and N·N has 12 B⁴ with k = 16: 36 · 16 = 576. All roundings
-/// in the wider scalar are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
+/// or 5 for the p of edges. Then N and p × q have k = 8; for the p of edges, p × q has k = 9. A weight has k
+/// = 16 with B_f = 12 B⁴, or 17 for edges, the sum of two has 24 B⁴, and N·N has 12 B⁴ with k = 16: 36 · 16 =
+/// 576. All roundings in the wider scalar are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
 inline constexpr int weight_error_if_wide = 590;
 
 /// `spread_error` for a configuration in a wider scalar. The error of N is 3 · 2 B² · 8 ε = 48 B²ε, which

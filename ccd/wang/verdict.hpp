@@ -63,7 +63,7 @@ enum class Fault : std::uint8_t {
   invalid,       ///< it gave an unknown answer, or a collision without the time that it promises
   load,          ///< it could not be loaded again after it had failed
   contract,      ///< it was not asked, because the query breaks its contract
-  inconsistent,  ///< it gave another answer when asked again, among other queries
+  inconsistent,  ///< it gave another answer when it was asked again among other queries
 };
 
 inline constexpr std::size_t fault_count = 12;

@@ -147,8 +147,8 @@ template <Kind kind, class T>
 /// Decides as `wang` does. The time of a collision is a lower bound: the primitives do not touch before it,
 /// whatever test accepts the pair. Neither `given` nor the tolerances change it.
 ///
-/// The bound is the later of two times: moving planes separate the primitives until the first, and from there
-/// until the second, F has no root that may be a contact. If F is nearly 0 for a long time, as for primitives
+/// The bound is the later of two times: until the first, moving planes separate the primitives; from the
+/// first to the second, no root of F can be a contact. If F is nearly 0 for a long time, as for primitives
 /// that move in one plane, the bound is early; it is then 0 if no plane separates them at t = 0.
 template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
 Verdict wang_time(const Query& query, const std::optional<double>& given = std::nullopt,

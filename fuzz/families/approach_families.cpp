@@ -88,7 +88,7 @@ Query slow_approach(Random& random, Kind kind, double x) {
   return placed_apart(random, facing(kind, contact, power_of_two(x) * approaching(random), h), h);
 }
 
-/// Whether side q, and side r, begins or ceases to be part of the closest features.
+/// For side q and for side r: whether it begins or ceases to be part of the closest features.
 struct Sides {
   bool q, r;
 };

@@ -15,7 +15,7 @@ struct Place {
   double alpha, beta, time;
 };
 
-/// The query after one position, `point`, is moved so that the two points of the place coincide at its time.
+/// The query with one position, `point`, moved so that the two points of the place coincide at its time.
 /// Positions 0 .. 3 are the vertices at t = 0, and 4 .. 7 the vertices at t = 1. Coordinates are rounded to
 /// the nearest double or, in rare cases, to its neighbour. An overflow results in coordinates that are not
 /// finite.

@@ -39,8 +39,7 @@ enum class Signal {
   details,       ///< other properties that each method reports
 };
 
-/// Shows libFuzzer a value, separately for each kind of query. All values from 127 on count as the same
-/// value.
+/// Shows libFuzzer a value. Each kind of query has its own values. All values from 127 on count as the same.
 void show(Signal signal, Kind kind, std::size_t value);
 
 /// Shows libFuzzer how near a factor below 1 is to 1. Steps become finer towards 1, so that every approach

@@ -59,7 +59,7 @@ double over_limit(const Query& query, double distance);
 /// rest, and rounded as the subject rounds it.
 bool is_over_reported(const Query& query, double distance);
 
-/// The question of QuestionTrial how far apart primitives are.
+/// For QuestionTrial: the question how far apart primitives are.
 struct DistanceQuestion {
   struct Judged {
     Query query;  ///< at rest, as the subject rounds it

@@ -115,7 +115,7 @@ class QuestionTrial {
  private:
   static constexpr std::uint64_t one_in_asked_twice = 256;
 
-  /// A family; for directed search, with the only subject that is asked.
+  /// A family; for directed search, also the only subject that is asked.
   struct Source {
     Family family;
     const Subject* only;
@@ -156,7 +156,7 @@ class QuestionTrial {
       const auto of_kinds = static_cast<std::uint64_t>(
           std::ranges::count_if(source.family.kinds, [&](Kind kind) { return can_ask(source, kind); }));
       if (of_kinds == 0) continue;
-      // Half of a family's queries are of each of its two kinds.
+      // Each of a family's two kinds has half of its queries.
       const std::uint64_t block = source.only != nullptr ? 2 : 4 * source.family.block_cases;
       const std::uint64_t first = block * round_;
       planned_ += of_kinds * block / 2;
@@ -216,7 +216,7 @@ class QuestionTrial {
     work.results.findings.push_back(std::move(finding));
   }
 
-  /// Adds results, but of their findings only the first one of each way to fail and each class.
+  /// Adds results, but keeps only the first finding of each way to fail in each class.
   void take(Results&& results) {
     for (const auto& [key, each] : results.counts) asked_ += each.queries;
     std::erase_if(results.findings, [&](const QuestionFinding& each) {

@@ -1,4 +1,4 @@
-// The question that filters of steps answer, which part of a step is safe; and how their answers are judged.
+// The question which part of a step is safe, and how the answers of filters of steps are judged.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace nearmiss {
 
-/// The question of QuestionTrial which part of a step is safe. Only primitives that are apart at t = 0 are
+/// For QuestionTrial: the question which part of a step is safe. Only primitives that are apart at t = 0 are
 /// asked about.
 struct StepQuestion {
   struct Judged {

@@ -80,7 +80,7 @@ class SpatialOrder {
 /// the boxes' sizes.
 template <class BoxAt>
 double fill(std::vector<CellBoxGroup>& level, std::size_t count, int jobs, const BoxAt& box_at) {
-  constexpr std::size_t chunk = 1 << 14;  // boxes; a multiple of the size of groups
+  constexpr std::size_t chunk = 1 << 14;  // number of boxes; a multiple of the size of groups
   std::vector<std::int64_t> sizes((count + chunk - 1) / chunk);
   in_parallel(jobs, sizes.size(), [&](std::size_t part) {
     std::int64_t sum = 0;

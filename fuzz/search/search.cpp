@@ -49,7 +49,8 @@ class Searched {
     return answer.fault == Fault::time ? if_slow() : value(answer);
   }
 
-  /// Counts a search that the time limit ended. After a few of these, the subject is not asked any more.
+  /// Counts a search that ended at the time limit. After a few such searches, the subject is not asked any
+  /// more.
   void count_slow_search() const { ++slow_searches_; }
 
  private:
@@ -68,15 +69,16 @@ double reach(const Subject& subject, const Query& query) {
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives: smaller than usual if the subject has a small reach, except for vv and
-/// ve, whose reach, the distance less h, is small for other reasons.
+/// The smallest size of primitives. It is smaller than usual if the subject has a small reach, but not for vv
+/// and ve: their reach, the distance less h, is small for other reasons.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical, 0)));
 }
 
-/// Counts a search that a query over the time limit ends. Returns the objective's value that ends a search.
+/// Counts a search in which a query exceeds the time limit. Returns the objective's value that ends the
+/// search.
 double ended_by(const Searched& subject) {
   subject.count_slow_search();
   return HUGE_VAL;

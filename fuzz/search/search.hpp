@@ -51,7 +51,7 @@ Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
 Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
                     std::string_view separation = {});
 
-/// The given search, made among vv and ve queries: "v-search-miss-NAME~SEPARATION".
+/// The family of the given search, among vv and ve queries: "v-search-miss-NAME~SEPARATION".
 Family among_vertices(Family search);
 
 /// All searches for a subject: for misses, far false positives, and, if it gives times, late and early ones.

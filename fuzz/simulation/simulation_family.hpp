@@ -25,7 +25,7 @@ struct SimulationOptions {
   [[nodiscard]] Simulation simulation() const;
 };
 
-/// The options whose name() this is. Throws Error for any other text.
+/// The options for which name() gives this text. Throws Error if there are none.
 SimulationOptions parse_simulation_name(std::string_view name);
 
 /// Finds a family by its name, as find_family does, or makes the family of a simulation: sim:SCENE, or a name

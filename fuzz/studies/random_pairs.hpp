@@ -14,7 +14,7 @@ struct RandomPairs {
   std::uint64_t boxes_meet = 0;   ///< the boxes that the primitives sweep
   std::uint64_t not_culled = 0;   ///< pairs that no plane separates
   std::uint64_t vertex_edge = 0;  ///< all vertex-edge tests of these pairs, without the culling of §5
-  std::uint64_t candidates = 0;   ///< of these tests: times in [0, 1] in the set T of Algorithm 2
+  std::uint64_t candidates = 0;   ///< all times in [0, 1] in the sets T of these tests (Algorithm 2)
   double bounds = 0;              ///< sum of B divided by the longest edge at t = 0
 
   [[nodiscard]] double part(std::uint64_t some) const {

@@ -24,7 +24,7 @@ namespace {
 using std::chrono::steady_clock;
 
 /// A group of tests with which wang accepts queries. `subject` measures the group: it is wang without the
-/// tests that accept from farther away than this group.
+/// tests that accept pairs farther apart than this group does.
 struct Tests {
   std::string_view name, subject;
 };
@@ -44,7 +44,7 @@ struct Gauge {
   std::function<std::optional<double>(const Query&)> read;
 };
 
-/// The family of miss_search() or far_search(); with `among`, made among vv and ve queries.
+/// The family of miss_search() or far_search(); if `among` is set, its queries are vv and ve.
 template <class Search>
 Family search_by(const Search& search, const Subject& subject, bool among, const Stop& stop) {
   return among ? among_vertices(search(subject, stop, drawn_separation)) : search(subject, stop, "");

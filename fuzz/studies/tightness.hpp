@@ -34,8 +34,8 @@ using TightnessSink = std::function<void(const Extreme&, bool done)>;
 /// families; the other half are collisions that need most of the tolerance, found by directed search. Each
 /// collision gives a factor: if the tolerance is multiplied by less than this factor (by more, if the
 /// tolerance excludes degenerate primitives), the subject misses the collision. For a group of tests,
-/// measures the false positives of wang without the tests that accept from farther away. Throws Error for an
-/// unknown name.
+/// measures the false positives of wang without the tests that accept pairs farther apart. Throws Error for
+/// an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

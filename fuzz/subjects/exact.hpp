@@ -17,8 +17,8 @@ namespace nearmiss {
 /// `exact-decision` gives no time. All three claim to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
 
-/// The kinds that a campaign asks by default: those that at least one subject can be asked, apart from exact
-/// subjects; without such a subject, vt and ee. A kind whose queries have separations needs a subject that
+/// The kinds that a campaign asks by default: those that at least one subject other than the exact ones can
+/// be asked; without such a subject, vt and ee. A kind whose queries have separations needs a subject that
 /// takes them.
 std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
                                const std::function<bool(Kind)>& has_separations);

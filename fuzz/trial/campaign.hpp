@@ -27,7 +27,8 @@ struct CampaignPlan {
   int jobs = 1;
   std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
   std::uint64_t shards = 1;
-  Statistics before = {};                ///< of this shard's cases that earlier runs decided
+  Statistics before = {};                ///< the counters of the cases that earlier runs of this shard
+                                         ///< decided
   std::vector<Finding> findings_before;  ///< findings that earlier runs kept
 };
 

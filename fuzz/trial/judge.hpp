@@ -28,8 +28,8 @@ class Judge {
   explicit Judge(const Subject& subject);
 
   /// The unit in which the distance of a false positive is measured, as a length: the subject's claimed
-  /// bound, or wang's bound for the same pair if the subject claims none. If the subject fails to give its
-  /// bound, the fault.
+  /// bound, or wang's bound for the same pair if the subject claims none. Returns the fault if the subject
+  /// fails to give its bound.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
   /// Compares an answer with the truth about the query, after the subject's rounding. If the smallest
@@ -48,7 +48,7 @@ class Judge {
 
  private:
   /// The outcome of an answer, without the distance of a false positive; and the unit in which to measure
-  /// this distance, if it is to be measured: the answer is a false positive, is not "cannot tell", and
+  /// this distance. It is only measured if the answer is a false positive, is not "cannot tell", and
   /// ask_unit() gives a finite unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
                                                                      Truth& truth) const;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t separation = 24;  // the index of the separation among Numbers
 
-/// The path of a vertex along axis k consists of two coordinates: that at t = 0 has this index, and that at
-/// t = 1 has this index plus 12.
+/// The path of a vertex along axis k consists of two coordinates. This is the index of the one at t = 0; the
+/// one at t = 1 has the index plus 12.
 constexpr std::size_t path(std::size_t vertex, std::size_t k) { return 3 * vertex + k; }
 constexpr std::size_t paths = 12;
 constexpr std::array<std::size_t, 2> times{0, paths};

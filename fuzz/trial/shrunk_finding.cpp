@@ -47,7 +47,8 @@ bool ends_process(const Verdict& verdict) {
 /// subject that has exceeded its time limit once is asked one query at a time, so that the others of a batch
 /// are not asked again and again.
 class Limited final : public ForwardingSubject {
-  /// The subject's answer, which costs the work of this many queries. Throws Error if a limit is reached.
+  /// The subject's answer. Asking for it counts as the work of this many queries. Throws Error if a limit is
+  /// reached.
   template <class Ask>
   auto asked(std::size_t queries, const Ask& ask) const {
     if (work_ <= 0 || is_slow_) throw Error("the subject has answered as many queries as it may");
@@ -228,8 +229,8 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces what the subject gave for the original query by what it gives for the shrunk one, if that is
-  /// something.
+  /// Replaces what the subject gave for the original query by what it gives for the shrunk one, if it gives
+  /// anything.
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
   }

@@ -55,7 +55,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
 }
 
 /// A hash of some coordinates. Queries of other families and seeds with the same numbers are at the same places
-/// of batches, so a sample must not depend on the number alone.
+/// of batches, so a sample must not depend only on the number.
 std::uint64_t hash_of(const Query& query) {
   const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(query.x[i]); };
   return bits(0) ^ std::rotl(bits(13), 32);

@@ -42,7 +42,7 @@ class VersionComparison {
 
   const Subjects& subjects_;
   std::vector<std::optional<std::size_t>> before_;  // by subject
-  std::vector<Answer> answers_;                     // to the present query, by subject
+  std::vector<Answer> answers_;                     // the answers to the present query, by subject
   std::vector<VersionCounts> counts_;               // by subject
 };
 

@@ -36,8 +36,8 @@ bool is_proved(const Query& query, const Decision& decision);
 /// The certificates of bounds of distances are not checked, because they take several times as long.
 std::string time_disagreement(const Query& query, const Decision& decision);
 
-/// How the answers of all methods and the decision contradict each other, or else which part of the decision
-/// or of the earliest time is not proved; "" if all agree, and all is proved.
+/// How the answers of all methods and the decision contradict each other; if they agree, which part of the
+/// decision or of the earliest time is not proved; "" if everything is proved.
 std::string disagreement(const Query& query, const Decision& decision, const Answers& answers);
 
 }  // namespace nearmiss

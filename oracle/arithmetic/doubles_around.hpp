@@ -8,14 +8,14 @@
 
 namespace nearmiss::certified {
 
-/// A fraction of x that is between 1/2 and 3/2 of the distance to the next double on both sides of x > 0, so
-/// that the rounded sum or difference is that double: it is at least 9/16 and at most 9/8 of the distance to
-/// the next larger one. Below a power of two, the distance is half as long, and 9/16 of the former is rounded
-/// to 1/2. For subnormal numbers, the result may also be x itself.
+/// A fraction f of x > 0 such that x + f and x - f are rounded to the doubles next to x: f is between 9/16
+/// and 9/8 of the distance to the next larger double. If x is a power of two, the next smaller double is only
+/// half as far away, and 9/16 is rounded to that half. For subnormal numbers, the result may also be x
+/// itself.
 inline constexpr double to_next = 0x1.2p-53;
 
-/// The largest double that is not above x > 0, and the next one; a smaller double or the same one twice if
-/// x is subnormal.
+/// The largest double that is not above x > 0, and the next one. If x is subnormal, the first may be smaller,
+/// or both may be the same.
 template <class Half>
 std::pair<Half, Half> doubles_around(const DoubleWordOf<Half>& x) {
   const Half below = select(x.lo < 0, x.hi - to_next * x.hi, x.hi);

@@ -51,9 +51,9 @@ Powers<Real> in_powers(const std::array<Real, 4>& b) {
   return {{b[0], 3 * (b[1] - b[0]), 3 * (b[0] + b[2] - 2 * b[1]), b[3] - b[0] + 3 * (b[1] - b[2])}};
 }
 
-/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1, up to |F| <= small or the precision of
-/// double. The method is Newton's, with bisection after a step that leaves the bracket or is more than half
-/// as long as the step before it.
+/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1. The search ends when |F| <= small, or when
+/// double is not more precise. The method is Newton's, with bisection after a step that leaves the bracket or
+/// is more than half as long as the step before it.
 inline double root_between(const Powers<double>& F, double F_0, double F_1, double small) {
   double left = 0;
   double right = 1;

@@ -47,7 +47,7 @@ struct Piece {
 /// A part of the step for which a normal is to be found.
 struct Part {
   Number lo, hi;
-  int depth = 0;                 ///< at least how often it was halved
+  int depth = 0;                 ///< the part was halved at least this many times
   int kept_lo = 0, kept_hi = 0;  ///< how many cuts in a row kept this end
 
   /// The parts after and before a cut, which is in the middle at first. If `may_be_uneven` and many cuts in a
@@ -165,7 +165,8 @@ class Separator {
     return take_normal({Combination::interiors}, part, open);
   }
 
-  /// Tries the normal of these features, with the sign with which it separates in the middle of the part.
+  /// Tries the normal of these features, with the sign that separates the primitives in the middle of the
+  /// part.
   bool take_normal(const ClosestFeatures& features, const Part& part, bool open) {
     const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
                          features.to};

@@ -14,7 +14,7 @@ namespace nearmiss {
 struct Span {
   double from = 0;
   double to = 1;
-  bool is_open = false;  ///< `to` itself is left out
+  bool is_open = false;  ///< whether `to` itself is excluded
 };
 
 /// Proof that the distance is always above the query's separation h in a part of the step; or, unless

@@ -36,8 +36,8 @@ Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const Weight
   return dot(d, d);
 }
 
-/// Chooses the closest points among those of all pairs of features. In floating-point arithmetic, the weights
-/// are those of points that are about closest.
+/// Chooses the closest points among those of all pairs of features. In floating-point arithmetic, the points
+/// are only approximately the closest ones.
 template <class Real>
 class ClosestWeights {
  public:

@@ -91,7 +91,7 @@ class Meeting {
     return ClosestWeights<double>(query_.kind, x).weights();
   }
 
-  /// The weights, rounded to the first number in `bits` with which the points are within h.
+  /// The weights, rounded to the first number of bits in `bits` that brings the points within h.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(
       const WeightsOfPoints<Real>& weights, std::initializer_list<unsigned> bits,

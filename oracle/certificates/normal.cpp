@@ -14,7 +14,7 @@ using exact::Numbers;
 
 /// Whether n · d is below h |n|, by more than rounding errors explain.
 bool is_clearly_nearer(const RoughVector::Value& n, const RoughVector::Value& d, double h) {
-  constexpr double error = 1e-12;  // relative to the sizes; many times that of doubles
+  constexpr double error = 1e-12;  // relative to the sizes; far above rounding errors
   constexpr double least = 0x1p-900;
   const double along = certified::dot(n.v, d.v) - h * std::sqrt(certified::dot(n.v, n.v));
   const double size = certified::dot(n.size, d.size) + h * (n.size[0] + n.size[1] + n.size[2]);

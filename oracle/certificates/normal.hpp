@@ -77,7 +77,7 @@ class Normal {
   std::optional<Polynomial> least_;  ///< h² n · n
 };
 
-/// Bits of the integers to which normals are rounded, in turn; 0: not rounded.
+/// The numbers of bits to which normals are rounded, one after the other; 0: not rounded.
 constexpr std::array roundings{6, 20, 50, 0};
 
 /// The vector with its coefficients rounded to integers, the largest of about `bits` bits; the vector itself

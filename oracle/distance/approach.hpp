@@ -19,7 +19,8 @@ struct Approach {
 /// Looks at times near the smallest distance, and at further times until certified bounds around all of them
 /// cover the step. It computes in double if that resolves the distance, else in double words, and finally
 /// with 384 bits. The errors are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. The
-/// search gives up if it needs too many times, as for narrow enclosures of minima at which the normal turns.
+/// search gives up if it has to look at too many times, for example to enclose a minimum narrowly while the
+/// normal turns.
 Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed);
 
 /// When the distance first falls below a bound.

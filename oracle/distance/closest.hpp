@@ -139,8 +139,8 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   return detail::points_of(x, best);
 }
 
-/// The closest points of the parts that `features` names; this takes less time than closest_points(). If
-/// these parts are interiors that do not contain the closest points, all parts are considered.
+/// The closest points of the parts that `features` names, computed faster than by closest_points(). If these
+/// parts are interiors that do not contain the closest points, all parts are considered.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

@@ -199,7 +199,7 @@ class DistanceSearch {
     return std::nullopt;
   }
 
-  /// Whether a gap is so much wider than the covered range that most of it is unknown.
+  /// Whether a gap is so much wider than the covered range that most of the gap is unknown.
   static bool is_wide(double covered, double gap) { return 100 * covered < gap; }
 
   /// Looks into a gap; false if nothing more can be done about it.
@@ -256,8 +256,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds separations to a time, or makes the time precise if it covers nothing; false if both are already
-  /// done.
+  /// Adds separations to a time; if it has all of them but covers nothing, makes it precise. Returns false if
+  /// nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)

@@ -65,9 +65,9 @@ inline void predict(Moment& moment, double distance, const Powers<double>& F) {
 
 }  // namespace detail
 
-/// A bound of the error of the difference of closest points. It is a sum of at most three vertex differences,
-/// which are rounded four times each, with exact weights up to 1. The sum takes at most three more roundings.
-/// The weights of interiors may add up to 1 + 2 U.
+/// A bound of the error of the difference of closest points. The difference is a sum of at most three vertex
+/// differences, each rounded four times and multiplied by an exact weight of at most 1. Adding them up takes
+/// at most three more roundings. The weights of interiors may add up to 1 + 2 U.
 template <class Real>
 double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();

@@ -125,11 +125,11 @@ void Nearness::add_interiors(Interiors&& of) {
 // planes are strictly inside the features, which are not degenerate: otherwise the closest points would lie
 // in features of a lower dimension. So the statement gives a distance near t0, too, and its square, which
 // is a quotient of polynomials, has a minimum at t0 and a derivative of 0. If that is not identically 0, t0
-// is one of its roots. If it is, the distance stays the same until 0 or 1, or until the closest points
+// is one of its roots. If it is, the distance stays the same until t is 0 or 1, or until the closest points
 // leave the inside of the features; and there, features of a lower dimension are at the same distance.
 SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
   const Interiors of = interiors(query.kind, moving_points(query, unit_));
-  const Nearness contact(query, 0);  // so that each excess is the numerator
+  const Nearness contact(query, 0);  // b = 0, so that each excess is a numerator
   for (const FeatureNearness& each : contact.statements()) {
     const bool are_vertices = each.extents.empty();
     Minima minima{each.excess, are_vertices ? Polynomial({Number(1)}) : each.extents[0], {}};

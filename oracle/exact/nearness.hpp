@@ -12,8 +12,8 @@
 namespace nearmiss::exact {
 
 /// The statement that two features of the primitives, such as a vertex and an edge, are within b of each
-/// other. Their distance is that of the lines or planes through them if the closest points of these lie in
-/// the features.
+/// other. Consider the lines or planes through the features: if their closest points lie in the features, the
+/// features have the same distance as the lines or planes.
 struct FeatureNearness {
   /// What the features are. `interiors` are the insides of both edges, or the vertex and the inside of the
   /// triangle.
@@ -35,9 +35,9 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The polynomials about the planes or lines through the interiors: of the triangle and the vertex, or of
-/// both edges. Where squared_N is positive, their distance is |F| / |N|, and the closest points lie in the
-/// features iff all `outside` are at most 0, and strictly inside iff they are negative.
+/// The polynomials about the vertex and the plane of the triangle, or about the lines of both edges. Where
+/// squared_N is positive, their distance is |F| / |N|, and the closest points lie in the features iff all
+/// `outside` are at most 0, and strictly inside iff they are negative.
 struct Interiors {
   Polynomial F;
   Polynomial squared_N;
@@ -75,7 +75,7 @@ class SmallestDistance {
  public:
   explicit SmallestDistance(const Query& query);
 
-  /// Whether it is at most `bound`, a finite number >= 0. What a comparison learns makes later ones faster.
+  /// Whether the distance is at most `bound`, a finite number >= 0. Each comparison makes later ones faster.
   [[nodiscard]] bool is_at_most(double bound);
 
  private:

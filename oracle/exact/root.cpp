@@ -108,9 +108,9 @@ void shift(Numbers& c, const Multiply& times_shift) {
     for (std::size_t i = 1; i <= last; ++i) c[i] = c[i] + times_shift(c[i - 1]);
 }
 
-/// The coefficients that OnInterval has, from those of the powers of t, of which the leading one comes first.
+/// The coefficients of OnInterval, from those of the powers of t, leading one first.
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
-  // In powers of s, the fraction of the interval, which counts from the end with fewer bits.
+  // Powers of s, the fraction of the interval, counted from the end with fewer bits.
   constexpr std::size_t short_size = 4;  // up to this degree, the difference is small
   const bool from_hi = c.size() > short_size &&
                        exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));
@@ -239,7 +239,7 @@ std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
 }
 
 std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
-  constexpr std::ptrdiff_t near = -40;  // cuts at doubles approach an end by no more bits than that
+  constexpr std::ptrdiff_t near = -40;  // if roots are at least 2^near from the ends, cuts at doubles suffice
   using Exponents = std::vector<std::ptrdiff_t>;
   Exponents exponents;
   for (const Number& c : c_) exponents.push_back(CGAL::is_zero(c) ? 0 : exponent_above(c));
@@ -260,7 +260,7 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
   const std::ptrdiff_t most_inverse = above_roots(c_.rbegin(), exponents.rbegin());  // of 1 / x
   if (most <= -most_inverse) return NearEnd{0, 0, 0};
   if (std::min(most, most_inverse) >= near) return std::nullopt;
-  // s < x and, for x < 1, s > x / 2; and so 1 - s for 1 / x.
+  // s < x and, for x < 1, s > x / 2. The same holds for 1 - s and 1 / x.
   const std::ptrdiff_t upper = std::min(most, most_inverse);
   const std::ptrdiff_t lower = -std::max(most, most_inverse);
   const auto power = [](std::ptrdiff_t exponent) { return power_of_half(static_cast<unsigned>(-exponent)); };
@@ -323,8 +323,8 @@ void Root::refine() {
 
 namespace {
 
-/// A polynomial with the root that p has between two numbers, of the lowest degree that is found, if q
-/// shares the root; else nothing. p has at most one root there, a simple one, and the two polynomials are
+/// If q shares the root that p has between two numbers: the polynomial of lowest degree found that has this
+/// root; else nothing. p has at most one root there, a simple one, and the two polynomials are
 /// not both zero at one of the numbers. So a common divisor has the root if and only if its sign changes.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
@@ -340,7 +340,7 @@ std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Po
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
   if (!is_number() && are_proportional(*p_, q)) return 0;
-  constexpr int patience = 2;  // two times 44 bits nearly always show a nonzero sign
+  constexpr int patience = 2;  // two refinements, by 44 bits each, nearly always show a nonzero sign
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;

@@ -58,8 +58,8 @@ class OnInterval {
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
   /// Fractions of the interval between which all its roots lie strictly, if they are all near the same end;
-  /// and one between these, which divides the distances from that end evenly by their exponents. All are 0
-  /// if the coefficients show that there is no root. There must be a change of sign, and no root at the
+  /// and a fraction between these, whose distance from that end is about the geometric mean of theirs. All
+  /// are 0 if the coefficients show that there is no root. There must be a change of sign, and no root at the
   /// ends.
   struct NearEnd {
     Number lower, middle, upper;
@@ -95,8 +95,8 @@ class Root {
   void refine();
   /// Whether the root is this number.
   [[nodiscard]] bool is(const Number& number) const;
-  /// The root if it is rational, and nothing otherwise. The search refines the interval until the leading
-  /// coefficient, as the denominator, leaves one candidate.
+  /// The root if it is rational, and nothing otherwise. The interval is refined until it contains only one
+  /// fraction whose denominator divides the leading coefficient.
   std::optional<CGAL::Gmpq> as_rational();
   /// Whether this root is smaller than the other root.
   bool is_below(Root& other);

@@ -134,8 +134,8 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
 }
 
 /// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is
-/// asked for, the part of a collision without a bracket must be divided, and what is before a bracket must
-/// be examined next.
+/// asked for, a part with a collision but without a bracket must be divided, and the part before a bracket
+/// must be examined next.
 template <int n, std::size_t count>
 Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
              const Lanes<n>& lo, const Lanes<n>& hi, bool asks_first) {

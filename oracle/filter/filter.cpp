@@ -44,8 +44,8 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return search(query, F, whole).stage;
 }
 
-/// The neighbouring doubles around the first contact, if it is in an interval and this can be shown. All is
-/// inlined, because much of what the functions compute is not needed at one time.
+/// The neighbouring doubles around the first contact, if it is in an interval and this can be shown.
+/// Everything is inlined, so that the compiler drops what this one root does not need.
 [[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
                                                              const Bernstein<double, 4>& F,
                                                              const Enclosure& time) {
@@ -70,7 +70,7 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
   if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
-    // Another part is unclear, before which the search would have ended without a time.
+    // There is an unclear part before the contact; without `time`, the search would have ended there.
     if (!found.time->is_between) found = search(query, F, whole);
   }
   if (found.stage != FilterStage::undecided) return found.stage;

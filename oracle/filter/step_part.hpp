@@ -26,7 +26,8 @@
 // tests/proofs/ derives each constant below again from this code, proves it with Gappa, and shows how near an
 // error can come to it.
 //
-// - The errors of its factors change a product x y of two components by at most X e_y + Y e_x + e_x e_y.
+// - A product x y of two components changes by at most X e_y + Y e_x + e_x e_y because of the errors of its
+//   factors.
 //
 // - W_k consists of at most four products: the middle Bernstein coefficient is half the sum of two
 //   differences of two products. Let w be the sum of the magnitudes of two products, and l the sum of the

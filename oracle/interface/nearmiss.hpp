@@ -67,7 +67,7 @@ inline const char* message(Status status) noexcept { return nearmiss_message(sta
 class Queries {
  public:
   /// Queries one after another: six coordinates for each vertex, x0 x1 .. at t = 0, then at t = 1. Numbers at
-  /// the end that are no whole query are ignored.
+  /// the end that do not make a whole query are ignored.
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
     return Queries(nearmiss_packed(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }

@@ -205,7 +205,7 @@ bool any_name(const RunInfo& info, const std::string& of, const Condition& condi
   return false;
 }
 
-/// Whether a run may have asked the queries of a key, judged by the run's facts. Their values are such as
+/// Whether a run may have asked the queries of a key, judged by the run's facts. Examples of their values:
 /// "uniform,needle", "stiff in 17 steps" or "all, search" for the families, "vt,ee" for the kinds, and
 /// "wang,x=wang,./plugin.so" for the subjects.
 bool may_ask(const RunInfo& info, const CountsKey& key) {

@@ -35,14 +35,16 @@ std::string fact(const RunInfo& info, const std::string& name);
 inline constexpr std::string_view about_plugin = "plug-in ";
 inline constexpr std::string_view its_digest = " sha256";
 inline constexpr std::string_view its_detector = " detector";
-/// Beginning of the name of a run's fact about a renamed built-in subject: "subject NAME" is "NAME=SUBJECT".
+/// A run's facts about renamed built-in subjects have names that begin like this: "subject NAME" is
+/// "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";
 
 /// Whether a fact of a run says which code ran, not what the code was asked to do. Such facts are the version
 /// and the commit of nearmiss, and the bytes and the version of each plug-in.
 bool says_which_code(std::string_view fact);
 
-/// The facts that say what a run was asked to do; without those on which code ran and on what a salvage lost.
+/// The facts that say what a run was asked to do, without those that say which code ran or what a salvage
+/// lost.
 RunInfo task_of(const RunInfo& info);
 
 /// A fact that differs between two runs, and its two values; the value is "" for a run without the fact. The

@@ -19,9 +19,9 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// What the nights so far have told, so that nothing is told twice. Each sort of change in one topic is told
-/// once until the subject's code changes or the opposite is told: rates and ways to fail that become
-/// significant only in a later night are evidence of the same change.
+/// The changes told so far, so that nothing is told twice. Each sort of change in one topic is told once,
+/// until the subject's code changes or the opposite is told. If a rate or a way to fail becomes significant
+/// only in a later night, it is evidence of the same change.
 class Told {
  public:
   /// Whether a change is news.
@@ -50,7 +50,7 @@ class Told {
   void end_night(const NightReport& night) {
     for (const auto& [subject, of_night] : night.subjects) {
       night_before_[subject].clear();
-      // A failure after this is another one, even of the same code: a program's code is not known.
+      // A later failure counts as another one, even of the same code: a program's code is not known.
       if (of_night.clean)
         std::erase_if(told_, [&, name = subject](const Topic& each) {
           const auto& [of, what, topic] = each;
@@ -76,9 +76,9 @@ class Told {
 /// The subjects that became slower.
 class Slowed {
  public:
-  /// Adds an event for each subject that is as fast again as before it became slower: its time is nearer to
-  /// the time that was expected then. The report does not say so once the slow nights are part of its
-  /// baseline.
+  /// Adds an event for each subject that is fast again after it became slower: its time is nearer to the time
+  /// that was expected then than to the slow one. The report itself does not say so once the slow nights are
+  /// part of its baseline.
   void add_events(Night& night, Told& told) {
     for (const auto& [name, subject] : night.report.subjects) {
       const double time = subject.ns_per_query.value_or(0);

@@ -26,7 +26,7 @@ struct ReportedChange {
   ChangeKey key;
   std::string text;        ///< "false-negative, vt simple-root inside in-face"
   std::string fixed = {};  ///< "in version 2"
-  double ratio = 1;        ///< of a run time to the expected one
+  double ratio = 1;        ///< the ratio of a run time to the expected one
 };
 
 /// A subject in one night. Numbers that its report does not give are missing.
@@ -35,7 +35,8 @@ struct SubjectNight {
   bool clean = true;
   std::string text;  ///< its verdict
   std::optional<double> queries, false_positive_rate, ns_per_query;
-  std::map<std::string, std::pair<double, double>> missed;  ///< by class: how many of how many collisions
+  std::map<std::string, std::pair<double, double>> missed;  ///< by class: the numbers of misses and of
+                                                            ///< collisions
 };
 
 /// A campaign and what its report says.
@@ -43,7 +44,7 @@ struct NightReport {
   std::string name;     ///< of the night's folder
   std::string page;     ///< the report's page, relative to the folder of all nights; "" if there is no report
   std::string started;  ///< the earliest date of its runs; "" if it is not known
-  std::string headline;  ///< of its report, or why there is none
+  std::string headline;  ///< the headline of its report, or why there is no report
   bool clean = false;
   std::uint64_t cases = 0;
   double seconds = 0;  ///< run time of all its runs

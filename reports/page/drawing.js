@@ -29,8 +29,8 @@ const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-seri
 const drawn = {};
 
 /**
- * A copy in which an invisible character ends each string that names a member of every object, such as
- * "constructor": Vega-Lite drops such strings from the domain of a scale.
+ * A copy in which an invisible character is added to strings such as "constructor", the name of a member that
+ * every object has: Vega-Lite drops such strings from the domain of a scale.
  */
 function withoutMembers(value) {
   if (typeof value === "string") return value in {} ? `${value}\u200b` : value;

@@ -312,7 +312,7 @@ if (ownFolder !== "")
   for (const each of document.querySelectorAll(".commands-note"))
     each.textContent = `The commands work in any folder, on a machine that has this report in ${ownFolder}`;
 
-// A picture of error against run time says nothing about one or two subjects that their tables do not say.
+// For one or two subjects, a picture of error against run time says no more than their tables.
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 2],
   ["misses-time-part", drawMissesTime, report.error_against_time.ladder === undefined && ordinaryRows().some((row) => row.missed > 0) && ordinaryRows().length > 2],
@@ -361,8 +361,8 @@ function drawCharts(some) {
     .then(() => call === calls && document.body.setAttribute("data-drawn", "true"));
 }
 drawCharts(charts);
-// Without failures, the findings are below the charts, so the page shows a finding only after it has drawn
-// these.
+// If nothing failed, the findings are below the charts. So the page draws the charts before it shows a
+// finding.
 report.headline.clean ? drawing.then(showAddress) : showAddress();
 addEventListener("hashchange", showAddress);
 const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));

@@ -9,7 +9,7 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
 /** The text with powers of two, such as 2^-9, typeset with a superscript. */
 const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 2 === 0 ? part : ["2", made("sup", part.slice(2).replace("-", "−"))]));
 
-/** At which lengths of edges, and how far from the origin, the subject is right. */
+/** The edge lengths and the distances from the origin at which the subject is right. */
 const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject === subject).flatMap(({ kind, edge, distance }) => {
   const part = (range, name) => range && range.from !== null && `${name} ${range.values}${range.wrong && ` (elsewhere ${range.wrong})`}`;
   const parts = [part(edge, "edges"), part(distance, "distance")].filter(Boolean);

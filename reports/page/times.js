@@ -106,7 +106,7 @@ function binsOfErrors(row) {
   ];
 }
 
-/** Draws a strip for each chosen subject and kind, all over the same axis. */
+/** Draws a strip for each chosen subject and kind. All strips have the same axis. */
 function drawTimeErrors() {
   const rows = timedRows();
   const all = rows.flatMap(binsOfErrors);

@@ -60,14 +60,14 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// The most failures with which a family counts as one with few. All three thresholds are tried, because
-/// larger campaigns have more failures.
+/// The largest numbers of failures that count as few. All three thresholds are tried, because larger
+/// campaigns have more failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// Proportions {now, before} of some pairs of family and kind, and the sum of the kinds.
+/// Proportions {now, before} of some pairs of family and kind, and the sum of the bits of these kinds.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;

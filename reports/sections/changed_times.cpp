@@ -24,7 +24,7 @@ using Logs = std::map<CountsKey, double>;
 /// kind.
 constexpr std::size_t fewest_families = 8;
 /// Assumed standard deviations of log(time now / time before) if nothing has changed; the spread of a
-/// family's batches comes on top. The first is the least value for a family, which is compared with the
+/// family's batches is added to them. The first is the least value for a family, which is compared with the
 /// subject's other families. The second is for a subject, which is compared with other subjects. The third
 /// is for a time without any other to compare.
 constexpr double spread_of_family = 0.05;

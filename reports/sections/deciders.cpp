@@ -96,8 +96,8 @@ std::uint64_t DeciderRow::all() const {
   return std::accumulate(queries.begin(), queries.end(), std::uint64_t{0});
 }
 
-/// Rows for each subject of which the algorithm decides some queries and another decider others: one row for
-/// all families, then one for each family.
+/// Rows for each subject whose algorithm decides some queries and leaves others to another decider: one row
+/// for all families, then one for each family.
 std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
   const auto by_family = sums_by(
       statistics, [](const CountsKey& key) { return std::pair(key.subject, row_family(key.family)); });

@@ -48,7 +48,7 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
 
 using Row = std::vector<std::string>;
 
-/// A row with the numbers of both kinds, `parts`, and their percentages of `all`.
+/// A row with a number for each kind (`parts`), and its percentage of the kind's number in `all`.
 Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
   Row cells{std::string(what)};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -63,8 +63,8 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Whether the farthest ratio of a rung is known, not only an upper bound of it, as below the histogram's
-/// lowest border.
+/// Whether the farthest ratio of a rung is known. If it is below the histogram's lowest border, only an upper
+/// bound is known.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {

@@ -18,8 +18,8 @@ std::string summary_lines(const Statistics& statistics, const Failures& failing 
 /// measured tolerances.
 std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());
 
-/// At which lengths of edges, and how far from the origin, each subject is right (right_ranges): a row for
-/// each subject, or for each of its kinds if these differ.
+/// The edge lengths and the distances from the origin at which each subject is right (right_ranges): a row
+/// for each subject, or for each of its kinds if these differ.
 std::string sizes_table(const Statistics& statistics);
 nlohmann::ordered_json sizes_json(const Statistics& statistics);
 

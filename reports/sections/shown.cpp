@@ -18,7 +18,7 @@ namespace nearmiss {
 
 namespace {
 
-/// A file name as it is compared where upper and lower case are the same.
+/// A file name in the form that is compared if upper and lower case count as the same.
 std::string without_case(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -17,8 +17,8 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over timed families. It also gives the rates, because only untimed families, those of directed
-  /// searches, have no meaningful rates.
+  /// The sum over timed families. Rates come from it, too: only the families of directed searches have no
+  /// meaningful rates, and these are not timed.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -55,8 +55,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The largest set of subjects that were asked about a common family. Of several such sets, the one with the
-/// most common families.
+/// The largest set of subjects that were asked about a common family. If there are several such sets, the one
+/// with the most common families.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -67,7 +67,7 @@ Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>&
 }
 
 /// A TradeOff for each timed subject, in the order of their names, except subjects beyond their contracts.
-/// If all subjects have no family in common, only those of most_comparable() have a TradeOff.
+/// If the subjects have no family in common, only those of most_comparable() have a TradeOff.
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   const auto asked = asked_subjects(statistics);
   const Subjects subjects = most_comparable(asked);
@@ -88,8 +88,8 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics) {
 }
 
 /// The Pareto front of the sound subjects, fastest first. A sound subject is on the front unless another
-/// sound subject is at least as fast and has at most the same error. Of several subjects with equal times
-/// and errors, only the first by name is on the front. `error` computes the error of a subject.
+/// sound subject is at least as fast and has at most the same error. If several subjects have equal times and
+/// errors, only the first by name is on the front. `error` computes the error of a subject.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&)) {
   std::vector<const TradeOff*> sound;
   for (const TradeOff& each : all)

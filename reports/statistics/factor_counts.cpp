@@ -15,8 +15,8 @@ double ratio(std::uint64_t part, std::uint64_t of) {
   return static_cast<double>(part) / static_cast<double>(of);
 }
 
-/// Whether a is the better answer of common_factors than b: by a larger lift or, at equal lifts, by the
-/// rules there.
+/// Whether common_factors() prefers a to b: for its larger lift or, if the lifts are equal, by the rules
+/// there.
 bool is_better(const CommonFactors& a, const CommonFactors& b) {
   const auto merit = [](const CommonFactors& each) {
     const bool is_single = each.key.values.find(' ') == std::string::npos;
@@ -112,9 +112,9 @@ FactorCounts sum_of(std::span<const Level> levels) {
   return sum;
 }
 
-/// Of all runs of five successive values without misses, the answers of the one with the lowest rate of
-/// false positives. If fewer than five values have no misses, their answers. (Values with misses do not
-/// count: a CCD that misses everything has no false positives.)
+/// The answers of five successive values without misses, chosen so that the rate of false positives is
+/// lowest. If fewer than five values have no misses, their answers. (Values with misses do not count: a CCD
+/// that misses everything has no false positives.)
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
   std::erase_if(levels, [](const Level& each) { return each.misses; });
@@ -146,7 +146,7 @@ std::vector<Level> levels_of(const Powers& powers) {
   return levels;
 }
 
-/// The first longest run of right levels at neighbouring values.
+/// The longest run of right levels at neighbouring values, or the first of several such runs.
 std::span<const Level> longest_run(std::span<const Level> levels) {
   std::span<const Level> longest;
   for (std::size_t first = 0; first < levels.size();) {
@@ -160,9 +160,9 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
   return longest;
 }
 
-/// Whether chance may explain that none of the collisions at some levels is missed. Assumes the rate of
-/// misses at the nearest levels outside: one, two and so on. `outside` has these levels, nearest first;
-/// without misses at the nearest, the answer is no.
+/// Whether chance may explain that none of the collisions at some levels is missed, if they have the same
+/// rate of misses as the nearest level outside, or as the nearest two, and so on. `outside` has these levels,
+/// nearest first. If the nearest one has no misses, the answer is no.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

@@ -24,7 +24,7 @@ struct Finding {
     truth_mismatch,
     fault,
     late,        ///< a time is too late, although the subject promised a lower bound
-    committed,   ///< such a time is sound, but the step to it, rounded, has contact before its end
+    committed,   ///< a promised lower bound is sound, but the rounded step to it has contact before its end
     unsafe_step  ///< likewise, although the subject promises that this step is free
   };
 

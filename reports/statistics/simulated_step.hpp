@@ -15,7 +15,7 @@ namespace nearmiss {
 struct SimulatedStep {
   std::uint64_t queries = 0;  ///< pairs that the subject answered
   std::uint64_t unanswered =
-      0;  ///< pairs that the subject does not decide, that its contract excludes, or without answer
+      0;  ///< pairs that the subject does not decide, that its contract excludes, or that got no answer
   std::uint64_t collisions = 0;
   std::uint64_t positives = 0;
   std::uint64_t false_negatives = 0;

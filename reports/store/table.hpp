@@ -17,8 +17,8 @@
 
 namespace nearmiss {
 
-/// The version of the tables and of their contents. Only stores of this version are read. Every change raises it,
-/// except a new member of which rows may have none.
+/// The version of the tables and of their contents. Only stores of this version are read. Every change raises
+/// it, except a new member that rows may lack.
 inline constexpr int store_version = 25;
 
 /// Thrown if a store is not as it was written. The message says which part is damaged.

@@ -26,7 +26,7 @@ TEST(RoundingErrors, AreThePapersAsPrinted) {
   for (std::size_t i = 0; i < members.size(); ++i) EXPECT_EQ(printed.*members[i], expected[i] * 0x1p-52) << i;
 }
 
-// For x = k u, (1 + u)^k - 1 is at most x u less than x + x²/2 + x³/6 + ... The bound is x + x²/2 + x³/4 +
+// For x = k u, (1 + u)^k - 1 is below x + x²/2 + x³/6 + ..., by at most x u. The bound is x + x²/2 + x³/4 +
 // ...
 TEST(RoundingErrors, OfTheTheoremAreTightToSecondOrder) {
   for (const double u : {0x1p-10, 0x1p-24, 0x1p-52})

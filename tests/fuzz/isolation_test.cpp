@@ -142,7 +142,7 @@ TEST(Isolation, TheComputingTimeOfAChildCounts) {
   const auto queries = one_batch(50);
   std::vector<Verdict> verdicts(queries.size());
   std::thread([&] {
-    use_one_processor();                       // so the child computes, and the plug-in's process little
+    use_one_processor();                       // so the child gets the processor
     subject->decide_timed(queries, verdicts);  // starts the child
     for (int i = 0; i < 3; ++i)
       EXPECT_GE(subject->decide_timed(queries, verdicts).nanoseconds, 50 * 900'000U / 2);

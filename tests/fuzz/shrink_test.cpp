@@ -78,7 +78,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
       << std::hex << hash.value();  // the shrunk queries are still the same
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
-            4);  // most have few distinct numbers; before, all except coplanar queries had about 20
+            4);  // most have few distinct numbers; unshrunk, all but coplanar queries have about 20
 }
 
 TEST(Shrink, KeepsOnlyWhatMatters) {

@@ -17,7 +17,7 @@ namespace {
 
 using QueryCoordinates = std::array<double, 24>;
 
-/// The pairs about which a simulation asks `exact`, its CCD, when it asks as `nearmiss simulate` does.
+/// The pairs about which a simulation with `exact` as its CCD asks, if it asks as `nearmiss simulate` does.
 std::set<QueryCoordinates> pairs_asked(const std::string& scene) {
   const Subjects subjects = testing::subjects_named({"exact"});
   Trials trials(subjects, {}, 1, Stop::never(), false, [](TrialResult&&) {});

@@ -28,14 +28,14 @@ MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
            .takes_separation = true}};
 }
 
-/// How far a collision is from time 0.4, and its last edge at t = 0 from length 0.77.
+/// Distance from the collisions at time 0.4 whose last edge has the length 0.77 at t = 0.
 double off(const Query& query, double time) {
   return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
 }
 
 constexpr double region = 0x1p-10;
 
-/// A subject whose times are late only in the region off < region, by at most 0.1 * region.
+/// A subject whose times are late only where off() < region, by at most 0.1 * region.
 MadeUpSubject late_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     if (verdict.hit) verdict.time += 0.1 * (region - off(query, verdict.time)) * std::min(verdict.time, 1.0);
@@ -44,7 +44,7 @@ MadeUpSubject late_in_a_region() {
   });
 }
 
-/// A subject whose times are up to 1e-3 early, and in the region off < region up to 0.2 earlier still.
+/// A subject whose times are up to 1e-3 early, and where off() < region, up to 0.2 earlier still.
 MadeUpSubject early_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     const double inside = std::max(0.0, 1 - off(query, verdict.time) / region);

@@ -61,7 +61,7 @@ void expect_constraints(const Tolerances<double>& computed, double B, bool of_ed
   tol.psi = enclosure(computed.psi) / b / b;
   tol.lambda2 = enclosure(computed.lambda2) / b / b;
   tol.S = enclosure(computed.S) / b;
-  tol.mu = tol.tau = tol.eta = 1;  // these constraints do not depend on them
+  tol.mu = tol.tau = tol.eta = 1;  // the tested constraints do not depend on these
   const auto errors = full_errors(Interval(epsilon<double>()), tol.S, tol.rho);
   for (const auto& each : constraints(tol, Interval(1), Interval(1), errors))
     if (each.about == "VV" || (of_edge && each.about.starts_with("VE"))) {

@@ -40,8 +40,8 @@ def kill(process):
 
 
 def wait(process, seconds):
-    """Waits for a process to end. Returns whether it exceeded its time, its exit code, and the
-    resources that it used."""
+    """Waits for a process to end. Returns a triple: whether it exceeded its time, its exit code,
+    and the resources that it used."""
     begin = time.monotonic()
     late, pause = False, 0.002
     while True:

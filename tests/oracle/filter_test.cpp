@@ -146,7 +146,7 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, also before coordinate i is replaced
+      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, even before coordinate i is replaced
       query.x[i] = c;
       queries.push_back(query);
       EXPECT_EQ(filter(query), FilterStage::undecided);

@@ -109,7 +109,7 @@ class Distances {
       return at(s, t);
     }
     if (is(23))
-      best = std::min({vv(p, q), vv(p1, q), vv(p, q1), vv(p1, q1)});  // leaves out ends against insides
+      best = std::min({vv(p, q), vv(p1, q), vv(p, q1), vv(p1, q1)});  // ignores ends against insides
     if (!(area > 0)) return best;
     const double s = (is(24) ? -b * f - c * e : b * f - c * e) / area;  // a wrong sign
     const double t = (a * f - b * c) / area;

@@ -28,7 +28,7 @@ struct CcdClaim {
   /// In the frame, B is in [2^-100, 2^100] or 0, and products have degree at most 4 in B. Their error by
   /// underflow is at most 2^-1075 (half the smallest double), and 2^(400 - 1075) if B is scaled to 1.
   static constexpr int underflow_of_vectors = -675;
-  /// The exponent for v·v, if ‖v‖∞ is scaled to 1 and was above 2^-400 B. If it was below, any time is good
+  /// The exponent for v·v, if ‖v‖∞ is scaled to 1 and was above 2^-400 B. If ‖v‖∞ was below, any time is good
   /// enough, because the squared distance changes by less than 2^-390 B².
   static constexpr int underflow_of_time = -1075 + 1000;
 };

@@ -38,7 +38,7 @@ TEST(ProofsOfPlanes, HeightsAlongDiagonalsDifferByMoreThanRootTwoH) {
   EXPECT_FALSE(is_proven(heights(1.4142135, certified::height_rounding)));
 }
 
-/// The script of the claim that the computed end of a gap after t is not above the exact one, t + a. The code
+/// The script for this claim: the computed end of a gap after t is at most the exact end, t + a. The code
 /// rounds t + a, subtracts `rounding`, and rounds again. t is a time, and a is the time from t on for which a
 /// bound of the distance holds.
 std::string ahead(double rounding) {
@@ -53,8 +53,8 @@ std::string ahead(double rounding) {
       dyadic(rounding));
 }
 
-/// The script of the claim that the computed end of a gap before t is not below the exact one, t - a. (If t -
-/// a is rounded to 1, the computed end is at least 1.)
+/// The script for this claim: the computed end of a gap before t is at least the exact end, t - a. (If t - a
+/// is rounded to 1, the computed end is at least 1.)
 std::string behind(double rounding) {
   return fmt::format(
       "@double = float<ieee_64, ne>;\n"

@@ -158,8 +158,8 @@ Inputs Measure::changed(Random& random, const Inputs& inputs) const {
 
 namespace {
 
-/// The inputs of the largest error that a climb finds from random inputs or from the known ones. `seen` gives
-/// the error of inputs, or an estimate of it.
+/// The inputs with the largest error that a climb finds when it starts from random inputs or from known
+/// inputs. `seen` gives the error of inputs, or an estimate of it.
 template <class Draw, class Change, class Seen>
 Inputs climbed(const Inputs& known, const ClimbEffort& effort, const Draw& draw, const Change& change,
                const Seen& seen) {

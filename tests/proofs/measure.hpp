@@ -61,8 +61,8 @@ class Measure {
   std::vector<std::string> names_;
 };
 
-/// The largest error of a claim that a hill climb finds from random inputs, and from the known ones if there
-/// are any.
+/// The largest error of a claim that hill climbs find when they start from random inputs and, if there are
+/// any, from known inputs.
 Witness find_witness(const CcdClaim& claim, const Inputs& known, const ClimbEffort& effort);
 Witness find_witness(const OracleClaim& claim, const Inputs& known, const ClimbEffort& effort);
 

@@ -86,7 +86,7 @@ double seen_slope_rounding(const Inputs& in) {
   return ratio(abs(Rational(derivative(F).at(t)) - exact), Rational(F.largest()) * Rational(u));
 }
 
-/// The error of the derivative at t = 0 that comes from those of the coefficients, divided by them.
+/// The error of the derivative at t = 0 that comes from the errors of the coefficients, divided by these.
 double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
 
 /// The error of F(t) + S (d - t), in units of u (|F(t)| + |S (d - t)|).

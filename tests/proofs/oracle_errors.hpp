@@ -41,7 +41,7 @@ Rational w_of(const Inputs& inputs);
 Rational M_of(const Inputs& inputs);
 
 /// Draws components of some vectors in [-1, 1] and two times, of which t is the earlier one. The components
-/// have few bits, or one magnitude, or any magnitude. Lower halves of `words` are within half an ulp.
+/// have few bits, the same magnitude, or any magnitudes. Lower halves of `words` are within half an ulp.
 Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
 
 }  // namespace nearmiss::proofs

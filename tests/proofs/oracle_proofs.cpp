@@ -129,7 +129,7 @@ double proven_leaf_growth() { return proven_growth(most_roundings(cubic_results<
 double proven_underflow_products() {
   double largest = 0;
   for (const Leaves leaves : {Leaves::rounded_once, Leaves::given_errors}) {
-    // `error_near` has two more products than the template. Its other underflow is at most that of its error.
+    // `error_near` has two more products than the template. Other underflow in it is at most that in `error`.
     largest = std::max(largest, proven_underflow<Traced>(weight_results<Traced>, leaves, 2));
     largest = std::max(largest, proven_underflow<Traced>(cubic_results<Traced>, leaves, 0));
     largest = std::max(largest, proven_underflow<Traced>(part_results<Traced>, leaves, 0));

@@ -5,7 +5,8 @@
 
 namespace nearmiss::proofs {
 
-/// The factor of U w or U M with which the bound covers the rounding errors of all results, for exact leaves.
+/// For exact leaves: the factor of U w or U M that the bound needs to cover the rounding errors of all
+/// results.
 template <class Real>
 double proven_rounding(Results results);
 /// The factor of u w or u M that is required if this many leaves are rounded once.

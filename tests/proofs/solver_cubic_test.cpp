@@ -46,8 +46,7 @@ std::vector<double> places_between(const Coefficients& k, double left, double ri
   return places;
 }
 
-/// The largest amount by which F, at a place between two others, is outside the range between its values at
-/// these two.
+/// The largest amount by which F, between two places, leaves the range between its values at these places.
 double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   double most = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -85,8 +85,8 @@ class Nearmiss:
         return np.array([line == '1' for line in lines], dtype=bool)
 
     def collisions(self, kind, queries):
-        """Whether each query is a collision. A tie is none: its smallest distance is exactly the
-        separation, as the certificate says, which is not strict or missing."""
+        """Whether each query is a collision. A tie is no collision: its smallest distance is
+        exactly the separation, so its certificate is missing or not strict."""
         found = self.within(kind, queries)
         some = [i for i in np.flatnonzero(found) if separation(kind, queries[i]) > 0]
         nearer = [

@@ -93,7 +93,7 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
 
 def _committed(times, judged, time, own, in_float):
     """Which of the steps x0 + time (x1 - x0), in the subject's scalar, have contact before their
-    end, and which only there."""
+    end, and which have contact only at their end."""
     scalar = np.float32 if in_float else np.float64
     before, at_end = np.zeros(len(judged), bool), np.zeros(len(judged), bool)
     steps = {}

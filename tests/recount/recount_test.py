@@ -13,8 +13,8 @@ from recount import recount
 
 # The subjects: one that misses collisions, several with valid claims at various precisions, one
 # that passes queries on, one whose claim is refuted, and one with exact times. Two plug-ins give
-# times: estimates, and lower bounds that are late. The other plug-ins export the name of the second
-# one, so they are its versions.
+# times: estimates, and lower bounds that are late. The other plug-ins export the name of the
+# second plug-in, so they are its versions.
 SUBJECTS = 'adaptive,basic,wang,wang:float,wang:p144,defect:D2*10,exact'.split(',')
 PLUGINS = ['sampling', 'promises']
 VERSIONS = {'v1': 'v1', 'second': 'v2'}  # the plug-in of each subject, by name

@@ -91,8 +91,8 @@ Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen)
   return made;
 }
 
-// Of six nights, five have the failure about equally often, and one in the middle does not have it. But if
-// the sixth night has it 1,300 times, chance cannot explain that.
+// Five of six nights have the failure about equally often, and one in the middle does not have it. But if the
+// sixth night has it 1,300 times, chance cannot explain that.
 TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   const auto misses = [](std::uint64_t times) {
     Campaign made = campaign(std::to_string(times), {{key, counts(200000, 100000, times, 0)}});

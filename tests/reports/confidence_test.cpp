@@ -47,8 +47,8 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // Both campaigns ask the same number of queries. Of 10 failures, 9 or more are in the one called now with
-  // probability 11 / 1024.
+  // Both campaigns ask the same number of queries. With probability 11 / 1024, 9 or more of 10 failures are
+  // in the campaign called `now`.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);

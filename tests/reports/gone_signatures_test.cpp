@@ -57,8 +57,8 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
-// A time limit ended the later campaign. Of the signature's family, it asked twice as many queries as the
-// earlier campaign; of the other family, it asked as many.
+// A time limit ended the later campaign. It asked twice as many queries of the signature's family as the
+// earlier campaign, and as many of the other family.
 TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
   const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
     Campaign made = night(date, {{inside, seen}});

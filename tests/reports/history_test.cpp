@@ -98,7 +98,7 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1"}, 1);
   write_night(3, {.version = "2", .seen = {"a", "b"}, .created = {"a", "b"}, .worse = {"uniform"}}, 2);
-  // More ways to fail and other families are later evidence of the same change, and no events.
+  // More ways to fail and other families are later evidence of the same change, so they are no events.
   write_night(4, {.version = "2", .seen = {"a", "c"}, .created = {"c"}, .worse = {"uniform", "sliver"}}, 3);
   write_night(5, {.version = "3", .gone = {"a", "b"}, .slower = 4, .ns = 400}, 4);
   write_night(6, {.version = "3", .gone = {"a", "b", "c"}, .slower = 3.5, .ns = 390}, 5);

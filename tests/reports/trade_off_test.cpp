@@ -19,7 +19,7 @@ TEST(TradeOff, TheFrontHasTheSoundSubjectsThatNoSoundOneBeats) {
   Statistics statistics;
   statistics.counts = {
       {at("exact"), counts(100, 50, 0, 0, 300)},         {at("fast"), counts(100, 50, 0, 40, 100)},
-      {at("fast as well"), counts(100, 50, 0, 40, 100)},  // of equal subjects, only the first is on the front
+      {at("fast as well"), counts(100, 50, 0, 40, 100)},  // only the first of equal subjects is on the front
       {at("beaten"), counts(100, 50, 0, 41, 200)},       {at("better"), counts(100, 50, 0, 30, 200)},
       {at("wrong"), counts(100, 50, 1, 0, 50)}};
   const auto json = trade_offs_json(statistics);

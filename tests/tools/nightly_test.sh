@@ -122,7 +122,7 @@ cp -r "$folder/the nights/last/" "$folder/the nights/2001-01-01T000000Z copy"
 mkdir "$folder/the nights/2002-01-01T000000Z"
 touch "$folder/the nights/2002-01-01T000000Z/.reserve"
 rm "$folder/the nights/2999-01-01T000000Z/all.db"
-mkfifo "$folder/the nights/2999-01-01T000000Z/all.db"  # which would be read for ever
+mkfifo "$folder/the nights/2999-01-01T000000Z/all.db"  # a pipe, which would be read for ever
 CDPATH=. night 0 --subject wang --keep 3
 rm -r "$folder/the nights/2999-01-01T000000Z"
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"

@@ -54,7 +54,7 @@ TEST_F(Recording, HasTheLatestQueriesAndThoseThatAreKept) {
   EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 20480);
   const auto counts = judged(1);
   EXPECT_THAT(read("error.txt"), Not(HasSubstr("left out")));
-  EXPECT_EQ(counts["queries"], 60 + 1);  // of the room for 80 records, a quarter is for queries that are kept
+  EXPECT_EQ(counts["queries"], 60 + 1);  // a quarter of the room for 80 records is for kept queries
   EXPECT_EQ(counts["false_negatives"], 6);
   expect_code(0, "convert run.nmq -o converted");
   EXPECT_THAT(read("converted/queries.vt"),

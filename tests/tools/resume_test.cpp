@@ -62,7 +62,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
     EXPECT_EQ(finding["shrunk"], finding["original"]);
   expect_code(1, campaign + " --resume --db plain.db");
   json later = timeless_report("plain.db");
-  later["runs"] = report["runs"];  // they differ, because its command has the option --no-shrink
+  later["runs"] = report["runs"];  // they differ: only one command has --no-shrink
   EXPECT_EQ(json::diff(later, report), json::array());
 
   for (const std::string shard : {"2", "0", "1"})
@@ -110,7 +110,7 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
   EXPECT_EQ(run(again.substr(9) + " --db again.db").code, code);
   json other = timeless_report("again.db");
-  other["runs"] = report["runs"];  // they differ: this command has a number of cases, the other has a time
+  other["runs"] = report["runs"];  // they differ: one command limits the cases, the other the time
   EXPECT_EQ(other, report);
 }
 

@@ -145,7 +145,7 @@ for each in ipc accd all:ctcd all:eltopo plain; do
     [[ " $("$nearmiss" subjects "$subject") " == *" $kind"[\ \;]* ]] || continue
     answers "$subject" $kind "$timed" "${hit[$kind]}"
     answers "$subject" $kind 0 "${miss[$kind]}"
-    case $each in ipc | accd | all:ctcd)  # from 2 to 0.25, it is 0.5 away at 6/7
+    case $each in ipc | accd | all:ctcd)  # the distance falls from 2 to 0.25, and is 0.5 at t = 6/7
       answers "$subject" $kind '1 unspecified 0x1\.b6db6db.*p-1' "${miss[$kind]}" --separation 0.5
       answers "$subject" $kind 0 "${miss[$kind]}" --separation 0.125 ;;
     esac

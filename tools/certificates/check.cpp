@@ -205,9 +205,10 @@ Query read_query(const Statement& statement) {
 }
 
 /// dist > h on the piece, as n . d > h |n| for all differences d of a vertex of A and one of B. Proof: The
-/// difference d of any two points of A and B is a convex combination of those, so n . d > h |n| for it too; n
-/// is not 0; and n . d <= |n| |d|, hence |d| > h. Not strict: n . d > 0 and n . d >= h |n|, hence |d| >= h.
-/// We compare n . d with 0 and (n . d)^2 with h^2 n . n. Open: all of this before the end of the piece.
+/// difference d of any two points of A and B is a convex combination of these differences, so it also
+/// satisfies n . d > h |n|; n is not 0; and n . d <= |n| |d|, hence |d| > h. Not strict: n . d > 0 and n . d
+/// >= h |n|, hence |d| >= h. We compare n . d with 0 and (n . d)^2 with h^2 n . n. Open: all of this holds at
+/// every time before the end of the piece.
 void prove_piece(const Piece& piece, const Vector& n, const Query& query, bool strict, bool open) {
   const auto enough = [open](const Integers& b) { return b[0] > 0 && (open ? b.min() >= 0 : b.min() > 0); };
   const Integers limit = query.h == 0 ? Integers() : mpz_class(query.h * query.h) * dot(n, n);

@@ -84,7 +84,7 @@ std::string named(std::string name, const SeparationOption& separation) {
 }
 
 /// For each kind that is asked, the first `count` queries of a family that pass the box test; made on all
-/// processors. Throws Error if fewer than one query in 1000 passes, and Stopped.
+/// processors. Throws Error if fewer than one query in 1000 passes, and Stopped if the user ends the command.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};

@@ -81,7 +81,7 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
 int run(const Options& options) {
   NewFiles files(options.folder);
   std::uint64_t count = 0, wrong = 0;
-  std::map<fs::path, std::vector<bool>> truths;  // the truths of the queries in each file of "json"
+  std::map<fs::path, std::vector<bool>> truths;  // for "json": the truths of the queries in each file
   for (const fs::path& path : options.paths)
     read_cases(path, [&](Case&& each) {
       ++count;

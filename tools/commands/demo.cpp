@@ -40,8 +40,8 @@ bool is_plain(const Query& query) {
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
 }
 
-/// Asks a subject random queries of ordinary or of other families until it misses a collision that shrinks to a query
-/// of the same class that is easy to draw. In ordinary families, that query is ordinary, too.
+/// Asks a subject random queries, of ordinary or of all other families, until it misses a collision whose
+/// shrunk query is easy to draw. In ordinary families, only ordinary queries count.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query
@@ -98,7 +98,8 @@ void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
   fmt::print("\n");
 }
 
-/// What other CCDs answer to an ordinary query, and the simplest miss of one of them, which is not ordinary.
+/// The answers of other CCDs to an ordinary query; then the simplest miss of one of these CCDs, in other
+/// queries.
 void show_exotic_miss(const Query& ordinary) {
   const auto answer = [&](const Subject& subject) {
     return subject.decide(ordinary).hit ? "reports" : "misses";

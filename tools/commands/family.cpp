@@ -51,8 +51,8 @@ void print_queries(const Options& options, const Family& family) {
   }
 }
 
-/// Prints for each kind how many of the queries, and how many of the collisions among them, are ordinary, and
-/// how many are not ordinary by each rule.
+/// For each kind, prints how many queries are ordinary, and how many are not ordinary by each rule; then the
+/// same for the collisions among them.
 void print_classes(const Options& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;

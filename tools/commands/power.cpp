@@ -97,7 +97,7 @@ std::string output_of(const std::string& command) {
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(exit_bad_input);
   }
-  setpgid(process, process);  // the child does the same; either may be first
+  setpgid(process, process);  // the child does the same, in case it runs first
   close(pipe[1]);
   std::string text;
   std::vector<char> buffer(most_bytes);
@@ -114,7 +114,7 @@ std::string output_of(const std::string& command) {
     if (interrupted()) {
       const auto now = std::chrono::steady_clock::now();
       kill_at = std::min(kill_at, now + std::chrono::seconds(1));
-      for (const pid_t each : {-process, process})  // the group, and the command if it has left it
+      for (const pid_t each : {-process, process})  // the command may have left its group
         if (!has_ended) kill(each, now < kill_at ? SIGTERM : SIGKILL);
       if (now > kill_at + std::chrono::milliseconds(500)) break;
     }

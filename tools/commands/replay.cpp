@@ -65,7 +65,7 @@ struct Pass {
   std::function<void(const CaseSink&)> read;
 };
 
-/// Passes whose answers come from recordings, so that no subject is asked.
+/// Passes with recorded answers, which ask no subject.
 std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {
@@ -89,7 +89,7 @@ std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& see
   return passes;
 }
 
-/// The pass with the cases in files and folders, and the subjects to ask.
+/// The pass that asks the subjects about the cases in files and folders.
 Pass pass_of_cases(const Options& options, std::set<Kind>& seen, const Stop& stop) {
   Pass pass;
   pass.subjects = options.trial.make_subjects(stop, parse_bound(options.bound));

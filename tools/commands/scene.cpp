@@ -64,7 +64,7 @@ class Export {
     for (const Kind kind : kinds_of_meshes)
       files_.try_emplace(kind, fmt::format("{}.{}", file.string(), short_name(kind)));
   }
-  /// Writes the pairs of a step that subjects are asked about. Throws Stopped.
+  /// Writes the pairs of a step that subjects are asked about. Throws Stopped if the user ends the command.
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
@@ -230,7 +230,7 @@ std::string hunt_around(const Options& options, const Family& family, const Subj
   const CampaignProgress reached = run_campaign(
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
-        std::map<std::size_t, Finding> shrunk;  // by number among all findings of the command
+        std::map<std::size_t, Finding> shrunk;  // by the finding's number among all findings of the command
         for (auto& [number, finding] : result.shrunk) shrunk[before + number] = std::move(finding);
         result.shrunk = std::move(shrunk);
         record.add(std::move(result));

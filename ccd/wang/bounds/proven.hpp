@@ -46,8 +46,8 @@ inline constexpr double dot = 4.02;    ///< x·v and v·v, for exact vectors
 inline constexpr double time = 11.87;  ///< -x·v / v·v for ‖v‖∞ = B, for exact vectors
 inline constexpr double time_far = 23.75;
 
-/// A bound, with all errors together, for two differences: by how much the computed squared distance exceeds
-/// the smallest exact one, and by how much it falls below the exact one at the computed time.
+/// A bound, including all errors, of two differences: by how much the computed squared distance exceeds the
+/// smallest exact one, and by how much it falls below the exact one at the computed time.
 ///
 /// Let g be the squared distance of the computed vectors, t the time of its minimum, and d the error of the
 /// quotient. Then g(t̂) - g(t) <= ‖v‖² d²: g is a parabola, and if the quotient is clamped to [0, 1], the

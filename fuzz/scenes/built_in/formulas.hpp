@@ -50,7 +50,7 @@ class Rotation {
 /// 1/20 of their length from frame to frame.
 class Waves {
  public:
-  /// Waves of the given height each; each pair of stream and index gives different ones.
+  /// Waves, each of the given height. Each pair of stream and index gives different waves.
   Waves(std::uint64_t stream, std::uint64_t index, double height);
 
   [[nodiscard]] double at(double x, double y, double frame) const;

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The computing time of the ended children that a process has waited for, including that of their own such
-/// children.
+/// The computing time of the ended children that a process has waited for, and of the children that these
+/// have waited for.
 Duration time_of_ended_children(pid_t process) {
   const std::string text = text_about_process("/proc/" + std::to_string(process) + "/stat");
   std::istringstream fields(text.substr(text.rfind(')') + 1));  // after the name, which may contain ')'

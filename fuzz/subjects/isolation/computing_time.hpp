@@ -16,7 +16,7 @@ Duration computing_time(pid_t process);
 /// Computing times of several processes.
 struct ComputingTime {
   Duration running{};  ///< of processes that exist
-  Duration ended{};    ///< of ended processes for which their parents have waited, to a clock tick
+  Duration ended{};    ///< of ended processes whose parents have waited for them; accurate to a clock tick
 
   [[nodiscard]] Duration sum() const { return running + ended; }
 };

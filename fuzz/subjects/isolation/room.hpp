@@ -7,8 +7,8 @@
 
 namespace nearmiss::isolation {
 
-/// The memory, in bytes, that the machine has left, or that a control group (cgroups(7)) of this process has
-/// left if this is less. Reads files below `root`.
+/// The memory, in bytes, that is left for this process: what the machine has left, or less if a control group
+/// (cgroups(7)) of the process has less. Reads files below `root`.
 std::uint64_t memory_left(const std::filesystem::path& root = "/");
 
 /// Throws a TrialError unless this many bytes are left. The message says that `what` needs them.

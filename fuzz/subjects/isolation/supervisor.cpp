@@ -51,7 +51,8 @@ class Spawn {
   }
 
   void pass(int descriptor, int number) {
-    // Above all numbers to be given, so that no copy overwrites a descriptor that is still needed.
+    // The copies get numbers above all numbers to be given, so that none overwrites a descriptor that is
+    // still needed.
     constexpr int above = 16;
     passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
     check(passed_.back().number() >= 0, "descriptor");

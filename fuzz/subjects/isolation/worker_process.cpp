@@ -47,11 +47,12 @@ std::string lines_of(const Status& ended) {
   return lines;
 }
 
-// The computing time that a timed call needs for itself: to receive it, to ask the empty subject twice, and
-// to reply, with empty caches on a busy machine. In 1,500 calls on two busy cores, the median was 20
-// microseconds and the longest 1,500.
+// The computing time that the worker itself needs for a timed call, with empty caches on a busy machine: to
+// receive the call, to ask the empty subject twice, and to reply. In 1,500 calls on two busy cores, the
+// median was 20 microseconds and the longest 1,500.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
-constexpr double most_asked_twice = 2;  // the plug-in may decide queries once to warm up, and once timed
+constexpr double most_asked_twice = 2;  // the worker may ask about queries twice: to warm up, and to measure
+                                        // the time
 
 constexpr std::uint64_t mebibyte = 1 << 20;
 
@@ -203,8 +204,8 @@ void WorkerProcess::start(const std::string& plugin) {
 std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervisor_.worker()); }
 
 void WorkerProcess::load(const std::string& plugin) {
-  // Checked here, because the system's limit does not count data that is mapped in place of something else,
-  // as static data is. The worker itself may need a little more than now.
+  // This process checks the memory, because the system's limit does not count data that is mapped in place of
+  // something else, as static data is. The worker itself may need a little more than now.
   constexpr std::uint64_t of_worker = 1 << 20;
   most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};

@@ -52,7 +52,7 @@ struct WorkerFailure {
   Fault fault;
   std::int32_t code = 0;    ///< for a crash: the signal, or the negated exit code
   std::string text = {};    ///< for an exception: what it says; for a failure to load: why
-  std::string errors = {};  ///< the end of what a process that ended wrote to standard error
+  std::string errors = {};  ///< the end of what the process wrote to standard error, if it has ended
   bool of_call = false;     ///< the call failed as a whole: which query is to blame is not known
   bool goes_on = false;     ///< the worker can be used for other queries
 };

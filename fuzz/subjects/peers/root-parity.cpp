@@ -2,9 +2,9 @@
 // 2012).
 // From github.com/bohanwang/libpgo, third-party/CCD/ExactCCD, 88dfe845. Licence: public domain.
 // Question: whether the number of contacts is odd, counted with multiplicity: a double root counts twice.
-// Contract: at most one root, and that a simple one, because only then does this question agree with ours.
-// $ROOT_PARITY is that folder, with its code compiled into librootparity.a. The interval arithmetic rounds
-// upwards, which the compiler must know: g++ needs -frounding-math.
+// Contract: at most one root, and no double root, because the answer then says whether there is contact.
+// $ROOT_PARITY is the folder ExactCCD, with its code compiled into librootparity.a. The interval arithmetic
+// rounds upwards, which the compiler must know: g++ needs -frounding-math.
 //
 //   tools/subject fuzz/subjects/peers/root-parity.cpp -- -I$ROOT_PARITY $ROOT_PARITY/librootparity.a
 #include <exactCCDWrapper.h>

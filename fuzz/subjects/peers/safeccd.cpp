@@ -3,7 +3,7 @@
 // From github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
 // Question: contact; the time is an estimate.
 // Contract: apart at t = 0, and a range of sizes (below).
-// $SAFECCD is that folder, with its code compiled into libsafeccd.a:
+// $SAFECCD is the folder SafeCCD, with its code compiled into libsafeccd.a:
 //
 //   tools/subject fuzz/subjects/peers/safeccd.cpp -- -I$SAFECCD $SAFECCD/libsafeccd.a
 //

@@ -26,7 +26,7 @@ async function checkVerdicts(page, report) {
 }
 
 async function checkCharts(page, report) {
-  assert.equal(await page.isVisible("#error-time-section"), false); // it says nothing about two subjects
+  assert.equal(await page.isVisible("#error-time-section"), false); // it would repeat their tables
   const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
     Object.entries(ofKind[kind].families).filter(([, each]) => each.false_positives > 0).map(([family]) => family)));
   assert.deepEqual(new Set(await page.locator("#rates .role-axis-label text").allTextContents().then((labels) =>

@@ -163,7 +163,7 @@ void keep_out_of_other_processes() {
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 1;
   const __u64 of_folders =
       LANDLOCK_ACCESS_FS_WRITE_FILE | (can_allow_moves ? LANDLOCK_ACCESS_FS_REFER : __u64{0});
-  landlock_ruleset_attr wanted{};  // the rest is zero, since newer systems have more members
+  landlock_ruleset_attr wanted{};  // other members are zero: newer systems have more
   wanted.handled_access_fs = of_folders;
   const auto rules = static_cast<int>(syscall(SYS_landlock_create_ruleset, &wanted, sizeof wanted, 0));
   if (rules < 0) return;
