@@ -49,6 +49,10 @@ requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) struct ad
 
 }  // namespace nlohmann
 
+// Only json.cpp compiles the members of these classes.
+extern template class nlohmann::basic_json<>;
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace nearmiss {
 
 /// JSON as text. A byte that is not part of valid UTF-8, for example in the name of a file, becomes U+FFFD.

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <vector>
 
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/line_reader.hpp"
 #include "corpus/query_text.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "ccd/query/error.hpp"
 #include "tests/fuzz/mesh_files.hpp"
 #include "tests/refused.hpp"
 

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <map>
 
-#include "ccd/query/error.hpp"
 #include "fuzz/scenes/built_in/shapes.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/bit_hash.hpp"
+#include "tests/refused.hpp"
 
 namespace nearmiss {
 
@@ -20,8 +20,6 @@ namespace nearmiss {
 void PrintTo(const BuiltInScene& scene, std::ostream* out) { *out << scene.name; }
 
 namespace {
-
-using ::testing::ThrowsMessage;
 
 class EveryScene : public ::testing::TestWithParam<BuiltInScene> {
  protected:
@@ -187,14 +185,12 @@ TEST(BuiltInScenes, AreNamedAsTheyAreAskedFor) {
   EXPECT_EQ(built_in_scene("knot@4000").name, "knot@4000");
   EXPECT_EQ(built_in_scene("knot").name, "knot");
   EXPECT_EQ(fingerprint(built_in_scene("knot")), fingerprint(built_in_scene("knot@5000")));
-  EXPECT_THAT([] { built_in_scene("knots"); },
-              ThrowsMessage<Error>("knots: found no built-in scene of that name"));
+  EXPECT_ERROR(built_in_scene("knots"), "knots: found no built-in scene of that name");
 }
 
 TEST(BuiltInScenes, RefuseBadSizes) {
   const auto expect_refused = [](const std::string& text, const std::string& found) {
-    EXPECT_THAT([&] { built_in_scene(text); },
-                ThrowsMessage<Error>(text + ": found size " + found + ", expected 100 to 4000000"));
+    EXPECT_ERROR(built_in_scene(text), text + ": found size " + found + ", expected 100 to 4000000");
   };
   for (const char* number : {"-3", "0", "99", "4000001"})
     expect_refused(std::string("spikes@") + number, number);

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "ccd/query/error.hpp"
 #include "fuzz/subjects/isolation/computing_time.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <string>
 
-#include "ccd/query/error.hpp"
 #include "fuzz/meshes/formats.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss::mesh_files {
@@ -88,8 +88,8 @@ class MeshFilesTest : public testing::TemporaryFolder {
   void expect_refused(const std::string& ending, const std::string& text, const std::string& message) const {
     using ::testing::HasSubstr;
     const auto path = write("mesh" + ending, text);
-    EXPECT_THAT([&] { read_mesh(path); }, ::testing::ThrowsMessage<Error>(::testing::AllOf(
-                                              HasSubstr(path.string() + message), HasSubstr("expected"))));
+    EXPECT_ERROR(read_mesh(path),
+                 ::testing::AllOf(HasSubstr(path.string() + message), HasSubstr("expected")));
   }
 
   struct Change {

@@ -24,7 +24,6 @@ using ::testing::IsSupersetOf;
 using testing::shard;
 using testing::some_finding;
 using testing::some_statistics;
-using ::testing::ThrowsMessage;
 
 /// A campaign with two runs, shards, statistics of several subjects, findings on several pages, and pictures.
 Campaign whole_campaign() {
@@ -124,10 +123,10 @@ TEST_F(DamageTest, OfARowOfAnyTableIsRefusedAndTheOthersAreSaved) {
     Database(file("b.db"))
         .execute("UPDATE " + words.substr(words.rfind(' ')) +
                  " SET value = replace(value, '1', '2') || ' ' WHERE rowid = 1");
-    EXPECT_THAT([&] { load_campaign(file("b.db")); },
-                ThrowsMessage<Error>(AllOf(
-                    HasSubstr("b.db: damaged: some rows are not as they were saved; nearmiss merge NEW.db "),
-                    EndsWith("b.db --salvage saves 78 rows, without " + words))));
+    EXPECT_ERROR(
+        load_campaign(file("b.db")),
+        AllOf(HasSubstr("b.db: damaged: some rows are not as they were saved; nearmiss merge NEW.db "),
+              EndsWith("b.db --salvage saves 78 rows, without " + words)));
     EXPECT_TRUE(is_refused("b.db"));
     EXPECT_EQ(salvage_campaign(file("b.db")).lost, words);
   }
@@ -275,8 +274,8 @@ TEST_F(DamageTest, ACounterIsAnIntegerThatFits) {
     Database(file("b.db"))
         .execute("UPDATE seen SET value = '" + std::string(value) + "', checksum = " + std::to_string(sum));
     claim_rows(file("b.db"), "seen", "1", static_cast<std::uint64_t>(sum));
-    EXPECT_THAT([&] { load_campaign(file("b.db")); },
-                ThrowsMessage<Error>(EndsWith(", expected an integer from 0 to 18446744073709551615")));
+    EXPECT_ERROR(load_campaign(file("b.db")),
+                 EndsWith(", expected an integer from 0 to 18446744073709551615"));
   }
 }
 
@@ -289,8 +288,7 @@ TEST_F(DamageTest, ARowOfAnEarlierSaveIsNoticed) {
   Database(file("new.db"))
       .execute("ATTACH '" + file("old.db").string() +
                "' AS old; INSERT OR REPLACE INTO counts SELECT * FROM old.counts WHERE rowid = 1");
-  EXPECT_THAT([&] { load_campaign(file("new.db")); },
-              ThrowsMessage<Error>(EndsWith("the last save of counts")));
+  EXPECT_ERROR(load_campaign(file("new.db")), EndsWith("the last save of counts"));
 }
 
 TEST_F(DamageTest, OfAnIndexStopsWriting) {
@@ -299,9 +297,8 @@ TEST_F(DamageTest, OfAnIndexStopsWriting) {
   bytes[bytes.rfind("\"family\":\"uniform\",\"kind\":\"ee\",\"subject\":\"wang\"") + 1] = 'g';
   write("b.db", bytes);
   EXPECT_EQ(load_campaign(file("b.db")).statistics, some_statistics("wang"));
-  EXPECT_THAT([&] { Store(file("b.db")); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("b.db: damaged: row 1 missing from index"),
-                                         EndsWith("--salvage saves 15 rows, without any loss"))));
+  EXPECT_ERROR(Store(file("b.db")), AllOf(HasSubstr("b.db: damaged: row 1 missing from index"),
+                                          EndsWith("--salvage saves 15 rows, without any loss")));
   EXPECT_EQ(read("b.db"), bytes);
 }
 

@@ -24,7 +24,6 @@ using nlohmann::ordered_json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::some_campaign;
-using ::testing::ThrowsMessage;
 
 class ReportFolder : public testing::TemporaryFolder {
  protected:
@@ -44,8 +43,7 @@ class ReportFolder : public testing::TemporaryFolder {
     const ReportPaths before = files_in(folder);
     std::map<std::string, std::string> contents;
     for (const std::string& each : before) contents[each] = read(fs::path(folder) / each);
-    EXPECT_THAT([&] { write_report_of("bad", folder); },
-                ThrowsMessage<Error>(AllOf(HasSubstr(folder), HasSubstr(words))));
+    EXPECT_ERROR(write_report_of("bad", folder), AllOf(HasSubstr(folder), HasSubstr(words)));
     EXPECT_EQ(files_in(folder), before);
     for (const auto& [name, content] : contents) EXPECT_EQ(read(fs::path(folder) / name), content) << name;
   }

@@ -26,7 +26,6 @@ using testing::info;
 using testing::shard;
 using testing::some_finding;
 using testing::some_statistics;
-using ::testing::ThrowsMessage;
 
 class StoreTest : public testing::TemporaryFolder {};
 
@@ -246,9 +245,8 @@ TEST_F(StoreTest, ACampaignIsWrittenBesideItsFile) {
 TEST_F(StoreTest, NeverReplacesAFileOfTheUser) {
   write("a.db", "precious");
   write("b.db.lock", "mine");
-  const auto exists = ThrowsMessage<Error>(HasSubstr("a.db: exists already"));
-  EXPECT_THAT([&] { Store(file("a.db"), info, shard); }, exists);
-  EXPECT_THAT([&] { write_campaign({}, file("a.db")); }, exists);
+  EXPECT_REFUSED(Store(file("a.db"), info, shard), "a.db: exists already");
+  EXPECT_REFUSED(write_campaign({}, file("a.db")), "a.db: exists already");
   EXPECT_REFUSED(Store(file("b.db"), info, shard), "b.db.lock: found a file with 4 bytes, expected none");
   EXPECT_EQ(read("a.db") + read("b.db.lock"), "preciousmine");
 }

@@ -51,9 +51,14 @@ set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statisti
 # nearmiss_precompile(TARGET HEADER...): precompiles the headers that most files of a target include; most of
 # these headers belong to other libraries. The preset debug does not precompile them, so it checks that each
 # file includes what it uses.
+# nearmiss_precompile(TARGET REUSE_FROM OTHER): uses the precompiled headers of a target with the same options.
 function(nearmiss_precompile target)
-  target_precompile_headers(${target} PRIVATE <algorithm> <functional> <map> <optional> <string> <vector> <Eigen/Core> <Eigen/Geometry>
-    ${ARGN})
+  if("${ARGV1}" STREQUAL REUSE_FROM)
+    target_precompile_headers(${target} ${ARGN})
+  else()
+    target_precompile_headers(${target} PRIVATE <algorithm> <functional> <map> <optional> <string> <vector> <Eigen/Core> <Eigen/Geometry>
+      ${ARGN})
+  endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
     # g++ 12 gives false warnings about the code of std::string if the header <string> is precompiled (bug
     # 105651).
@@ -87,11 +92,7 @@ function(nearmiss_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp)
   add_executable(${folder}_tests ${sources})
   nearmiss_options(${folder}_tests)
-  target_link_libraries(${folder}_tests PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
-  if(folder MATCHES "^(fuzz|reports|tools)$")
-    set(statistics ${nearmiss_statistics_header})
-  endif()
-  nearmiss_precompile(${folder}_tests <gmock/gmock.h> <gtest/gtest.h> ${statistics})
+  target_link_libraries(${folder}_tests PRIVATE ${ARGN} nearmiss_testing GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
