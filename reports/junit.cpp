@@ -1,4 +1,4 @@
-#include "reports/junit.hpp"
+#include "reports/report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,17 @@
 #include "reports/report.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 
+#include "ccd/query/error.hpp"
+#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/csv.hpp"
 #include "reports/page/page.hpp"
-#include "reports/report_folder.hpp"
 #include "reports/sections/shown.hpp"
 #include "reports/text/json.hpp"
 
@@ -16,6 +21,134 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+constexpr std::string_view data_file = "report.json";
+constexpr std::array<std::string_view, 7> fixed_files{
+    data_file, "index.html", "statistics.csv", "classes.csv", "distances.csv", "times.csv", "findings.csv"};
+constexpr std::array sub_folders{"cases", "farthest"};
+
+/// The sub-folder in which files are written before they are renamed, so that a rename stays in one file
+/// system.
+constexpr const char* part_name = ".nearmiss-part";
+
+/// Whether a path is a file directly in one of the sub-folders.
+bool is_in_sub_folder(const fs::path& path) {
+  for (const char* folder : sub_folders)
+    if (path.parent_path() == folder) return path.has_filename() && path.filename() != "..";
+  return false;
+}
+
+/// The report in a file. Throws Error if it is not a report.
+ordered_json read_report(const fs::path& file) {
+  constexpr std::string_view expected = "a report, which nearmiss report can replace";
+  ordered_json report;
+  read_json_file(file, expected, [&](const ordered_json& json) { report = json; });
+  for (const char* section : {"headline", "runs", "findings", "farthest"})
+    if (!report.is_object() || !report.contains(section))
+      throw Error(fmt::format("{}: found no section {}, expected {}", file.string(), section, expected));
+  return report;
+}
+
+Error not_a_report(const fs::path& folder) {
+  return Error(
+      fmt::format("{}: found something that is not a report, expected a new folder or an earlier report",
+                  folder.string()));
+}
+
+/// Throws Error if something is in the way of one of the report's files: a folder, or a file that nearmiss
+/// did not write.
+void expect_room(const fs::path& folder, const ReportPaths& own,
+                 const std::map<std::string, std::string>& files) {
+  const auto refuse = [](const fs::path& path) {
+    return Error(fmt::format(
+        "{}: found a file that nearmiss did not write, expected none where the report has its own",
+        path.string()));
+  };
+  for (const char* sub_folder : sub_folders)
+    if (const auto status = fs::symlink_status(folder / sub_folder);
+        fs::exists(status) && !fs::is_directory(status))  // not a link, which could lead to the user's files
+      throw refuse(folder / sub_folder);
+  for (const auto& [name, content] : files) {
+    const auto status = fs::symlink_status(folder / name);
+    if (fs::exists(status) && (fs::is_directory(status) || !own.contains(name))) throw refuse(folder / name);
+  }
+}
+
+/// Writes all files below `part`; report.json is last, so that it names only files that were written.
+void write_beside(const fs::path& part, const std::map<std::string, std::string>& files) {
+  fs::remove_all(part);
+  for (const char* sub_folder : sub_folders) fs::create_directories(part / sub_folder);
+  for (const auto& [name, content] : files)
+    if (name != data_file) replace_file(part / name, content);
+  replace_file(part / data_file, files.at(std::string(data_file)));
+}
+
+/// Moves all files from `part` to the folder. At every moment, each file of the report is named by the
+/// earlier report.json or by the new one, so that an interrupted replacement can be completed.
+void put_in_place(const fs::path& part, const fs::path& folder, const ReportPaths& own,
+                  const std::map<std::string, std::string>& files) {
+  for (const char* sub_folder : sub_folders) fs::create_directories(folder / sub_folder);
+  for (const std::string& name : own)
+    if (!files.contains(name) && !fs::is_directory(fs::symlink_status(folder / name)))
+      fs::remove(folder / name);
+  for (const auto& [name, content] : files)
+    if (name != data_file) fs::rename(part / name, folder / name);
+  fs::rename(part / data_file, folder / data_file);
+  fs::remove_all(part);
+}
+
+}  // namespace
+
+ReportPaths files_of(const ordered_json& report) {
+  ReportPaths files(fixed_files.begin(), fixed_files.end());
+  const auto add = [&](const ordered_json& each, const char* field) {
+    if (!each.is_object() || !each.contains(field) || !each[field].is_string()) return;
+    if (const auto path = each[field].get<std::string>(); is_in_sub_folder(path)) files.insert(path);
+  };
+  for (const ordered_json& finding : report.at("findings"))
+    for (const char* field : {"file", "original_file"}) add(finding, field);
+  for (const ordered_json& far : report.at("farthest")) add(far, "file");
+  return files;
+}
+
+ReportPaths own_files(const fs::path& folder) {
+  ReportPaths own;
+  try {
+    if (!fs::exists(folder)) return own;
+    if (!fs::is_directory(folder)) throw not_a_report(folder);
+    bool is_report = fs::is_empty(folder) || fs::is_directory(folder / part_name);
+    for (const fs::path& file : {folder / data_file, folder / part_name / data_file}) {
+      if (!fs::exists(file)) continue;
+      own.merge(files_of(read_report(file)));
+      is_report = true;
+    }
+    if (!is_report) throw not_a_report(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw Error(fmt::format("{}: cannot be read: {}", folder.string(), error.what()));
+  }
+  return own;
+}
+
+void replace_report(const fs::path& folder, const ReportPaths& own,
+                    const std::map<std::string, std::string>& files) {
+  const fs::path part = folder / part_name;
+  expect_room(folder, own, files);
+  bool is_written = false;
+  try {
+    write_beside(part, files);
+    is_written = true;
+    put_in_place(part, folder, own, files);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    if (!is_written) {  // once all is written, the next replacement needs `part`
+      fs::remove_all(part, ignored);
+      fs::remove(folder, ignored);  // if it is empty
+    }
+    throw Error(fmt::format("{}: the report cannot be written: {}", folder.string(), error.what()));
+  }
+}
+
+namespace {
 
 /// All files of the report.
 std::map<std::string, std::string> files_with_contents(const Campaign& campaign,

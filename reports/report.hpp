@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,25 @@
 #include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
+
+/// The JSON of `replay --json` and `fuzz --json`, on which users' scripts depend: subjects.NAME.KIND with
+/// queries, collisions, positives, false_negatives, false_positives, max_fp_distance_over_bound and
+/// ns_per_query (null if nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth;
+/// sweeps if there are any (sections/sections.hpp); and other fields.
+nlohmann::ordered_json summary_json(const Campaign& campaign);
+
+/// The runs. Each run has its facts, the command that repeats it, the number of decided cases, its missing
+/// shards, when it began, the run time of all shards together, and each environment once.
+nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
+
+/// JUnit's XML: a suite for each subject, with a test for each kind and class of families. A test fails if
+/// its counters have one of the failures in `failing`; its text then has these failures in words, at most
+/// three queries in the form that nearmiss replay reads, and the command that repeats the run. If the oracle
+/// failed, the suite "oracle" fails.
+std::string junit_xml(const Campaign& campaign, const Failures& failing = usual_failures());
+
+/// Lines that GitHub's workflows show as annotations: one for each failure of a subject or of the oracle.
+std::string github_annotations(const Campaign& campaign, const Failures& failing = usual_failures());
 
 /// Data that a report shows in addition to its campaign.
 struct ReportContext {
@@ -40,9 +61,27 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext
 ///  - statistics.csv, classes.csv, distances.csv, times.csv and findings.csv, with all counters and findings;
 ///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
-/// Replaces the files of an earlier report, and no others (report_folder.hpp). Throws Error if the folder is
+/// Replaces the files of an earlier report, and no others (replace_report). Throws Error if the folder is
 /// not that of a report, if another file is in the way, or if the files cannot be written.
 void write_report(const Campaign& campaign, const ReportContext& context,
                   const std::filesystem::path& folder);
+
+/// Paths of files in a report's folder, such as "cases/a.case".
+using ReportPaths = std::set<std::string>;
+
+/// The files of the report with this report.json: those with fixed names, and the cases that report.json
+/// names.
+ReportPaths files_of(const nlohmann::ordered_json& report);
+
+/// The files in a folder that belong to an earlier report, even if its writing was interrupted; none if the
+/// folder is empty or does not exist. Throws Error if the folder is not that of a report.
+ReportPaths own_files(const std::filesystem::path& folder);
+
+/// Replaces the files `own` in a folder by `files`, a map from paths to contents; changes no other file.
+/// Writes all files under temporary names and then renames them, report.json last. The next call completes
+/// an interrupted replacement. Throws Error, before it replaces any file, if another file is in the way or
+/// the files cannot be written.
+void replace_report(const std::filesystem::path& folder, const ReportPaths& own,
+                    const std::map<std::string, std::string>& files);
 
 }  // namespace nearmiss

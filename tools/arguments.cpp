@@ -19,7 +19,6 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/simulation/simulation_family.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

@@ -14,9 +14,7 @@
 #include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
 #include "reports/text/json.hpp"
-#include "reports/text/json_file.hpp"
 #include "reports/text/text.hpp"
-#include "tools/median.hpp"
 
 namespace nearmiss::tools {
 

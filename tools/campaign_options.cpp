@@ -23,9 +23,9 @@
 #include "reports/sha256.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
 #include "tools/scene_subjects.hpp"
 #include "tools/terminal.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

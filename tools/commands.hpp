@@ -1,4 +1,4 @@
-// The subcommands of nearmiss. Each has a file in tools/commands/.
+// The subcommands of nearmiss. They are in tools/commands/.
 #pragma once
 
 #include <CLI/CLI.hpp>

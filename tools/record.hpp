@@ -14,9 +14,7 @@
 #include "fuzz/trial/trial.hpp"
 #include "reports/campaign/campaign.hpp"
 #include "reports/store/store.hpp"
-#include "tools/ci_output.hpp"
-#include "tools/fail_on.hpp"
-#include "tools/json_output.hpp"
+#include "tools/outputs.hpp"
 
 namespace nearmiss::tools {
 

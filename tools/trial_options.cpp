@@ -15,8 +15,8 @@
 #include "fuzz/trial/so_far.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
 #include "tools/record.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

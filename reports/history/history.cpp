@@ -250,8 +250,7 @@ History make_history(std::vector<NightReport> reports) {
   Slowed slowed;
   for (NightReport& report : reports) {
     const std::size_t index = history.nights.size();
-    Night& night =
-        history.nights.emplace_back(Night{.report = std::move(report), .went_back = false, .events = {}});
+    Night& night = history.nights.emplace_back(Night{.report = std::move(report)});
     night.went_back = night.report.started < latest;
     latest = std::max(latest, night.report.started);
     add_versions(codes, told, night);

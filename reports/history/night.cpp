@@ -1,4 +1,4 @@
-#include "reports/history/night.hpp"
+#include "reports/history/history.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "ccd/query/error.hpp"
 #include "reports/text/json.hpp"
-#include "reports/text/json_file.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {
@@ -108,13 +107,7 @@ Campaign campaign_of(const ordered_json& runs) {
 }
 
 SubjectNight subject_of(const ordered_json& verdict, SubjectCode code) {
-  SubjectNight subject{.code = std::move(code),
-                       .clean = verdict.at("clean"),
-                       .text = verdict.at("text"),
-                       .queries = {},
-                       .false_positive_rate = {},
-                       .ns_per_query = {},
-                       .missed = {}};
+  SubjectNight subject{.code = std::move(code), .clean = verdict.at("clean"), .text = verdict.at("text")};
   if (const auto counts = verdict.find("counts"); counts != verdict.end()) {
     subject.queries = number_in(*counts, "queries");
     subject.false_positive_rate = number_in(*counts, "false_positive_rate");

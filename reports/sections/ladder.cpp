@@ -1,4 +1,4 @@
-#include "reports/sections/ladder.hpp"
+#include "reports/sections/sections.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,7 @@
 
 #include "ccd/query/scalar_name.hpp"
 #include "ccd/wang/bounds/tight_tolerances.hpp"
-#include "reports/sections/counts_json.hpp"
-#include "reports/sections/sections.hpp"
+#include "reports/sections/measures.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/text/json.hpp"

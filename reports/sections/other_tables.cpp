@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "reports/text/json.hpp"
-#include "reports/text/json_file.hpp"
 
 namespace nearmiss {
 

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "reports/sections/counts_json.hpp"
 #include "reports/sections/measures.hpp"
 #include "reports/sections/sections.hpp"
 #include "reports/statistics/confidence.hpp"

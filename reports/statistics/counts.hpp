@@ -15,7 +15,6 @@
 #include "ccd/subjects/subject.hpp"
 #include "oracle/filter/filter.hpp"
 #include "reports/statistics/counter.hpp"
-#include "reports/statistics/distance_unit.hpp"
 #include "reports/statistics/histogram.hpp"
 #include "reports/statistics/query_class.hpp"
 #include "reports/statistics/times.hpp"

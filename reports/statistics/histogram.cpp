@@ -5,8 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "reports/statistics/quantile.hpp"
-
 namespace nearmiss {
 
 double Histogram::border(std::size_t i) {

@@ -4,8 +4,45 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
+#include <string_view>
 
 namespace nearmiss {
+
+/// The bound by which distances are divided: the bound that the subject claims. If it claims none, wang's
+/// bound for the same pair, which then is only a unit of length.
+enum class DistanceUnit : std::uint8_t {
+  claimed_bound,
+  wangs_bound,
+  both,  ///< runs with different versions of a subject were added up
+};
+
+/// The name of a unit in files.
+constexpr std::string_view name(DistanceUnit unit) {
+  switch (unit) {
+    case DistanceUnit::claimed_bound:
+      return "claimed";
+    case DistanceUnit::wangs_bound:
+      return "wang";
+    default:
+      return "claimed or wang";
+  }
+}
+
+/// An iterator to the bin at which the running sum of counts reaches a fraction `part` of all counts; the
+/// end of `bins` if all bins are empty. `count_of` returns the count of a bin.
+template <class Bins, class CountOf = std::identity>
+auto quantile_bin(const Bins& bins, double part, const CountOf& count_of = {}) {
+  double all = 0;
+  for (const auto& bin : bins) all += static_cast<double>(count_of(bin));
+  double sum = 0;
+  for (auto bin = std::begin(bins); bin != std::end(bins); ++bin) {
+    sum += static_cast<double>(count_of(*bin));
+    if (sum > 0 && sum >= part * all) return bin;
+  }
+  return std::end(bins);
+}
 
 /// A range that contains a number.
 struct Bin {

@@ -1,8 +1,10 @@
 #include "reports/statistics/statistics.hpp"
 
 #include <functional>
+#include <limits>
 #include <numeric>
 
+#include "reports/statistics/extreme.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/sums.hpp"
 
@@ -78,5 +80,20 @@ std::uint64_t sum_of(const std::map<CountsKey, Counts>& counts, const Count& cou
 std::uint64_t Statistics::false_negatives() const { return sum_of(counts, &Counts::false_negatives); }
 std::uint64_t Statistics::refuted_bounds() const { return sum_of(counts, &Counts::refuted_bounds); }
 std::uint64_t Statistics::faults() const { return sum_of(counts, &Counts::faults_total); }
+
+void Extreme::merge(const Extreme& other) {
+  const bool less = of == Of::keeping_tolerance;
+  const bool more_extreme = less ? other.value < value : other.value > value;
+  const bool as_extreme =
+      other.value == value && other.found() && (!found() || other.provenance < provenance);
+  const std::uint64_t sum = queries + other.queries;
+  if (more_extreme || as_extreme) *this = other;
+  queries = sum;
+}
+
+Extreme nothing_found(Extreme::Of of, std::string name) {
+  const bool less = of == Extreme::Of::keeping_tolerance;
+  return {of, std::move(name), less ? std::numeric_limits<double>::infinity() : 0, {}, {}, 0};
+}
 
 }  // namespace nearmiss

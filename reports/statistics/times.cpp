@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "reports/statistics/quantile.hpp"
+#include "reports/statistics/histogram.hpp"
 
 namespace nearmiss {
 

@@ -5,15 +5,13 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <string_view>
 
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
-#include "reports/store/file_lock.hpp"
+#include "reports/store/connection.hpp"
 #include "reports/store/table.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/shell.hpp"
@@ -117,10 +115,6 @@ Campaign read_campaign(Reader& read) {
   return {std::move(runs), read_statistics(read)};
 }
 
-/// How long to wait while another process reads, opens or closes a store. It is short, so that a process
-/// that is told to stop does so within two seconds.
-constexpr int patience_ms = 1500;
-
 /// Runs `act`. Any exception becomes an Error that names the file.
 template <class Act>
 auto naming(const fs::path& file, const Act& act) {
@@ -133,49 +127,6 @@ auto naming(const fs::path& file, const Act& act) {
   } catch (const std::exception& error) {
     throw Error(fmt::format("{}: {}", file.string(), error.what()));
   }
-}
-
-/// The path of a store's log with this ending. SQLite keeps the log beside the store while a process writes
-/// it; if that process is killed, the log stays there.
-fs::path log_of(const fs::path& file, std::string_view ending) {
-  fs::path log = weakly_canonical(file);  // without links, because SQLite follows them
-  log += ending;
-  return log;
-}
-
-/// Throws Error if the journal beside a store names another file: SQLite would delete that file when it
-/// rolls back an unfinished change. Journals that nearmiss writes name no other file.
-void expect_own_journal(const fs::path& file) {
-  constexpr std::array<char, 8> magic{'\xd9', '\xd5', '\x05', '\xf9', '\x20', '\xa1', '\x63', '\xd7'};
-  const fs::path journal = log_of(file, "-journal");
-  if (!fs::exists(journal)) return;
-  expect_regular_file(journal);
-  std::array<char, magic.size()> last{};
-  std::ifstream in(journal, std::ios::binary | std::ios::ate);
-  if (in.tellg() < std::streamoff{magic.size()}) return;
-  in.seekg(-std::streamoff{magic.size()}, std::ios::end);
-  if (in.read(last.data(), last.size()) && last == magic)
-    throw Error(
-        fmt::format("found the journal {} of a change to several files, expected one to this store alone",
-                    journal.filename().string()));
-}
-
-/// Checks a store's journal (expect_own_journal), and returns the path by which SQLite opens the store. The
-/// path is absolute, because SQLite takes a relative path ":memory:" for no file.
-std::string path_for_sqlite(const fs::path& file) {
-  expect_own_journal(file);
-  return fs::absolute(file).string();
-}
-
-/// Opens a store to read it. This changes the store only if a process was killed while it wrote the file
-/// itself: SQLite then rolls back the unfinished change, by the journal beside the store.
-SQLite::Database open_to_read(const fs::path& file) {
-  constexpr int most_bytes = 1 << 26;  // limit for a key or a value
-  const bool change_is_half_done = fs::exists(log_of(file, "-journal"));
-  SQLite::Database db(path_for_sqlite(file),
-                      change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms);
-  sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, most_bytes);
-  return db;
 }
 
 /// Raises the count of each signature to at least the number of its stored findings: the row of the count
@@ -271,37 +222,6 @@ Campaign read_store(const fs::path& file, bool checks_structure, const Check& ch
   });
 }
 
-/// A connection for writing.
-struct Connection {
-  Connection(const fs::path& file, int flags)
-      : db(path_for_sqlite(file), SQLite::OPEN_READWRITE | flags, patience_ms) {
-    db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
-  }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
-  ~Connection() {
-    try {
-      db.setBusyTimeout(patience_ms / 3);       // a shorter wait, because all results are already saved
-      db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
-    } catch (const SQLite::Exception&) {
-      return;  // nothing is lost, because the log stays next to the file
-    }
-  }
-
-  SQLite::Database db;
-};
-
-/// Whether a file is an empty database.
-bool is_empty_database(const fs::path& file) {
-  const std::string path = path_for_sqlite(file);
-  try {
-    SQLite::Database db(path, SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
-    return is_empty(db);
-  } catch (const SQLite::Exception&) {
-    return false;
-  }
-}
-
 void refuse_existing(const fs::path& file) {
   if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
 }
@@ -326,8 +246,6 @@ struct Store::Database {
   std::unique_ptr<Connection> connection;
 };
 
-Store::Store(Store&&) noexcept = default;
-Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 bool Store::exists(const fs::path& file) {

@@ -36,8 +36,6 @@ class Store {
   /// it is called before each row is read, and may end the reading by an exception.
   explicit Store(const std::filesystem::path& file, Campaign* found = nullptr,
                  const std::function<void()>& check = {});
-  Store(Store&&) noexcept;
-  Store& operator=(Store&&) noexcept;
   ~Store();
 
   /// Replaces the statistics and the shard, and adds findings, those since the last save. Throws Error, for

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "reports/sha256.hpp"
-#include "reports/text/json_file.hpp"
+#include "reports/text/json.hpp"
 
 namespace nearmiss {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/statistics/distance_unit.hpp"
+#include "reports/statistics/histogram.hpp"
 
 namespace nearmiss {
 

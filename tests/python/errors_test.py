@@ -2,7 +2,6 @@
 
 import itertools
 import signal
-import subprocess
 import sys
 import threading
 import time
@@ -10,6 +9,7 @@ import unittest
 from fractions import Fraction
 
 import numpy as np
+from harness import run_python
 
 import nearmiss
 
@@ -176,9 +176,7 @@ threading.Thread(target=ask, daemon=True).start()
 time.sleep(0.2)
 """
         for function in ('collides', 'certificate'):
-            command = [sys.executable, '-c', program, function]
-            run = subprocess.run(command, capture_output=True, text=True)
-            self.assertEqual((run.returncode, run.stderr), (0, ''), function)
+            self.assertEqual(run_python(program, function), (0, '', ''), function)
 
     def test_a_function_that_python_calls_at_its_end_may_ask(self):
         program = """
@@ -186,9 +184,7 @@ import atexit
 atexit.register(lambda: print(nearmiss.collides('vt', nearmiss.queries('uniform', 'vt', 1)[0])))
 import nearmiss
 """
-        run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
-        self.assertEqual((run.returncode, run.stderr), (0, ''))
-        self.assertRegex(run.stdout, r'^\[(True|False)\]$')
+        self.assertIn(run_python(program), [(0, f'[{hit}]\n', '') for hit in (True, False)])
 
     def test_a_signal_ends_it(self):
         main = threading.main_thread().ident

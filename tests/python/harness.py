@@ -1,9 +1,11 @@
-"""Reads what answered_queries writes: queries and answers, in the format of tests/installed/answers.cpp."""
+"""Reads what answered_queries writes: queries and answers, in the format of tests/installed/answers.cpp. Runs
+other interpreters and other modes of the processor."""
 
 import contextlib
 import ctypes
 import os
 import subprocess
+import sys
 from dataclasses import dataclass
 from typing import Optional
 
@@ -22,6 +24,14 @@ class Block:
     bound: np.ndarray
     times: Optional[np.ndarray] = None  # (2, n), lo and hi
     distances: Optional[np.ndarray] = None
+
+
+def run_python(program, *arguments, **variables):
+    """Runs a program in another interpreter, with these variables in its environment. Returns the exit code,
+    and what it writes to standard output and standard error."""
+    command = [sys.executable, '-c', program, *arguments]
+    run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **variables})
+    return run.returncode, run.stdout, run.stderr
 
 
 def answered_queries(program, count, seed):

@@ -1,13 +1,29 @@
-"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies."""
+"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies: those of each subject,
+kind and family, their sums in other sections, and the comparison of versions."""
 
 import math
 from collections import Counter
 
+import numpy as np
+
 from asking import KINDS
-from check_kept import check_kept
+from check_findings import check_kept
 from check_numbers import ROUNDING, SOLVED, check_histogram, quantile
 from comparison import Near, Within
-from tally import Tally, classes_of, denominators, interval, rate, stages, upper_bound
+from tally import (
+    CLASSES,
+    ON_REQUEST,
+    Tally,
+    classes_of,
+    denominators,
+    failures_of,
+    interval,
+    rate,
+    stages,
+    upper_bound,
+)
+
+MESHES = KINDS[:2]  # the kinds whose bounds are multiples of B
 
 
 def check_statistics(comparison, where, json, answers):
@@ -146,3 +162,102 @@ def _check_signatures(comparison, where, found, answers):
             own = sums.pop((failure, subject), 0)
             comparison.within('signatures', f'{where} {subject} {failure}', own, *ends)
     comparison.same('signatures', f'{where} of no subject', dict(sums), {})
+
+
+def check_scorecard(comparison, where, report, answers):
+    """Checks the failures of each subject, and its rates over all kinds, in total and class by
+    class."""
+    rows = report['verdicts']
+    comparison.same('names', where, [row['subject'] for row in rows], answers.subjects)
+    for row in rows:
+        subject = row['subject']
+        own = f'{where} {subject}'
+        failed = failures_of(row['counts'])
+        expected = {'faults': {}, 'failures': failed, 'clean': not set(failed) - ON_REQUEST}
+        comparison.entries('verdicts', own, row, expected)
+        check_rates(comparison, own, row['counts'], Tally.of(answers, subject, KINDS))
+        families = {
+            name: each['class']
+            for of_kind in report['subjects'][subject].values()
+            for name, each in of_kind['families'].items()
+        }
+        members = classes_of(families)
+        comparison.same('names', f'{own} classes', list(row['classes']), list(members))
+        for name, of_class in members.items():
+            tally = Tally.of(answers, subject, KINDS, of_class)
+            check_rates(comparison, f'{own} {name}', row['classes'][name], tally)
+
+
+def check_trade_offs(comparison, where, report, answers):
+    """Checks error against run time: sums over the kinds that all subjects were asked."""
+    found = report['error_against_time']['subjects']
+    comparison.same('names', where, sorted(found), answers.subjects)
+    kinds_of = [set(answers.kinds(subject)) for subject in answers.subjects]
+    shared = tuple(kind for kind in KINDS if all(kind in kinds for kinds in kinds_of))
+    for subject, each in found.items():
+        tally = Tally.of(answers, subject, shared)
+        check_rates(comparison, f'{where} {subject}', each, tally)
+        errors, most = tally.times.errors, each['max_time_error']
+        expected = {
+            'max_time_error': Within(*errors.most()),
+            'median_time_error': quantile(errors, 0.5, most),
+            'q99_time_error': quantile(errors, 0.99, most),
+            'sound': not set(failures_of(each)) - ON_REQUEST,
+        }
+        comparison.entries('trade-offs', f'{where} {subject}', each, expected)
+
+
+def check_ladder(comparison, where, report, answers):
+    """Checks the rates of each rung of the ladder of precisions."""
+    for rung in report.get('ladder', {'rungs': []})['rungs']:
+        subject = rung['subject']
+        check_rates(comparison, f'{where} {subject}', rung, Tally.of(answers, subject, MESHES))
+
+
+def fails(asked):
+    """For each query, whether the subject misses it, is late, or exceeds its bound."""
+    refuted = asked.ratios.hi > 1 if asked.claims else False
+    return asked.false_negative | asked.impact.late | refuted
+
+
+def check_versions(comparison, where, report, answers):
+    """Checks the section versions of report.json, and the findings that are broken."""
+    found = report.get('versions', [])
+    pairs = sorted({(each['before'], each['after']) for each in found})
+    expected = [row for pair in pairs for row in rows(*pair, report, answers)]
+    comparison.same('versions', where, found, expected)
+    for i, each in enumerate(report['findings']):
+        before = each.get('broken_since')
+        place = answers.place(each['kind'], each['provenance'])
+        if before is None or place is None:
+            continue
+        known = answers.asked.get((before, each['kind']))
+        is_right = known is not None and not fails(known)[place]
+        comparison.same('versions', f'findings {i} broken since {before}', is_right, True)
+
+
+def rows(before, after, report, answers):
+    """A row for each class of families and each kind."""
+    for of in CLASSES:
+        for kind in answers.kinds(after):
+            families = report['subjects'][after][kind]['families']
+            own = np.isin(
+                answers.family[kind], [f for f in families if families[f]['class'] == of]
+            )
+            if not own.any():
+                continue
+            one, other = (fails(answers.asked[subject, kind])[own] for subject in (before, after))
+            counts = {
+                'fixed': one & ~other,
+                'broken': other & ~one,
+                'both': one & other,
+                'neither': ~(one | other),
+                'queries': np.ones_like(one),
+            }
+            yield {
+                'before': before,
+                'after': after,
+                'kind': kind,
+                'class': of,
+                **{name: int(each.sum()) for name, each in counts.items()},
+            }

@@ -10,31 +10,27 @@ import sys
 import tempfile
 from pathlib import Path
 
+import check_counts
+import check_factors
+import check_findings
 from answers import ask
 from asking import KINDS, Nearmiss
-from check_certificates import check_certificates
-from check_counts import check_statistics
-from check_factors import check_common_factors, check_sizes
-from check_findings import check_findings
-from check_kept import check_extreme_times, check_farthest
-from check_sections import check_ladder, check_scorecard, check_trade_offs
-from check_versions import check_versions
 from comparison import Comparison
 from tally import Tally
 
 # The checks of report.json, by the section that each of them is about.
 REPORT_CHECKS = {
-    'report.json': check_statistics,
-    'verdicts': check_scorecard,
-    'error_against_time': check_trade_offs,
-    'ladder': check_ladder,
-    'findings': check_findings,
-    'certificates': check_certificates,
-    'extreme_times': check_extreme_times,
-    'farthest': check_farthest,
-    'common_factors': check_common_factors,
-    'sizes': check_sizes,
-    'versions': check_versions,
+    'report.json': check_counts.check_statistics,
+    'verdicts': check_counts.check_scorecard,
+    'error_against_time': check_counts.check_trade_offs,
+    'ladder': check_counts.check_ladder,
+    'findings': check_findings.check_findings,
+    'certificates': check_findings.check_certificates,
+    'extreme_times': check_findings.check_extreme_times,
+    'farthest': check_findings.check_farthest,
+    'common_factors': check_factors.check_common_factors,
+    'sizes': check_factors.check_sizes,
+    'versions': check_counts.check_versions,
 }
 
 
@@ -51,7 +47,7 @@ def check_all(comparison, report, answers):
     """Checks everything in a campaign's output and in its report that can be recomputed."""
     for name, check in REPORT_CHECKS.items():
         comparison.section(check, name, report.json, answers)
-    comparison.section(check_statistics, 'fuzz.json', report.of_fuzz, answers)
+    comparison.section(check_counts.check_statistics, 'fuzz.json', report.of_fuzz, answers)
 
 
 def check_cases(comparison, found, cases, counts, seed):

@@ -1,11 +1,12 @@
-// The comparison of a campaign with its baseline.
-#include "reports/sections/baseline.hpp"
-
+// The comparison of a campaign with its baseline: ways to fail that are new, that last, and that are gone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
+#include "reports/sections/baseline.hpp"
+#include "reports/sections/headline.hpp"
 #include "reports/text/json.hpp"
 #include "tests/refused.hpp"
 #include "tests/reports/campaigns.hpp"
@@ -19,19 +20,22 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
+using Seen = std::map<Signature, std::uint64_t>;
 
-const CountsKey key{"wang", Kind::edge_edge, "uniform"};
+const CountsKey key{"mine", Kind::edge_edge, "uniform"};
 
 const auto missed = Finding::What::false_negative;
+const Signature inside{missed, "mine", "ee inside"};
+const Signature on_edge{missed, "mine", "ee on-edge"};
 
 TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   Campaign before = campaign("1", {{key, counts(200000, 100000, 0, 0)}});
   Campaign now = before;
-  now.statistics.seen[{missed, "wang", "ee inside"}] = 1;
+  now.statistics.seen[inside] = 1;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
   // Failures of another subject, or other failures of this subject, do not matter.
   before.statistics.seen[{missed, "basic", "ee inside"}] = 9;
-  before.statistics.seen[{Finding::What::refuted_bound, "wang", "ee"}] = 9;
+  before.statistics.seen[{Finding::What::refuted_bound, "mine", "ee"}] = 9;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
   now.statistics.seen = {{{Finding::What::oracle_disagreement, "", "ee"}, 1}};
   before.statistics.seen[{Finding::What::oracle_disagreement, "", "vt"}] = 1;
@@ -43,32 +47,32 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   Campaign before = campaign("1", {{key, counts(200000, 100000, 50, 0)}});
   Campaign now = before;
   before.statistics.seen = {
-      {{missed, "wang", "a"}, 40}, {{missed, "wang", "b"}, 1}, {{missed, "wang", "c"}, 1}};
-  now.statistics.seen = {{{missed, "wang", "a"}, 45}, {{missed, "wang", "d"}, 2}};
+      {{missed, "mine", "a"}, 40}, {{missed, "mine", "b"}, 1}, {{missed, "mine", "c"}, 1}};
+  now.statistics.seen = {{{missed, "mine", "a"}, 45}, {{missed, "mine", "d"}, 2}};
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
-  EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "wang", "d"}));
+  EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "mine", "d"}));
   // Good and Toulmin: the number of signatures seen once, less the number of signatures seen 40 times.
   EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
-  now.statistics.seen[{missed, "wang", "d"}] = 20;
-  EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "wang", "d"}));
-  now.statistics.seen = {{{missed, "wang", "a"}, 140}};  // a known signature, but far more frequent
-  EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "wang", "a"}));
+  now.statistics.seen[{missed, "mine", "d"}] = 20;
+  EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "d"}));
+  now.statistics.seen = {{{missed, "mine", "a"}, 140}};  // a known signature, but far more frequent
+  EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "a"}));
 }
 
 // The test is one-sided: k failures now and none before have p = 1 / 2^k. The risk is divided by the number
 // of all signatures.
 TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
-  const auto with = [](std::map<Signature, std::uint64_t> seen) {
+  const auto with = [](Seen seen) {
     Campaign made = campaign("1", {{key, counts(2000000, 1000000, 50, 0)}});
     made.statistics.seen = std::move(seen);
     return made;
   };
-  const Signature a{missed, "wang", "a"};
-  const Signature b{missed, "wang", "b"};
-  const Signature c{missed, "wang", "c"};
+  const Signature a{missed, "mine", "a"};
+  const Signature b{missed, "mine", "b"};
+  const Signature c{missed, "mine", "c"};
   const auto is_new = [&](std::uint64_t times, const Campaign& before) {
     return !changes(with({{a, 40}, {b, times}}), before).new_signatures.empty();
   };
@@ -80,13 +84,13 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   EXPECT_TRUE(is_new(12, three));
 }
 
-const Signature inside{missed, "wang", "ee inside"};
-const Signature on_edge{missed, "wang", "ee on-edge"};
-
-/// A campaign of wang that began at this date and has these failures.
-Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen) {
-  Campaign made = campaign(date, {{key, counts(200000, 100000, seen.size(), 0)}});
+/// A campaign of a plug-in, which began at this date.
+Campaign night(const std::string& date, Seen seen, const std::string& version = "1",
+               const std::string& sha256 = "a", std::uint64_t queries = 200000) {
+  Campaign made = campaign(date, {{key, counts(queries, queries / 2, 0, 0)}});
   made.runs[0].shards[0].started = date;
+  made.runs[0].info["plug-in mine version"] = version;
+  made.runs[0].info["plug-in mine sha256"] = sha256 + "0123456789abcdef";
   made.statistics.seen = std::move(seen);
   return made;
 }
@@ -148,7 +152,7 @@ TEST(Baseline, RandomQueriesCountOnce) {
   EXPECT_REFUSED(add_up(std::vector{once, once}), "shard 0/1 of the run with seed 1 twice");
   Campaign replay = once;  // asks the same cases every time
   replay.runs[0].info = {{"command", "replay"}};
-  EXPECT_EQ(add_up(std::vector{replay, replay}).statistics.queries_of("wang"), 400000);
+  EXPECT_EQ(add_up(std::vector{replay, replay}).statistics.queries_of("mine"), 400000);
 }
 
 TEST(Baseline, KnowsWhenEachSignatureWasSeen) {
@@ -156,13 +160,15 @@ TEST(Baseline, KnowsWhenEachSignatureWasSeen) {
                                      night("2026-01-03", {{inside, 2}, {on_edge, 1}}),
                                      night("2026-01-04", {})};
   const Changes found = changes(night("2026-01-05", {{inside, 1}}), nights);
-  EXPECT_EQ(found.sightings.at(inside), (Sightings{"2026-01-01", "2026-01-03", 2}));
-  EXPECT_EQ(found.sightings.at(on_edge), (Sightings{"2026-01-03", "2026-01-03", 1}));
+  const SubjectCode code{"1", "sha256 a0123456789a"};
+  EXPECT_EQ(found.sightings.at(inside), (Sightings{"2026-01-01", "2026-01-03", 2, code, code}));
+  EXPECT_EQ(found.sightings.at(on_edge), (Sightings{"2026-01-03", "2026-01-03", 1, code, code}));
   EXPECT_THAT(found.new_signatures, IsEmpty());
   EXPECT_THAT(found.lasting_signatures, ElementsAre(inside));
   EXPECT_THAT(found.unrepeated_signatures, ElementsAre(on_edge));
   EXPECT_EQ(describe(found, true),
-            "lasting: false-negative of wang, ee inside, first seen 2026-01-01, last seen 2026-01-03\n");
+            "lasting: false-negative of mine, ee inside, first seen 2026-01-01 (version 1), "
+            "last seen 2026-01-03 (version 1)\n");
   const auto json = changes_json(found);
   EXPECT_EQ(json["lasting_signatures"][0]["first_seen"], "2026-01-01");
   EXPECT_EQ(json["lasting_signatures"][0]["last_seen"], "2026-01-03");
@@ -176,14 +182,14 @@ TEST(Baseline, SaysHowOftenEachSubjectFailsAsBefore) {
                                      night("2026-01-03", {{inside, 9}})};
   EXPECT_EQ(describe(changes(night("2026-01-04", {{inside, 9}, {on_edge, 9}, {of_oracle, 1}}), nights)),
             "lasting: 1 way to fail of the oracle, the oldest first seen 2026-01-02\n"
-            "lasting: 2 ways to fail of wang, the oldest first seen 2026-01-02\n");
+            "lasting: 2 ways to fail of mine, the oldest first seen 2026-01-02 (version 1)\n");
 }
 
 TEST(Baseline, SaysManyChangesOfASubjectInOneLine) {
   const Changes found = changes(night("2026-01-02", {{inside, 9}, {on_edge, 9}}), night("2026-01-01", {}));
-  EXPECT_EQ(describe(found), "new: 2 ways to fail of wang, such as false-negative of wang, ee inside\n");
+  EXPECT_EQ(describe(found), "new: 2 ways to fail of mine, such as false-negative of mine, ee inside\n");
   EXPECT_EQ(describe(found, true),
-            "new: false-negative of wang, ee inside\nnew: false-negative of wang, ee on-edge\n");
+            "new: false-negative of mine, ee inside\nnew: false-negative of mine, ee on-edge\n");
 }
 
 // A failure is new in one night only. In later nights, it is lasting.
@@ -204,14 +210,14 @@ TEST(Baseline, AFailureIsNewOnceAndThenLasts) {
 TEST(Baseline, ASubjectThatItLacksHasNoNewWayToFail) {
   const Campaign before = night("1", {});
   Campaign now = night("2", {});
-  now.statistics.counts[{"mine", Kind::edge_edge, "uniform"}] = counts(2000, 1000, 7, 0);
-  now.statistics.seen[{missed, "mine", "ee inside"}] = 7;
+  now.statistics.counts[{"yours", Kind::edge_edge, "uniform"}] = counts(2000, 1000, 7, 0);
+  now.statistics.seen[{missed, "yours", "ee inside"}] = 7;
   const Changes found = changes(now, before);
-  EXPECT_THAT(found.absent_subjects, ElementsAre("mine"));
+  EXPECT_THAT(found.absent_subjects, ElementsAre("yours"));
   EXPECT_THAT(found.new_signatures, IsEmpty());
   EXPECT_THAT(lines_for_the_worse(found), IsEmpty());
-  EXPECT_EQ(describe(found), "not in the baseline: mine\n");
-  EXPECT_EQ(changes_json(found)["absent_subjects"][0], "mine");
+  EXPECT_EQ(describe(found), "not in the baseline: yours\n");
+  EXPECT_EQ(changes_json(found)["absent_subjects"][0], "yours");
 }
 
 TEST(Baseline, ManyValuesOfAFactAreCounted) {
@@ -221,6 +227,98 @@ TEST(Baseline, ManyValuesOfAFactAreCounted) {
   ASSERT_THAT(found.facts, SizeIs(1));
   EXPECT_EQ(found.facts[0].before, "7 values");
   EXPECT_EQ(found.facts[0].now, "now");
+}
+
+TEST(Gone, IsWhatChanceWouldHardlyHide) {
+  const Changes found = changes(night("2", {{on_edge, 20}}), night("1", {{inside, 40}, {on_edge, 20}}));
+  EXPECT_THAT(found.gone_signatures, ElementsAre(inside));
+  EXPECT_EQ(describe(found),
+            "lasting: 1 way to fail of mine, the oldest first seen 1 (version 1)\n"
+            "gone: false-negative of mine, ee inside, first seen 1 (version 1), last seen 1 (version 1)\n");
+  EXPECT_THAT(headline({}, found).text, HasSubstr("1 way to fail is gone"));
+  const Changes chance = changes(night("2", {{on_edge, 20}}), night("1", {{inside, 4}, {on_edge, 20}}));
+  EXPECT_THAT(chance.gone_signatures, IsEmpty());
+  EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
+}
+
+// Chance could explain the absence of each single failure, but hardly that of all failures.
+TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
+  Seen rare;
+  for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
+  EXPECT_EQ(changes(night("2", {}), night("1", rare)).gone_signatures.size(), 30);
+  EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
+}
+
+// A time limit ended the later campaign. It asked twice as many queries of the signature's family as the
+// earlier campaign, and as many of the other family.
+TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
+  const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
+    Campaign made = night(date, {{inside, seen}});
+    made.statistics.counts[{"mine", Kind::edge_edge, "parallel"}] = counts(queries, queries / 2, 0, 0);
+    return made;
+  };
+  const Campaign before = night_of("1", 1000, 100);
+  EXPECT_THAT(changes(night_of("2", 2000, 200), before).new_signatures, IsEmpty());
+  EXPECT_THAT(changes(night_of("2", 1000, 200), before).new_signatures, ElementsAre(inside));
+}
+
+TEST(Gone, NeedsTheQueriesOfEveryFamily) {
+  const Campaign before = night("1", {{inside, 40}});
+  EXPECT_THAT(changes(night("2", {}, "1", "a", 20000), before).gone_signatures, IsEmpty());
+  Campaign other = night("2", {});
+  other.statistics.counts = {{{"mine", Kind::edge_edge, "parallel"}, counts(200000, 100000, 0, 0)}};
+  EXPECT_THAT(changes(other, before).gone_signatures, IsEmpty());
+  Campaign crashes = night("2", {});
+  crashes.statistics.counts[key].faults[static_cast<std::size_t>(Fault::crash)] = 100000;
+  crashes.statistics.counts[key].collisions = 0;
+  EXPECT_THAT(changes(crashes, before).gone_signatures, ElementsAre(inside));
+  crashes.statistics.counts[key].faults[static_cast<std::size_t>(Fault::crash)] = 199000;
+  EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
+}
+
+// The signatures were seen in cases, and the later campaign replays fewer of them.
+TEST(Gone, DoesNotCountFailuresInCases) {
+  const Signature late{Finding::What::late, "mine", "ee inside"};
+  const Signature crash{Finding::What::fault, "mine", "ee crash"};
+  Campaign before = night("1", {{inside, 40}, {late, 40}, {crash, 40}});
+  Counts& cases = before.statistics.counts[{"mine", Kind::edge_edge, "planar/"}];
+  cases = counts(50, 50, 38, 0);
+  cases.late = 38;
+  cases.faults[static_cast<std::size_t>(Fault::crash)] = 38;
+  EXPECT_THAT(changes(night("2", {}), before).gone_signatures, IsEmpty());
+  cases.faults = {};
+  cases.faults[static_cast<std::size_t>(Fault::not_asked)] = 40;
+  EXPECT_THAT(changes(night("2", {}), before).gone_signatures, ElementsAre(crash));
+}
+
+TEST(Gone, IsFixedIfTheCodeHasChanged) {
+  const std::vector before{night("1", {{inside, 40}}, "1", "a"), night("2", {{inside, 30}}, "2", "b")};
+  const auto text = [&](const std::string& version, const std::string& sha256) {
+    return describe(changes(night("3", {}, version, sha256), before));
+  };
+  const std::string seen =
+      ": false-negative of mine, ee inside, first seen 1 (version 1), last seen 2 (version 2)\n";
+  EXPECT_EQ(text("3", "c"), "fixed in version 3" + seen);
+  EXPECT_EQ(text("2", "c"), "fixed since sha256 c0123456789a" + seen);
+  EXPECT_EQ(text("2", "b"), "gone" + seen);
+  const auto json = changes_json(changes(night("3", {}, "3", "c"), before));
+  EXPECT_EQ(json["gone_signatures"][0]["fixed"], "in version 3");
+  EXPECT_EQ(json["gone_signatures"][0]["first_code"], "version 1");
+  EXPECT_EQ(json["gone_signatures"][0]["last_code"], "version 2");
+  // The first later code without the signature has the fix, not the code of this campaign.
+  auto nights = before;
+  nights.push_back(night("3", {}, "2", "b"));
+  nights.push_back(night("4", {}, "3", "c"));
+  EXPECT_THAT(describe(changes(night("5", {}, "4", "d"), nights)), HasSubstr("fixed in version 3: "));
+}
+
+TEST(Gone, OfABuiltInSubjectIsFixedInAVersionOfNearmiss) {
+  Campaign before = night("1", {{inside, 40}});
+  before.runs[0].info = {{"version", "0.1"}, {"commit", "abc"}};
+  Campaign now = night("2", {});
+  now.runs[0].info = {{"version", "0.1"}, {"commit", "def"}};
+  EXPECT_THAT(describe(changes(now, before)), HasSubstr("fixed since commit def: "));
+  EXPECT_EQ(code_of(now, "mine"), (SubjectCode{"0.1", "commit def"}));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/json.hpp"
+#include "reports/report.hpp"
 #include "reports/text/json.hpp"
 #include "tests/queries.hpp"
 #include "tests/refused.hpp"

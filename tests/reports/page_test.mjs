@@ -18,41 +18,24 @@ const browser = await chromium.launch({
   args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync"],
 });
+/** In order: later tests open reports that earlier ones have made. */
+const tests = [
+  showsFindings, showsVerticesAndEdges, showsThatNothingWasFound, showsStandardError, showsVersions,
+  showsTheBaseline, showsWhatIsNewSinceTheBaseline, showsTheNights, showsTimesOfImpact, showsSeparations,
+  showsWhichTimesAreLate, namesEveryStripOfTimes, showsSweeps, showsASingleValueBesideASweep,
+  showsSweepsOfWhatIsNeverWrong, showsSubjectsWithTheNamesOfMembers, showsValuesOfOptions,
+  showsAClaimOfNoDistanceThatIsRefuted, showsScenes, showsSceneStepsAndMeshes, showsSimulations,
+  showsTheLadderAndTheAudit, showsWhatDecides, showsAChoiceOfManySubjects, drawsManySubjectsWithoutALadder,
+  drawsAMixOfRuns, showsWhatIsBeyondAContract, showsThePowerOfDetection, showsEnvironments,
+  showsWhereCollisionsAreMissed, answersBeforeScrolling, fitsEveryMedium, staysQuickWithManyFindings,
+  hasNoBarriers,
+];
+
 try {
-  await showsFindings(browser);
-  await showsVerticesAndEdges(browser);
-  await showsThatNothingWasFound(browser);
-  await showsStandardError(browser);
-  await showsVersions(browser);
-  await showsTheBaseline(browser);
-  await showsWhatIsNewSinceTheBaseline(browser);
-  await showsTheNights(browser);
-  await showsTimesOfImpact(browser);
-  await showsSeparations(browser);
-  await showsWhichTimesAreLate(browser);
-  await namesEveryStripOfTimes(browser);
-  await showsSweeps(browser);
-  await showsASingleValueBesideASweep(browser);
-  await showsSweepsOfWhatIsNeverWrong(browser);
-  await showsSubjectsWithTheNamesOfMembers(browser);
-  await showsValuesOfOptions(browser);
-  await showsAClaimOfNoDistanceThatIsRefuted(browser);
-  await showsScenes(browser);
-  await showsSceneStepsAndMeshes(browser);
-  await showsSimulations(browser);
-  await showsTheLadderAndTheAudit(browser);
-  await showsWhatDecides(browser);
-  await showsAChoiceOfManySubjects(browser);
-  await drawsManySubjectsWithoutALadder(browser);
-  await drawsAMixOfRuns(browser);
-  await showsWhatIsBeyondAContract(browser);
-  await showsThePowerOfDetection(browser);
-  await showsEnvironments(browser);
-  await showsWhereCollisionsAreMissed(browser);
-  await answersBeforeScrolling(browser);
-  await fitsEveryMedium(browser);
-  await staysQuickWithManyFindings(browser);
-  await hasNoBarriers(browser);
+  for (const test of tests) {
+    await test(browser);
+    for (const context of browser.contexts()) await context.close(); // with the test's pages
+  }
   everyReportFollowsItsSchema();
 } finally {
   await browser.close();

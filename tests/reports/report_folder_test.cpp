@@ -1,5 +1,5 @@
 // A report replaces its own files, and no others.
-#include "reports/report_folder.hpp"
+#include "reports/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,9 @@
 
 #include "ccd/query/error.hpp"
 #include "reports/campaign/finding_case.hpp"
-#include "reports/report.hpp"
 #include "reports/text/json.hpp"
 #include "tests/refused.hpp"
-#include "tests/reports/some_campaign.hpp"
+#include "tests/reports/campaigns.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {

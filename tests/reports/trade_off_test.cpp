@@ -1,6 +1,10 @@
-// Error against run time.
+// Subjects compared: error against run time, the ladder of precisions, and who decided the queries.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "ccd/query/scalar_name.hpp"
 #include "reports/sections/sections.hpp"
 #include "reports/text/json.hpp"
 #include "tests/reports/campaigns.hpp"
@@ -10,6 +14,7 @@ namespace {
 
 using ::nearmiss::testing::counts;
 using nlohmann::ordered_json;
+using ::testing::HasSubstr;
 
 CountsKey at(const std::string& subject, const std::string& family = "f") {
   return {subject, Kind::edge_edge, family};
@@ -88,6 +93,200 @@ TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
   EXPECT_TRUE(subjects["defect:vv"]["farthest_over_B"].is_null());
   EXPECT_EQ(subjects["wang:float"]["algorithm"], "wang");
   EXPECT_EQ(subjects["wang:float"]["epsilon"], 0x1p-23);
+}
+
+/// Statistics in which the farthest false positive of each subject is at a given fraction of its bound.
+Statistics farthest_at(const std::map<std::string, double>& parts) {
+  Statistics statistics;
+  for (const auto& [subject, part] : parts) {
+    const Outcome outcome{.verdict = Verdict::accepted(Stage::vv, 0), .collision = false, .ratio = part};
+    statistics.counts[{subject, Kind::edge_edge, "uniform"}].add(outcome, {}, [] { return "uniform:1:1"; });
+  }
+  return statistics;
+}
+
+/// The fit over all families; null if there is none.
+nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
+  const auto all = ladder_json(farthest_at(parts))["fits"];
+  return all.empty() ? nlohmann::ordered_json() : all[0];
+}
+
+TEST(ScalarName, GivesEpsilon) {
+  EXPECT_EQ(epsilon_exponent_of("float"), -23);
+  EXPECT_EQ(epsilon_exponent_of(""), -52);
+  EXPECT_EQ(epsilon_exponent_of("p40"), -39);
+  for (const char* other : {"p", "p1", "p257", "p999999999", "p40x", "half", "-3"})
+    EXPECT_EQ(epsilon_exponent_of(other), std::nullopt);
+  EXPECT_EQ(split_scalar("wang-tight:p40@0.5").algorithm, "wang-tight");
+  EXPECT_EQ(split_scalar("wang-tight:p40@0.5").scalar, "p40");
+}
+
+TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
+  const auto all = ladder_json(farthest_at(
+      {{"wang", 0.5}, {"wang:float", 1}, {"wang-tight:p53", 1}, {"basic", 1}, {"wang:p40@7", 1}}))["rungs"];
+  ASSERT_EQ(all.size(), 3);
+  EXPECT_EQ(all[0]["subject"], "wang:float");
+  EXPECT_NEAR(all[0]["claimed"], 41 * std::exp2(-23 / 4.0), 5e-3);
+  EXPECT_EQ(all[1]["scalar"], "double");
+  EXPECT_NEAR(all[1]["claimed"], 40.963 * 0x1p-13, 1e-7);
+  EXPECT_EQ(all[1]["farthest"], all[1]["claimed"].get<double>() / 2);
+  EXPECT_NEAR(all[2]["claimed"], 11.9336 * 0x1p-13, 1e-7);
+}
+
+TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
+  EXPECT_EQ(place_of("wang:p40").algorithm, "wang");
+  EXPECT_EQ(place_of("wang:p40").scalar, "p40");
+  for (const char* name : {"wang-eps", "wang-eps:h=0.001", "wang-scalar", "bridson:thickness=1"})
+    EXPECT_NEAR(*place_of(name).unit, 40.963 * 0x1p-13, 1e-7) << name;
+  EXPECT_EQ(place_of("wang-eps:h=0.001").algorithm, "wang-eps:h=0.001");
+  EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
+  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the name gives the bound B
+  for (const char* other :
+       {"exact", "defect:vv", "./plugin.so", "additive:rescaling=0.5", "wang-eps:h=0.001@7"}) {
+    EXPECT_EQ(place_of(other).algorithm, other);
+    EXPECT_EQ(place_of(other).unit, std::nullopt);
+  }
+}
+
+TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
+  const std::map<std::string, double> parts{
+      {"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p128", 1}};
+  const auto line = fit(parts);
+  EXPECT_EQ(line["points"], 4);
+  EXPECT_EQ(line["precisions"], 4);
+  EXPECT_NEAR(line["exponent"], 0.25, 1e-6);
+  EXPECT_NEAR(line["standard_error"], 0, 1e-6);
+  EXPECT_EQ(line["least_part_of_claimed"], 1);
+  EXPECT_EQ(line["greatest_part_of_claimed"], 1);
+  EXPECT_EQ(line["restates_the_bound"], true);
+  EXPECT_THAT(
+      ladder_table(farthest_at(parts)),
+      HasSubstr(
+          "\nwang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions\n"));
+  // If the distances halve once more for each halving of ε, the exponent grows by one.
+  EXPECT_NEAR(fit({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})["exponent"], 1.25, 1e-4);
+  for (const char* no_third : {"wang:p200", "wang:float"})
+    EXPECT_TRUE(fit({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}}).is_null());
+}
+
+// The 0.975 quantile of t with two degrees of freedom is 0.95 √(2 / (4 · 0.975 · 0.025)).
+TEST(Ladder, TheIntervalIsStudents) {
+  const std::map<std::string, double> parts{
+      {"wang:p24", 0.5}, {"wang:float", 0.25}, {"wang:p32", 1}, {"wang:p64", 0.125}};
+  const auto line = fit(parts);
+  EXPECT_EQ(line["points"], 4);
+  EXPECT_EQ(line["precisions"], 3);
+  EXPECT_NEAR(line["half_width_95"], 4.302652729749464 * line["standard_error"].get<double>(), 1e-12);
+  EXPECT_THAT(
+      ladder_table(farthest_at(parts)),
+      HasSubstr("\nwang: the farthest distance goes as epsilon^(0.2941 +- 0.16, 95 %), from 4 subjects "
+                "with 3 precisions; at 0.125 to 1 of the claimed distance\n"));
+}
+
+// Three points have distances of 16 in x, and the middle one is 1 lower than the others. The sum of squared
+// residuals is 2/3, with one degree of freedom.
+TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
+  const auto line = fit({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}});
+  EXPECT_NEAR(line["exponent"], 0.25, 1e-5);
+  EXPECT_NEAR(line["standard_error"], std::sqrt(2.0 / 3 / (2 * 16 * 16)), 1e-5);
+}
+
+TEST(Ladder, ARatioThatIsKnownFromAboveOnlyIsInNoFit) {
+  const auto points = [](double part) {
+    return fit({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p80", part}})["points"];
+  };
+  EXPECT_EQ(points(1e-16), 4);
+  EXPECT_EQ(points(0.9e-16), 3);
+}
+
+TEST(Ladder, EachOriginHasAFitOfItsOwn) {
+  Statistics statistics = farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}});
+  const auto families = statistics.counts;
+  for (const auto& [key, counts] : families)
+    for (const char* search : {"search-far-wang:p24", "search-miss-wang:p40"})
+      statistics.counts[{key.subject, key.kind, search}] = counts;
+  const auto all = ladder_json(statistics)["fits"];
+  ASSERT_EQ(all.size(), 3);
+  EXPECT_EQ(all[0]["origin"], "");
+  EXPECT_EQ(all[1]["origin"], "directed search");
+  EXPECT_EQ(all[2]["origin"], "uniform");
+  for (const auto& each : all) {
+    EXPECT_NEAR(each["exponent"], 0.25, 1e-5);  // only nearly, because D² also has a term in ε
+    EXPECT_EQ(each["precisions"], 3);
+  }
+}
+
+TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
+  const Statistics one = farthest_at({{"wang", 1}, {"wang-tight", 1}, {"basic:float", 1}});
+  EXPECT_TRUE(ladder_json(one).empty());
+  EXPECT_EQ(ladder_table(one), "");
+}
+
+void add(Statistics& statistics, const CountsKey& key, std::initializer_list<Outcome> outcomes,
+         std::uint64_t ns_per_query) {
+  Counts& counts = statistics.counts[key];
+  for (const Outcome& each : outcomes) counts.add(each, {}, [] { return "f:1:0"; });
+  counts.times.add(key.kind, key.family, {counts.queries, ns_per_query * counts.queries});
+}
+
+Outcome accepted(Stage stage) { return {.verdict = Verdict::accepted(stage, 0), .collision = true}; }
+Outcome rejected(Rejection rejection) {
+  return {.verdict = Verdict::rejected(rejection), .collision = false};
+}
+
+Statistics some_statistics() {
+  const auto filter = rejected(Rejection::filter);
+  const auto vt = [](const char* subject, const char* family) {
+    return CountsKey{subject, Kind::vertex_triangle, family};
+  };
+  Statistics statistics;
+  add(statistics, vt("adaptive", "near"),
+      {rejected(Rejection::planes), filter, rejected(Rejection::finer), accepted(Stage::exact)}, 300);
+  add(statistics, {"adaptive", Kind::edge_edge, "near"},
+      {rejected(Rejection::culled), accepted(Stage::filter), filter, rejected(Rejection::exact)}, 500);
+  add(statistics, vt("adaptive", "far"), {rejected(Rejection::no_root)}, 50);
+  add(statistics, vt("wang", "near"), {accepted(Stage::vv)}, 100);
+  add(statistics, vt("wang", "far"), {rejected(Rejection::no_root)}, 25);
+  add(statistics, vt("exact", "near"), {filter, accepted(Stage::exact)}, 600);
+  return statistics;
+}
+
+// wang passes nothing on, and exact has no algorithm of its own, so neither has rows. wang was not asked
+// about edges, so only times for vertices and triangles are divided by times of wang.
+TEST(Deciders, AreCountedByFamilyOverBothKinds) {
+  const auto json = deciders_json(some_statistics());
+  ASSERT_EQ(json.size(), 3);
+  EXPECT_EQ(json[0]["family"], "");
+  EXPECT_EQ(json[0]["decided_by"].dump(), R"({"algorithm":3,"filter":3,"finer":1,"exact":2})");
+  EXPECT_EQ(json[0]["time_over"].dump(), R"({"exact":0.5,"wang":4.0})");
+  EXPECT_EQ(json[1].dump(), R"({"subject":"adaptive","family":"far","queries":1,)"
+                            R"("decided_by":{"algorithm":1,"filter":0,"finer":0,"exact":0},)"
+                            R"("ns_per_query":50.0,"time_over":{"wang":2.0}})");
+  EXPECT_EQ(json[2].dump(), R"({"subject":"adaptive","family":"near","queries":8,)"
+                            R"("decided_by":{"algorithm":2,"filter":3,"finer":1,"exact":2},)"
+                            R"("ns_per_query":400.0,"time_over":{"exact":0.5,"wang":3.0}})");
+  EXPECT_THAT(decider_tables(some_statistics()),
+              HasSubstr("\nnear                8          2    25 %       3  37.5 %      1  12.5 %      2    "
+                        "25 %       400       3      0.5\n"));
+}
+
+TEST(Deciders, OfASceneAllStepsAreOneRow) {
+  Statistics statistics;
+  for (const char* step : {"scene:mat@300#0", "scene:mat@300#1", "scene:hair#0"})
+    add(statistics, {"adaptive", Kind::edge_edge, step},
+        {rejected(Rejection::planes), accepted(Stage::filter)}, 10);
+  const auto json = deciders_json(statistics);
+  ASSERT_EQ(json.size(), 3);
+  EXPECT_EQ(json[1]["family"], "scene:hair");
+  EXPECT_EQ(json[2]["family"], "scene:mat@300");
+  EXPECT_EQ(json[2]["queries"], 4);
+}
+
+TEST(Deciders, WhatGaveNoAnswerWasDecidedByNothing) {
+  Statistics statistics;
+  add(statistics, {"adaptive", Kind::edge_edge, "f"},
+      {rejected(Rejection::planes), accepted(Stage::filter), {.verdict = {.fault = Fault::time}}}, 10);
+  EXPECT_EQ(deciders_json(statistics)[0]["queries"], 2);
 }
 
 }  // namespace

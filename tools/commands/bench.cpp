@@ -2,14 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <set>
-#include <span>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/printable.hpp"
@@ -21,17 +18,14 @@
 #include "fuzz/subjects/isolation/room.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
-#include "oracle/oracle.hpp"
 #include "reports/text/json.hpp"
 #include "tools/arguments.hpp"
 #include "tools/bench_history.hpp"
 #include "tools/commands.hpp"
-#include "tools/fail_on.hpp"
-#include "tools/json_output.hpp"
-#include "tools/median.hpp"
+#include "tools/outputs.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
-#include "tools/values.hpp"
+#include "tools/timing.hpp"
 
 namespace nearmiss::tools {
 
@@ -58,24 +52,6 @@ struct Options {
 struct Input {
   std::string name;
   Queries queries;  ///< queries that pass the box test
-};
-
-/// Times of one subject on one input in ns per query, one entry for each run; NaN if the subject answered no
-/// query.
-using RunTimes = std::vector<double>;
-
-/// How a subject's answers compare with the oracle's.
-struct Judged {
-  std::uint64_t collisions = 0, missed = 0, others = 0, reported = 0;  ///< only answered queries count
-};
-
-/// The measurements of one subject on one input, one entry for each run.
-struct Measured {
-  RunTimes times;
-  RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not give it
-  RunTimes
-      throughput;  ///< queries per second of wall-clock time through the subject's process; NaN without one
-  std::optional<Judged> judged = {};
 };
 
 /// The name of an input, with the separation if one is given.
@@ -126,113 +102,6 @@ Input file_input(const std::filesystem::path& path, const SeparationOption& sepa
     throw Error(
         fmt::format("{}: found no query whose swept boxes meet, expected some to time", path.string()));
   return input;
-}
-
-/// Whether some queries have a separation.
-bool any_separation(const std::vector<Query>& queries) {
-  return std::ranges::any_of(queries, [](const Query& query) { return query.separation > 0; });
-}
-
-/// Repeats a pass over some queries until it lasts long enough to be timed. Returns the time that passed.
-template <class Pass>
-std::chrono::duration<double> repeat(const Pass& pass) {
-  using std::chrono::steady_clock;
-  constexpr auto least = std::chrono::microseconds(500);
-  const auto start = steady_clock::now();
-  auto now = start;
-  for (; now - start < least; now = steady_clock::now()) pass();
-  return now - start;
-}
-
-/// Times a subject as a trial does, and adds the times per query to `measured`; NaN if it answered no query.
-void time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts,
-               Measured& measured) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  BatchTime sum;
-  if (subject.is_asked(queries.front().kind, any_separation(queries)))
-    repeat([&] {
-      const BatchTime pass = subject.decide_timed(queries, verdicts);
-      sum.queries += pass.queries;
-      sum.nanoseconds += pass.nanoseconds;
-      sum.kernel_nanoseconds += pass.kernel_nanoseconds;
-    });
-  const auto per_query = [&](std::uint64_t nanoseconds) {
-    return std::max(1.0, static_cast<double>(nanoseconds)) / static_cast<double>(sum.queries);
-  };
-  measured.times.push_back(sum.queries == 0 ? none : per_query(sum.nanoseconds));
-  measured.kernels.push_back(sum.kernel_nanoseconds == 0 ? none : per_query(sum.kernel_nanoseconds));
-  measured.throughput.push_back(none);
-  if (sum.queries == 0 || plugin_info(subject) == nullptr) return;
-  double asked = 0;
-  const auto passed = repeat([&] {
-    subject.decide(queries, verdicts);
-    asked += static_cast<double>(queries.size());
-  });
-  measured.throughput.back() = asked / passed.count();
-}
-
-/// Counts all queries, and those without an answer. Does not judge the answers.
-void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
-  counts.queries += verdicts.size();
-  for (const Verdict& each : verdicts)
-    if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
-}
-
-/// Judges answers on all processors. The truth is that of the queries after the subject's rounding.
-Judged judge(const Subject& subject, std::span<const Query> queries, std::span<const Verdict> verdicts,
-             const Stop& stop) {
-  constexpr std::size_t at_once = 1024;
-  std::mutex mutex;
-  Judged sum;
-  in_parts(queries.size(), [&](std::size_t first, std::size_t last) {
-    Judged own;
-    std::vector<Query> rounded;
-    std::vector<Decision> truths;
-    for (std::size_t start = first; start < last; start += at_once) {
-      stop.check();
-      const std::size_t end = std::min(last, start + at_once);
-      rounded.clear();
-      for (std::size_t i = start; i < end; ++i) rounded.push_back(subject.rounded(queries[i]));
-      truths.resize(rounded.size());
-      decide(rounded, truths);
-      for (std::size_t i = start; i < end; ++i) {
-        const Decision& truth = truths[i - start];
-        if (verdicts[i].fault != Fault::none || truth.is_tie) continue;  // for a tie, yes and no are right
-        ++(truth.collision ? own.collisions : own.others);
-        own.missed += truth.collision && !verdicts[i].hit ? 1 : 0;
-        own.reported += !truth.collision && verdicts[i].hit ? 1 : 0;
-      }
-    }
-    const std::lock_guard lock(mutex);
-    sum.collisions += own.collisions;
-    sum.missed += own.missed;
-    sum.others += own.others;
-    sum.reported += own.reported;
-  });
-  return sum;
-}
-
-/// Times the subjects by turns in every run, so that noise of the machine affects all of them alike. If
-/// `judges`, judges the answers of the last run. Adds each subject's queries and faults, and its misses if
-/// judged, to `answered`.
-std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
-                               bool judges, const Stop& stop, Statistics& answered) {
-  std::vector<Measured> measured(subjects.size());
-  std::vector<Verdict> verdicts(queries.size());
-  const Kind kind = queries.front().kind;
-  for (int run = 0; run < runs; ++run)
-    for (std::size_t s = 0; s < subjects.size(); ++s) {
-      stop.check();
-      time_once(*subjects[s], queries, verdicts, measured[s]);
-      Counts& counts = answered.counts[{subjects[s]->name(), kind, ""}];
-      if (!subjects[s]->decides(kind)) continue;
-      count_faults(verdicts, counts);
-      if (!judges || run + 1 < runs) continue;
-      const Judged& judged = measured[s].judged.emplace(judge(*subjects[s], queries, verdicts, stop));
-      counts.collisions += judged.collisions;
-      counts.false_negatives += judged.missed;
-    }
-  return measured;
 }
 
 /// The median over the runs of a ratio: a subject's time divided by the first subject's time in the same run.
@@ -312,8 +181,8 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
     if (!std::isnan(throughput)) fmt::print(out, " {:>12.0f}", throughput);
     if (!std::isnan(median(own.kernels))) fmt::print(out, " {:>9.1f}", median(own.kernels));
     if (own.judged)
-      fmt::print(out, "  misses {} of {}, reports {} of {} others", own.judged->missed,
-                 own.judged->collisions, own.judged->reported, own.judged->others);
+      fmt::print(out, "  misses {} of {}, reports {} of {} others", own.judged->false_negatives,
+                 own.judged->collisions, own.judged->false_positives, own.judged->others());
     fmt::print(out, "\n");
   }
 }
@@ -347,9 +216,9 @@ void add_rows(Results& results, const Subjects& subjects, const Input& input, Ki
     add("ns_per_query_of_kernels", measured[s].kernels);
     if (const auto& judged = measured[s].judged)
       results.json.back().update({{"collisions", judged->collisions},
-                                  {"false_negatives", judged->missed},
-                                  {"others", judged->others},
-                                  {"false_positives", judged->reported}});
+                                  {"false_negatives", judged->false_negatives},
+                                  {"others", judged->others()},
+                                  {"false_positives", judged->false_positives}});
   }
 }
 

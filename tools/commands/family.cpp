@@ -17,7 +17,6 @@
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

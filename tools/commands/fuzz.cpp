@@ -19,9 +19,9 @@
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/statistics/family.hpp"
+#include "tools/arguments.hpp"
 #include "tools/campaign_options.hpp"
 #include "tools/commands.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

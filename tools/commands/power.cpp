@@ -31,9 +31,8 @@
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
-#include "tools/json_output.hpp"
+#include "tools/outputs.hpp"
 #include "tools/terminal.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

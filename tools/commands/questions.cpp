@@ -9,11 +9,10 @@
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
-#include "tools/json_output.hpp"
+#include "tools/outputs.hpp"
 #include "tools/question_results.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

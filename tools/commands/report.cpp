@@ -1,6 +1,5 @@
-// nearmiss report: writes a page for people and data for scripts.
-#include "reports/report.hpp"
-
+// nearmiss report, merge and history: pages for people and data for scripts, from stores and from the reports
+// of nights.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -9,15 +8,18 @@
 #include <vector>
 
 #include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
+#include "corpus/file.hpp"
+#include "reports/history/history.hpp"
+#include "reports/page/page.hpp"
+#include "reports/report.hpp"
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/sections.hpp"
 #include "reports/store/store.hpp"
 #include "reports/text/json.hpp"
-#include "reports/text/json_file.hpp"
 #include "tools/arguments.hpp"
-#include "tools/ci_output.hpp"
 #include "tools/commands.hpp"
-#include "tools/fail_on.hpp"
+#include "tools/outputs.hpp"
 #include "tools/paper/claims.hpp"
 #include "tools/question_results.hpp"
 
@@ -25,7 +27,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::vector<std::filesystem::path> stores, baseline;
   std::filesystem::path folder, power, audit, paper, distances, environments;
   FailOnOption fail_on;
@@ -86,7 +88,7 @@ std::string load_distances(const std::filesystem::path& file) {
 
 /// Throws Error if the stores are so large that their report might take all memory: it needs about 20 bytes for
 /// each byte of its stores.
-void expect_to_fit(const Options& options) {
+void expect_to_fit(const ReportOptions& options) {
   constexpr std::uintmax_t most = std::uintmax_t{128} << 20;
   std::uintmax_t bytes = 0;
   for (const auto* stores : {&options.stores, &options.baseline})
@@ -103,7 +105,7 @@ void expect_to_fit(const Options& options) {
 }
 
 /// The files that the command reads or writes.
-std::vector<OptionFile> other_files(const Options& options) {
+std::vector<OptionFile> other_files(const ReportOptions& options) {
   std::vector<OptionFile> files{{options.power, "--power"},
                                 {options.audit, "--audit"},
                                 {options.paper, "--paper"},
@@ -116,7 +118,7 @@ std::vector<OptionFile> other_files(const Options& options) {
 }
 
 /// Writes the report, and returns the exit code.
-int run(const Options& options) {
+int report(const ReportOptions& options) {
   expect_to_fit(options);
   options.ci.expect_writable(other_files(options));
   const Campaign campaign = load_campaigns(options.stores);
@@ -141,7 +143,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   auto* command =
       app.add_subcommand("report", "Write a report of stores: index.html, report.json, CSV files, cases");
   command->add_option("DB", options->stores, "Stores to add up")->required()->type_name("DB...");
@@ -171,7 +173,91 @@ void add_report(CLI::App& app, int& exit_code) {
   options->fail_on.add_to(*command);
   options->ci.add_to(*command);
   add_verbose_option(*command, options->verbose);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = report(*options); });
+}
+
+namespace {
+
+/// Reads the intact parts of several stores as one campaign, and prints how many rows were lost.
+Campaign salvage_campaigns(const std::vector<std::filesystem::path>& files) {
+  std::vector<Campaign> campaigns;
+  std::vector<std::string> names;
+  for (const auto& file : files) {
+    Salvage salvage = salvage_campaign(file);
+    fmt::print("{}: saved {} rows, lost {}\n", file.string(), salvage.rows,
+               salvage.lost.empty() ? "nothing" : salvage.lost);
+    campaigns.push_back(std::move(salvage.campaign));
+    names.push_back(file.string());
+  }
+  return merge_campaigns(campaigns, names);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, int& exit_code) {
+  struct MergeOptions {
+    std::filesystem::path out;
+    std::vector<std::filesystem::path> in;
+    bool salvage = false, verbose = false;
+    FailOnOption fail_on;
+  };
+  auto options = std::make_shared<MergeOptions>();
+  auto* command = app.add_subcommand("merge", "Add up the stores of several runs or shards into a new one");
+  command->add_option("OUT", options->out, "The new store")->required()->type_name("OUT.db");
+  command->add_option("IN", options->in, "Stores to add up")->required()->type_name("IN.db...");
+  command->add_flag(
+      "--salvage", options->salvage,
+      "Take the intact part of damaged stores, and say what was lost; nothing can resume the result");
+  options->fail_on.add_to(*command);
+  add_verbose_option(*command, options->verbose);
+  command->callback([options, &exit_code] {
+    const Campaign merged = options->salvage ? salvage_campaigns(options->in) : load_campaigns(options->in);
+    write_campaign(merged, options->out);
+    fmt::print("{}", (options->verbose ? summary_table : summary_lines)(merged.statistics,
+                                                                        options->fail_on.failures()));
+    for (const Run& run : merged.runs)
+      if (const std::string missing = missing_shards(run); !missing.empty())
+        fmt::print("{}: {}\n", fact(run.info, "command"), missing);
+    exit_code = options->fail_on.exit_code(merged.statistics);
+  });
+}
+
+namespace {
+
+struct HistoryOptions {
+  std::filesystem::path folder;
+  JsonOutput json;
+};
+
+void write_history(const HistoryOptions& options) {
+  const std::filesystem::path page = options.folder / "index.html";
+  options.json.expect_writable();
+  expect_different({options.json.file(), "--json"}, {page, "FOLDER"});
+  const History history = make_history(read_nights(options.folder));
+  const nlohmann::ordered_json json = history_json(history);
+  replace_file(page, history_page(json));
+  options.json.write(json);
+  fmt::print(options.json.text(), "{}history: {}\n", describe(history),
+             printable(std::filesystem::absolute(page).lexically_normal().string()));
+}
+
+}  // namespace
+
+void add_history(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<HistoryOptions>();
+  auto* command = app.add_subcommand(
+      "history",
+      "Write FOLDER/index.html: what changed in each night, from the reports of nights in a folder");
+  command
+      ->add_option("FOLDER", options->folder,
+                   "Folder of nights, such as build/nightly: each in a folder with report/report.json")
+      ->required()
+      ->type_name("FOLDER");
+  options->json.add_to(*command, "Write the history as JSON");
+  command->callback([options, &exit_code] {
+    write_history(*options);
+    exit_code = exit_fine;
+  });
 }
 
 }  // namespace nearmiss::tools

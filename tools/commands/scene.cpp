@@ -19,13 +19,13 @@
 #include "reports/statistics/sums.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/new_file.hpp"
 #include "tools/record.hpp"
 #include "tools/scene_subjects.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -104,40 +104,6 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   return info;
 }
 
-/// Shows the progress of a scene. A step begins with asking the subjects. With --verify-plan, it then
-/// verifies the plan, which says which pairs need no CCD; verifying takes most of the time.
-class SceneProgress {
- public:
-  SceneProgress(const Options& options, std::size_t steps, const Record& record)
-      : progress_(options.record.quiet),
-        asking_(options.verify_plan ? 0.03 : 1),
-        steps_(steps),
-        record_(record) {}
-
-  void asking(std::size_t step, double part) { show("asking", step, asking_ * part); }
-  void shrinking(std::size_t left) {
-    if (progress_.due()) progress_.show(shrinking_line(left));
-  }
-  void verifying(std::size_t step, double part) { show("verifying", step, asking_ + (1 - asking_) * part); }
-
- private:
-  void show(const std::string& what, std::size_t step, double part) {
-    if (!progress_.due()) return;
-    const double done = (static_cast<double>(step) + part) / static_cast<double>(steps_);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    progress_.show(fmt::format("{} left, {} step {} of {}, {} false negatives",
-                               show_duration(elapsed * ((1 - done) / done)), what, step + 1, steps_,
-                               with_separators(record_.statistics().false_negatives())),
-                   done);
-  }
-
-  Progress progress_;
-  double asking_;
-  std::size_t steps_;
-  const Record& record_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 struct Held {
   std::string scene;  ///< the scene's name and size; "" if a stop came first
   Verification verification;
@@ -159,7 +125,18 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
   Export exported(options.export_to);
   Held held;
-  SceneProgress progress(options, scene.steps(), record);
+  Progress progress(options.record.quiet);
+  const auto begun = std::chrono::steady_clock::now();
+  const double asking = options.verify_plan ? 0.03 : 1;  // part of a step's time; verifying takes the rest
+  const auto show = [&](const char* what, std::size_t step, double part) {
+    if (!progress.due()) return;
+    const double done = (static_cast<double>(step) + part) / static_cast<double>(scene.steps());
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun;
+    progress.show(fmt::format("{} left, {} step {} of {}, {} false negatives",
+                              show_duration(elapsed * ((1 - done) / done)), what, step + 1, scene.steps(),
+                              with_separators(record.statistics().false_negatives())),
+                  done);
+  };
   Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, !options.trial.no_shrink,
                 [&](TrialResult&& result) { record.add(std::move(result)); });
   SceneTrial trial(scene, leave_out, trials);
@@ -168,12 +145,12 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
     if (step == 0) held.scene = describe(scene, mesh);
     exported.add_all(mesh, leave_out, options.trial.jobs, is_over);
     const auto start = std::chrono::steady_clock::now();
-    trial.hold(step, mesh, [&](double part) { progress.asking(step, part); });
+    trial.hold(step, mesh, [&](double part) { show("asking", step, asking * part); });
     held.asking += std::chrono::steady_clock::now() - start;
     if (!options.verify_plan) return;
     record.save_now();  // before verifying, which takes long
     held.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
-      progress.verifying(step, part);
+      show("verifying", step, asking + (1 - asking) * part);
       return !stop.is_due();
     }));
   };
@@ -181,7 +158,9 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
     for_each_step(scene, is_over, hold);
   } catch (const Stopped&) {  // still reports the results so far
   }
-  trials.finish([&] { progress.shrinking(trials.to_shrink()); });
+  trials.finish([&] {
+    if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
+  });
   if (!stop.is_due()) exported.finish();
   for (ScenePicture& picture : trial.pictures()) record.add(std::move(picture));
   return held;

@@ -11,11 +11,11 @@
 #include "fuzz/simulation/simulation_family.hpp"
 #include "reports/campaign/finding_case.hpp"
 #include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -96,22 +96,6 @@ class Frames {
   fs::path folder_;
 };
 
-/// Shows the progress of all simulations.
-class SimulationProgress {
- public:
-  SimulationProgress(bool quiet, std::size_t subjects) : progress_(quiet), subjects_(subjects) {}
-
-  void show(std::size_t subject, const std::string& name, std::size_t step, std::size_t steps) {
-    if (!progress_.due()) return;
-    const double done = static_cast<double>(subject * steps + step) / static_cast<double>(subjects_ * steps);
-    progress_.show(fmt::format("{}: step {} of {}", name, step + 1, steps), done);
-  }
-
- private:
-  Progress progress_;
-  std::size_t subjects_;
-};
-
 /// The mesh after the last step, with tangled primitives marked.
 ScenePicture last_picture(const Simulation& simulation, const std::string& family,
                           const std::string& subject) {
@@ -175,13 +159,16 @@ int run(const Options& options) {
              counted(mesh.triangles.size(), "triangle", "triangles"),
              counted(mesh.edges.size(), "edge", "edges"), options.simulation.step, options.simulation.edge,
              options.simulation.stiffness);
-  SimulationProgress progress(options.record.quiet, subjects.size());
+  Progress progress(options.record.quiet);
   for (std::size_t i = 0; i < subjects.size() && !stop.is_due(); ++i) {
     const std::string name = subjects[i]->name();
     Subjects one;
     one.push_back(std::move(subjects[i]));
-    simulate(options, simulation, one, record, stop,
-             [&](std::size_t step, std::size_t steps) { progress.show(i, name, step, steps); });
+    simulate(options, simulation, one, record, stop, [&](std::size_t step, std::size_t steps) {
+      if (progress.due())
+        progress.show(fmt::format("{}: step {} of {}", name, step + 1, steps),
+                      static_cast<double>(i * steps + step) / static_cast<double>(subjects.size() * steps));
+    });
     if (!stop.is_requested()) record.add_unasked(one);
   }
   return record.finish(stop.is_requested(), !stop.is_requested());

@@ -12,10 +12,10 @@
 #include "ccd/query/excerpt.hpp"
 #include "fuzz/studies/tightness.hpp"
 #include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
 #include "tools/campaign_options.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"
-#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 

@@ -35,13 +35,18 @@ struct Measured {
 /// The JSON that a claim's commands write, in the order of the commands.
 using Results = std::vector<nlohmann::ordered_json>;
 
+/// Subcommands of nearmiss with their options, without --json.
+struct Commands : std::vector<std::string_view> {
+  using vector::vector;
+  Commands(std::string_view one) : vector{one} {}
+  Commands(const char* one) : vector{one} {}
+};
+
 struct Claim {
   std::string_view name;     ///< the claim's name on the command line, which no other claim has
   std::string_view section;  ///< the section of the paper
   std::string_view says;
-  /// The subcommands of nearmiss that measure the claim, without --json. If there are none, `measure` works
-  /// alone.
-  std::vector<std::string_view> commands = {};
+  Commands commands = {};  ///< those that measure the claim; if there are none, `measure` works alone
   Measured (*measure)(const Results& results, const Stop& stop) = nullptr;
   std::string_view why_not = {};  ///< if `measure` is null, why the claim cannot be measured here
 

@@ -21,7 +21,6 @@ export async function hasNoBarriers(browser) {
     for (const options of all) {
       const page = await open(browser, pageOf(name), options);
       assert.deepEqual(await axeViolations(page), [], `${name} ${JSON.stringify(options)}`);
-      await page.close();
     }
 }
 
@@ -57,6 +56,5 @@ export async function staysQuickWithManyFindings(browser) {
     }, `number-${many - 1}`);
     assert.equal(await page.textContent("#findings-count"), `1 of 1 shown, out of ${many.toLocaleString("en-US")}`);
     console.log(`${many} findings: first paint after ${Math.round(paint)} ms, filtered in ${search.toFixed(1)} ms`);
-    await page.close();
   }
 }

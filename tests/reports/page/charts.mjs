@@ -1,7 +1,6 @@
 // Tests charts: of sweeps, of false positives that refute a bound of 0, of misses, and of deciders.
 import assert from "node:assert/strict";
-import { dirname, join } from "node:path";
-import { count, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
+import { count, jsonOf, makeReport, open, pageOf, plugin, run } from "./session.mjs";
 
 /** A subject may have a name that is a member of every object, such as toString. */
 export async function showsSubjectsWithTheNamesOfMembers(browser) {
@@ -9,7 +8,6 @@ export async function showsSubjectsWithTheNamesOfMembers(browser) {
   for (const name of ["toString", "constructor"])
     assert.equal(await page.locator("#rates svg text", { hasText: name }).count(), 1);
   assert.ok((await page.locator("#findings-filter [name=subject] option").allTextContents()).includes("toString"));
-  await page.close();
 }
 
 export async function showsSweeps(browser) {
@@ -22,7 +20,6 @@ export async function showsSweeps(browser) {
     .map((field) => steps.filter((step) => step[field] > 0).length);
   assert.ok(shown[0] >= 6); // basic misses at all values
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 12 + shown.reduce((a, b) => a + b));
-  await page.close();
 }
 
 /**
@@ -39,7 +36,6 @@ export async function showsASingleValueBesideASweep(browser) {
   const rows = await page.evaluate(() => countRows(true).filter((row) => !isSweep(row)).map(({ subject, family: of }) => `${subject} ${of}`));
   assert.deepEqual(new Set(rows), new Set([`basic ${family}`, "wang v-stiff@1~drawn"]));
   assert.equal(await page.locator("#misses svg text", { hasText: family }).count() > 0, true);
-  await page.close();
 }
 
 /**
@@ -47,8 +43,7 @@ export async function showsASingleValueBesideASweep(browser) {
  * known.
  */
 export async function showsValuesOfOptions(browser) {
-  const plugin = join(dirname(nearmiss), "plugins", "sampling.so");
-  run("tightness", "--subject", `wang,${plugin}:tolerance=*`, "--values", "0,0.01,1", "--cases", "1200", "--db", "options.db");
+  run("tightness", "--subject", `wang,${plugin("sampling")}:tolerance=*`, "--values", "0,0.01,1", "--cases", "1200", "--db", "options.db");
   run("report", "options.db", "-o", "options");
   const page = await open(browser, pageOf("options"));
   const steps = jsonOf("options").option_sweeps["sampling:tolerance=*"];
@@ -59,7 +54,6 @@ export async function showsValuesOfOptions(browser) {
   assert.deepEqual(titles, ["missed, among collisions", "false positives, among non-collisions", "early, 99 % at most", "ns a query", "sampling:tolerance=*"]);
   const ends = await page.locator("#options .role-axis-label text").allTextContents();
   assert.ok(ends.includes("100 %") && ends.includes("0"));
-  await page.close();
 }
 
 export async function showsSweepsOfWhatIsNeverWrong(browser) {
@@ -67,13 +61,11 @@ export async function showsSweepsOfWhatIsNeverWrong(browser) {
   assert.equal(await count(page, ".units:visible"), 0); // every subject claims a bound
   // All numbers except the times are 0.
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2);
-  await page.close();
 }
 
 /** If a subject claims a bound of 0, the ratio of a false positive is infinite. */
 export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
-  const plugin = join(dirname(nearmiss), "plugins", "claims_exact.so");
-  const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,exact,${plugin}`]));
+  const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,exact,${plugin("claims_exact")}`]));
   const farthest = page.locator("#counts tbody tr:has-text('always') td:nth-child(9)");
   assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
   const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
@@ -81,13 +73,11 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   // Each subject has a mark, and the failed subject also has a cross.
   assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 4);
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
-  await page.close();
   // The chart shows the bound even if all false positives are beyond it.
-  const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin]));
+  const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin("claims_exact")]));
   assert.ok((await beyond.locator("#distances .role-axis-label text").allTextContents()).includes("1"));
   // The certificate of a refuted bound has a plane between the primitives.
   assert.ok(await count(beyond, "#example .picture .plane") === 1);
-  await beyond.close();
 }
 
 /**
@@ -105,7 +95,6 @@ export async function showsWhereCollisionsAreMissed(browser) {
   assert.equal(await count(page, "#misses .mark-rect.role-mark path[fill^='rgb']"), families.size);
   assert.deepEqual(await page.locator("#misses .role-title-text text").allTextContents().then((titles) => titles.filter((title) => !title.includes("missed"))),
     ["degenerate", "extreme"]);
-  await page.close();
 }
 
 export async function showsWhatDecides(browser) {
@@ -131,5 +120,4 @@ export async function showsWhatDecides(browser) {
   await page.click("#deciders th:has-text('exact arithmetic')");
   const most = deciders.reduce((a, b) => (b.decided_by.exact / b.queries > a.decided_by.exact / a.queries ? b : a));
   assert.equal(await page.locator("#deciders tbody tr td:nth-child(2)").first().textContent(), most.family);
-  await page.close();
 }

@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, renameSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { count, folder, idOf, inAnyFolder, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
+import { join } from "node:path";
+import { count, folder, idOf, inAnyFolder, jsonOf, makeReport, nearmiss, open, pageOf, plugin, run } from "./session.mjs";
 
 async function checkVerdicts(page, report) {
   const verdicts = await page.locator(".verdict").allTextContents();
@@ -185,7 +185,6 @@ async function checkOrderAndAddresses(browser, page, report) {
   assert.equal(await again.evaluate(() => navigator.clipboard.readText()), again.url());
   await again.evaluate(() => { location.hash = "#finding-gone"; });
   await again.getByText("does not have the finding").waitFor();
-  await again.close();
 }
 
 /** The buttons of the first finding copy the command, the query, and its certificate. */
@@ -222,7 +221,6 @@ async function checkOtherSections(page) {
  * one.
  */
 export async function showsVersions(browser) {
-  const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
   const page = await open(browser, makeReport("versions", ["--subject", `old=${plugin("v1")},new=${plugin("v2")},vt=${plugin("v3")}`, "--family", "uniform", "--cases", "400"]));
   const { versions, findings } = jsonOf("versions");
   const rows = await page.locator("#versions tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
@@ -232,7 +230,6 @@ export async function showsVersions(browser) {
   const lines = await page.locator("#broken > li").allTextContents();
   assert.equal(lines.filter((line) => line.startsWith("new against old: ") && line.includes(again)).length, 1);
   assert.ok(lines.includes("vt against old: ee is not compared, because one of them was not asked about it"));
-  await page.close();
 }
 
 export async function showsFindings(browser) {
@@ -253,7 +250,6 @@ export async function showsFindings(browser) {
   const [, file] = command.match(/^nearmiss replay (\/\S+) --subject basic$/);
   assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: "/" }),
     { status: 1 }); // the copied command fails again
-  await page.close();
 }
 
 /**
@@ -287,7 +283,6 @@ export async function showsVerticesAndEdges(browser) {
   assert.deepEqual(await page.locator("#counts tbody td:nth-child(2)").allTextContents(), ["vv", "ve"]);
   const titles = await page.locator("#distances svg text").allTextContents();
   for (const title of ["vertex-vertex", "vertex-edge"]) assert.ok(titles.some((text) => text.startsWith(title)), title);
-  await page.close();
 }
 
 /** What a subject wrote before it failed. */
@@ -300,7 +295,6 @@ export async function showsStandardError(browser) {
   const card = page.locator(`#${await idOf(page, 0)}`);
   await card.getByText("its standard error, and the stack of a crash").click();
   assert.equal(await card.locator("details[open] pre").textContent(), finding.errors.join("\n"));
-  await page.close();
 }
 
 export async function showsThatNothingWasFound(browser) {
@@ -314,7 +308,6 @@ export async function showsThatNothingWasFound(browser) {
     assert.equal(await page.isVisible(`#${left}`), false, left);
   assert.match(await page.textContent("#headline"), /^wang did not fail, in 100 queries\.$/);
   assert.equal(await count(page, "#headline.bad"), 0);
-  await page.close();
 }
 
 export async function showsTheBaseline(browser) {
@@ -341,7 +334,6 @@ export async function showsTheBaseline(browser) {
   assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 4);
   assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
   assert.doesNotMatch(await page.textContent("#findings"), /NEW since the baseline/);
-  await page.close();
 }
 
 export async function showsWhatIsNewSinceTheBaseline(browser) {
@@ -351,5 +343,4 @@ export async function showsWhatIsNewSinceTheBaseline(browser) {
   assert.match(await page.textContent("#news"), /basic-plain: \d+ new ways to fail/);
   assert.match(await page.locator(".verdict.bad").textContent(), /\d+ new ways to fail/);
   assert.match(await page.locator("#findings .card").first().textContent(), /NEW since the baseline/);
-  await page.close();
 }

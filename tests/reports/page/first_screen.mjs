@@ -28,7 +28,6 @@ async function answersEverything(browser, name) {
   }
   const rates = verdicts.map(({ classes }) => classes.ordinary.false_negative_rate);
   if (Math.max(...rates) > 0) assert.match(await rows.first().textContent(), new RegExp(`^FAIL${verdicts[rates.indexOf(Math.max(...rates))].subject.replaceAll("*", "\\*")}`));
-  await page.close();
   return failed.length;
 }
 
@@ -57,7 +56,6 @@ async function answersBesideAScene(browser) {
   assert.equal(await count(page, "#before-and-now tbody tr"), kinds.length);
   const slow = new Set(await page.locator("#slowest tbody td:first-child").allTextContents());
   assert.deepEqual(slow, new Set(own.map(({ subject }) => subject)));
-  await page.close();
 }
 
 export async function answersBeforeScrolling(browser) {

@@ -28,10 +28,8 @@ export async function showsTheNights(browser) {
     assert.ok(await count(page, "#ways tbody td.bad") > 0);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
     assert.deepEqual(await axeViolations(page), []);
-    await page.close();
   }
   const page = await open(browser, pageOf("nights"));
   await page.locator("#nights a").first().click();
   await page.waitForURL(/nights\/2026-11-03\/report\/index.html$/);
-  await page.close();
 }

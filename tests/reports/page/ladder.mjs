@@ -1,7 +1,6 @@
 // Tests the ladder of precisions and the audit.
 import assert from "node:assert/strict";
-import { dirname, join } from "node:path";
-import { count, jsonOf, nearmiss, open, pageOf, run } from "./session.mjs";
+import { count, jsonOf, open, pageOf, plugin, run } from "./session.mjs";
 
 /** Each algorithm has a colour. Labels name the scalars, and do not overlap. */
 async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
@@ -36,7 +35,7 @@ export async function showsTheLadderAndTheAudit(browser) {
   run("ladder", "--scalar", "float,p40,p64", "--cases", "320", "--db", "ladder.db");
   run("audit", "--json", "audit.json");
   run("paper", "constants", "planes", "gpu", "--json", "paper.json");
-  run("distance", "--subject", join(dirname(nearmiss), "plugins", "distances.so:defect=5"), "--cases", "20000", "--json", "distances.json");
+  run("distance", "--subject", `${plugin("distances")}:defect=5`, "--cases", "20000", "--json", "distances.json");
   run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json", "--paper", "paper.json", "--distances", "distances.json");
   const page = await open(browser, pageOf("ladder"));
   assert.equal(await count(page, "#ladder tbody tr"), 6);
@@ -58,5 +57,4 @@ export async function showsTheLadderAndTheAudit(browser) {
   assert.ok((await count(page, "#audit td.bad")) >= 2);
   assert.match(await page.locator("#audit").textContent(), /not proven by Theorem 4\.1: relative positions/);
   assert.ok((await count(page, "#tolerances tbody tr")) >= 10);
-  await page.close();
 }

@@ -16,7 +16,6 @@ export async function showsScenes(browser) {
   assert.equal(await count(page, "#scene-subjects tbody tr"), 2);
   assert.equal(await page.isVisible("#scene-steps"), false);
   assert.equal(await count(page, "canvas.mesh"), 1);
-  await page.close();
 }
 
 export async function showsSimulations(browser) {
@@ -36,7 +35,6 @@ export async function showsSimulations(browser) {
   assert.notEqual(await mesh.evaluate((canvas) => canvas.toDataURL()), before);
   assert.match(await page.locator("#simulation-pictures .mesh-legend").first().textContent(), /tangled \(\d+ primitives?\)/);
   assert.equal(await page.isVisible("#scenes-section"), false);
-  await page.close();
 }
 
 export async function showsSceneStepsAndMeshes(browser) {
@@ -72,7 +70,6 @@ export async function showsSceneStepsAndMeshes(browser) {
   await changes(() => page.getByRole("button", { name: "larger" }).first().click());
   await changes(() => page.getByRole("slider").first().fill("0"));
   assert.match(await page.locator(".mesh-legend").first().textContent(), /collides \(\d+ primitives?\)/);
-  await page.close();
   run("report", "scene.db", "mat@300.db", "-o", "two-scenes");
   const two = await open(browser, pageOf("two-scenes"));
   const names = await two.locator(".mesh-controls select").first().locator("option").allTextContents();
@@ -81,5 +78,4 @@ export async function showsSceneStepsAndMeshes(browser) {
     await two.locator(".mesh-controls select").first().selectOption(name);
     assert.equal(await two.locator(".scene-picture strong").textContent(), name);
   }
-  await two.close();
 }

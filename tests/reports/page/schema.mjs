@@ -1,9 +1,9 @@
 // Tests report.json against its schema.
 import assert from "node:assert/strict";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { join } from "node:path";
 import ajv from "../../../reports/page/node_modules/ajv/dist/2020.js";
-import { folder, jsonOf, nearmiss, run } from "./session.mjs";
+import { folder, jsonOf, plugin, run } from "./session.mjs";
 
 const schema = JSON.parse(readFileSync(new URL("../../../reports/report.schema.json", import.meta.url), "utf8"));
 const isValid = new ajv.default({ strict: false, allErrors: true }).compile(schema);
@@ -16,8 +16,7 @@ const errors = (report) => (isValid(report) ? []
  * All reports of the other tests satisfy the schema. A report with an added field or a changed type does not.
  */
 export function everyReportFollowsItsSchema() {
-  const sampling = join(dirname(nearmiss), "plugins", "sampling.so:sampling:tolerance=*");
-  for (const [name, ...options] of [["values", "--subject", sampling, "--values", "0.5,1e-9", "--cases", "200"], ["factors", "--tolerance", "rho", "--time", "1s"]]) {
+  for (const [name, ...options] of [["values", "--subject", `${plugin("sampling")}:sampling:tolerance=*`, "--values", "0.5,1e-9", "--cases", "200"], ["factors", "--tolerance", "rho", "--time", "1s"]]) {
     run("tightness", ...options, "--db", `${name}.db`);
     run("report", `${name}.db`, "-o", name);
   }

@@ -3,11 +3,13 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 export const nearmiss = process.argv[2];
 export const folder = mkdtempSync(join(tmpdir(), "nearmiss-page-"));
+/** The path of a plug-in of the tests. */
+export const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
 export const removeFolder = () => rmSync(folder, { recursive: true });
 
 /** Runs nearmiss. Exit code 1 is no error here, because it only means that nearmiss found a failure. */

@@ -64,7 +64,6 @@ export async function showsAChoiceOfManySubjects(browser) {
   await press("reset");
   await isAsChosen(first);
   assert.equal(await count(page, "#counts tbody tr"), 2 * names.length); // tables show all subjects
-  await page.close();
 }
 
 /** The page shows what root parity misses beyond its contract, with an example, but not as a failure. */
@@ -75,7 +74,6 @@ export async function showsWhatIsBeyondAContract(browser) {
   const last = page.locator("#scorecard .verdict").last();
   assert.match(await last.textContent(), /^–parity \(beyond contract\).*[1-9]\d* of [1-9]/);
   assert.equal(await last.locator("button.copy").count(), 1);
-  await page.close();
 }
 
 /**
@@ -107,7 +105,6 @@ export async function drawsManySubjectsWithoutALadder(browser) {
     assert.deepEqual(new Set(await legend()), new Set(names));
     assert.equal(await points(), all);
   }
-  await page.close();
 }
 
 /** The page draws a campaign with a ladder, with subjects that are on no ladder, and with a scene. */
@@ -120,5 +117,4 @@ export async function drawsAMixOfRuns(browser) {
   assert.deepEqual(left_out, ["wang-time"]);
   assert.match(await page.textContent("#error-time-others"), /: wang-time\.$/);
   assert.ok(await count(page, "#error-time .mark-symbol.role-mark path") > Object.keys(subjects).length);
-  await page.close();
 }

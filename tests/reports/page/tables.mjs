@@ -9,7 +9,6 @@ export async function showsThePowerOfDetection(browser) {
   const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
   assert.equal(await count(page, "#power tbody tr"), 3);
   assert.match(await page.locator("#power tbody tr").first().textContent(), /^defect:vv[\d.e-]+ s, [\d,]+/);
-  await page.close();
 }
 
 export async function showsEnvironments(browser) {
@@ -22,7 +21,6 @@ export async function showsEnvironments(browser) {
     ["wangg++ 12.2.0-O2upward1,00050001000keeps it",
       "wangg++ 12.2.0-O2 -ffast-mathupward1,00050031000missesfalse-negative scale:1:29"]);
   assert.equal(await count(page, "#environments td.bad"), 2);
-  await page.close();
 }
 
 /**
@@ -34,7 +32,6 @@ export async function fitsEveryMedium(browser) {
     for (const options of [{ colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
       const page = await open(browser, each, options);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
-      await page.close();
     }
   for (const each of [url, pageOf("eleven")]) {
     const page = await open(browser, each);
@@ -42,6 +39,5 @@ export async function fitsEveryMedium(browser) {
     assert.ok(paper.length > 50000);
     const sheets = paper.toString("latin1").match(/\/Type\s*\/Page\b(?!s)/g).length;
     assert.ok(sheets <= 12, `${sheets} sheets`);
-    await page.close();
   }
 }

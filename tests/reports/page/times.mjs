@@ -1,10 +1,9 @@
 // Tests times of impact (error against run time, table, histograms, pictures) and separations.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { count, folder, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
+import { join } from "node:path";
+import { count, folder, jsonOf, makeReport, open, pageOf, plugin, run } from "./session.mjs";
 
-const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
 const texts = (page, selector) => page.locator(selector).allTextContents();
 
 /** Each subject that gives times has a mark with its name; the subject with late times also has a cross. */
@@ -104,7 +103,6 @@ export async function showsTimesOfImpact(browser) {
   await checkPictures(page, report);
   const links = await page.locator("footer a").evaluateAll((all) => all.map((each) => each.getAttribute("href")));
   assert.ok(links.includes("times.csv"));
-  await page.close();
 }
 
 export async function showsSeparations(browser) {
@@ -124,7 +122,6 @@ export async function showsSeparations(browser) {
   await page.locator("#extreme-times").getByText("copied", { exact: true }).waitFor();
   assert.deepEqual((await page.evaluate(() => navigator.clipboard.readText())).split(" ").map(Number), jsonOf("apart").extreme_times[0].query);
   assert.equal(jsonOf("apart").extreme_times[0].query[24], 0.25);
-  await page.close();
 }
 
 /**
@@ -142,7 +139,6 @@ export async function showsWhichTimesAreLate(browser) {
     const page = await open(browser, pageOf(name));
     assert.equal(jsonOf(name).subjects.always.vt.late, 1);
     assert.ok((await page.textContent("#extreme-times .card")).includes(text), text);
-    await page.close();
   }
 }
 
@@ -158,5 +154,4 @@ export async function namesEveryStripOfTimes(browser) {
   assert.deepEqual((await texts(page, "#time-errors .role-row-header text")).filter((text) => text.includes("(")),
     ["basic (estimate)", "exact (lower bound)"]);
   assert.equal(await count(page, "#time-errors .mark-area path"), 2 * 2);
-  await page.close();
 }

@@ -30,6 +30,7 @@ from nearmiss._functions import (
     certificate,
     collides,
     earliest_time,
+    record,
     smallest_distance,
     time_of_impact,
     wang,
@@ -38,7 +39,6 @@ from nearmiss._functions import (
 from nearmiss._finding import Finding
 from nearmiss._interface import version as __version__
 from nearmiss._queries import Kind, MeshPairs
-from nearmiss._record import record
 from nearmiss._trials import Counts, Findings, Subject, TrialResult, families, queries, trial
 
 __all__ = [

@@ -1,20 +1,25 @@
-// Reports recognise a sweep by the names of its families, and a sweep of an option by the names of its
-// subjects.
-#include "reports/sections/sections.hpp"
-
+// Sweeps, scenes and simulations in reports, and the tables of other commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <vector>
 
-#include "reports/json.hpp"
+#include "reports/report.hpp"
+#include "reports/sections/other_tables.hpp"
+#include "reports/sections/sections.hpp"
 #include "reports/text/json.hpp"
+#include "tests/refused.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Counts some_counts(std::uint64_t queries, std::uint64_t false_negatives, std::uint64_t late = 0) {
   Counts counts;
@@ -167,6 +172,140 @@ TEST(Cliffs, InOrdinaryFamiliesComeFirst) {
 TEST(Cliffs, AreNotSeenInChance) {
   EXPECT_TRUE(cliffs_json(budgets({{10, 3}, {100, 0}, {1000, 2}}, {})).empty());
   EXPECT_FALSE(summary_json({{}, sweep_of_option()}).contains("cliffs"));
+}
+
+/// A scene with two steps. In each step, 100 pairs of each kind are asked about, and 900 are left out.
+Statistics two_steps() {
+  Statistics statistics;
+  for (const char* step : {"scene:cloth#0", "scene:cloth#1"})
+    for (const Kind kind : kinds_of_meshes) {
+      Funnel& funnel = statistics.funnels[{step, kind}];
+      funnel.pairs[static_cast<std::size_t>(PairFate::asked)] = 100;
+      funnel.pairs.front() = 900;
+      funnel.finding_ns = 750'000'000;
+      funnel.deciding_ns = 125'000'000;
+      Counts& counts = statistics.counts[{"wang", kind, step}];
+      counts.queries = 100;
+      counts.rejected_by[static_cast<std::size_t>(Rejection::planes)] =
+          kind == Kind::vertex_triangle ? 30 : 40;
+      counts.rejected_by[static_cast<std::size_t>(Rejection::culled)] = 20;
+      statistics.counts[{"silent", kind, step}].queries = 100;
+      OracleCounts& oracle = statistics.oracle[{kind, step}];
+      oracle.queries = 100;
+      oracle.by_stage[static_cast<std::size_t>(FilterStage::undecided)] = 5;
+    }
+  return statistics;
+}
+
+TEST(Funnels, AddUpTheSteps) {
+  const std::string text = funnel_tables(two_steps());
+  EXPECT_THAT(text, HasSubstr("\nscene:cloth\n2 steps"));
+  for (const char* row :
+       {"all pairs +2,000 +100 % +2,000 +100 %", "= asked +200 +10 % +200 +10 %",
+        "wang: planes separate the primitives, nothing else is computed +60 +30 % +80 +40 %",
+        "wang: vertex-edge tests are culled +40 +20 % +40 +20 %",
+        "wang: all tests, or reported +100 +50 % +80 +40 %",
+        "the filter decides, exact arithmetic is not needed +190 +95 % +190 +95 %"})
+    EXPECT_THAT(text, ContainsRegex(row));
+  EXPECT_THAT(text, HasSubstr("3 s to find the pairs, 0.5 s to decide"));
+  for (const char* absent : {"wang: too far", "silent", "there are"})
+    EXPECT_THAT(text, Not(HasSubstr(absent)));
+}
+
+TEST(Funnels, SayThatAKindHasNoPairs) {
+  Statistics statistics = two_steps();
+  for (auto& [key, funnel] : statistics.funnels)
+    if (key.second == Kind::edge_edge) funnel = {};
+  EXPECT_THAT(funnel_tables(statistics), HasSubstr("edge-edge: there are fewer than two edges\n"));
+}
+
+Statistics two_subjects() {
+  Statistics statistics;
+  for (std::uint64_t step = 0; step < 3; ++step) {
+    statistics.simulated[{"scene:sim:cloths", "wang", step}] = {.queries = 1000,
+                                                                .unanswered = 5,
+                                                                .collisions = 10,
+                                                                .positives = 12,
+                                                                .false_positives = 2,
+                                                                .rounds = 3,
+                                                                .picojoules = 5'000'000};
+    statistics.simulated[{"scene:sim:cloths", "basic", step}] = {.queries = 1000,
+                                                                 .collisions = 10,
+                                                                 .positives = 9,
+                                                                 .false_negatives = 1,
+                                                                 .rounds = 2,
+                                                                 .unresolved = step,
+                                                                 .tangled = step == 1 ? 70U : step,
+                                                                 .picojoules = 1'000'000'000'000 * (3 - step),
+                                                                 .solver_ns = 2'000'000};
+  }
+  for (const Kind kind : kinds_of_meshes)
+    statistics.counts[{"wang", kind, "scene:sim:cloths"}].times.nanoseconds = 2'250'000;
+  return statistics;
+}
+
+TEST(Simulations, HaveALineForEachSubject) {
+  const std::string text = simulation_tables(two_subjects());
+  EXPECT_THAT(text, ContainsRegex("scene:sim:cloths +steps +rounds +answered +unanswered"));
+  EXPECT_THAT(text,
+              ContainsRegex("basic +3 +6 +3,000 +0 +27 +30 +3 +0 +3 +70 +1 +2 +3 J +1 J +2 ms +0 ms\n"));
+  EXPECT_THAT(text, ContainsRegex(
+                        "wang +3 +9 +3,000 +15 +36 +30 +0 +6 +0 +0 +- +0 +5e-06 J +5e-06 J +0 ms +1.5 ms\n"));
+  EXPECT_EQ(simulation_tables({}), "");
+}
+
+TEST(Simulations, HaveAListForEachCounterInJson) {
+  const auto json = simulations_json(two_subjects())["scene:sim:cloths"];
+  EXPECT_EQ(json["basic"]["step"], (std::vector{0, 1, 2}));
+  EXPECT_EQ(json["basic"]["tangled"], (std::vector{0, 70, 2}));
+  EXPECT_EQ(json["wang"].size(), 12);
+}
+
+class OtherTables : public testing::TemporaryFolder {
+ protected:
+  /// Expects that `load` refuses a file that does not exist, and files with other content.
+  template <class Load>
+  void expect_refusal(const Load& load, const std::string& expected) {
+    EXPECT_REFUSED(load(file("none.json")), "none.json: cannot be read");
+    EXPECT_REFUSED(load(file("")), ": found a folder, expected a file");
+    std::filesystem::resize_file(write("sparse.json", ""), std::uintmax_t{1} << 31);
+    EXPECT_REFUSED(load(file("sparse.json")),
+                   "sparse.json: found 2147483648 bytes, expected at most 1073741824");
+    for (const char* text : {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]",
+                             "[{\"subject\": \"a\", \"flags\": \"b\"}]",
+                             R"([{"subject": "a", "way": "b", "time": "1s", "seed": 1, )"
+                             R"("failure": "c", "seconds": 1, "cases": 1e308}])"}) {
+      write("other.json", text);
+      EXPECT_REFUSED(load(file("other.json")), "expected " + expected) << text;
+    }
+  }
+};
+
+TEST_F(OtherTables, HuntsAreReadAsTheyAreWritten) {
+  const std::vector<Hunt> hunts{{"defect:vv", "search", "60s", 7, "refuted-bound", 1.5, 42, "f:1:0"},
+                                {"defect:mu", "uniform", "60s", 7}};
+  write("power.json", hunts_json(hunts).dump());
+  EXPECT_EQ(hunts_json(load_hunts(file("power.json"))), hunts_json(hunts));
+  expect_refusal(load_hunts, "what nearmiss power --json keeps");
+}
+
+TEST_F(OtherTables, AnEnvironmentGetsItsVerdict) {
+  const auto row = [](int missed, int faults, const std::string& first) {
+    return R"({"subject":"wang","compiler":"g++ 12.2.0","flags":"-O2","mode":"upward","queries":1000,)"
+           R"("collisions":500,"missed":)" +
+           std::to_string(missed) + R"(,"false_positives":10,"refuted_bounds":1,"faults":)" +
+           std::to_string(faults) + "%" + R"(,"first":)" + first + "}";
+  };
+  std::string expected = "[" + row(0, 0, "null") + "," + row(3, 1, R"("false-negative f:1:0")") + "," +
+                         row(0, 1, R"("fault f:1:1")") + "]";
+  std::string written = expected;
+  for (const char* verdict : {"keeps it", "misses", "gives no answer"}) {
+    expected.replace(expected.find('%'), 1, R"(,"verdict":")" + std::string(verdict) + '"');
+    written.erase(written.find('%'), 1);
+  }
+  write("environments.json", written);
+  EXPECT_EQ(load_environments(file("environments.json")), expected);
+  expect_refusal(load_environments, "the table of tools/environments");
 }
 
 }  // namespace

@@ -1,12 +1,15 @@
+#include "reports/sections/sections.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "corpus/query_text.hpp"
-#include "reports/sections/counts_json.hpp"
-#include "reports/sections/sections.hpp"
+#include "reports/sections/measures.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/text/json.hpp"
 #include "reports/text/text.hpp"
@@ -122,6 +125,86 @@ nlohmann::ordered_json funnels_json(const Statistics& statistics) {
   auto json = nlohmann::ordered_json::object();
   for (const auto& [key, funnel] : statistics.funnels) {
     json[key.first][std::string(short_name(key.second))] = funnel_json(funnel);
+  }
+  return json;
+}
+
+namespace {
+
+/// Totals and extremes over the steps of a simulation.
+struct Whole {
+  std::uint64_t steps = 0;
+  SimulatedStep sum, last;
+  std::uint64_t most_tangled = 0, most_picojoules = 0;
+  std::uint64_t subject_ns = 0;                ///< the time that the subject took for all its answers
+  std::optional<std::uint64_t> first_tangled;  ///< the number of the first step with tangles
+
+  void add(std::uint64_t number, const SimulatedStep& step) {
+    ++steps;
+    last = step;
+    most_picojoules = std::max(most_picojoules, step.picojoules);
+    SimulatedStep counts = step;
+    counts.picojoules = 0;  // a sum of the steps' energies means nothing
+    sum.merge(counts);
+    most_tangled = std::max(most_tangled, step.tangled);
+    if (step.tangled > 0 && !first_tangled) first_tangled = number;
+  }
+};
+
+Row row(const std::string& subject, const Whole& whole) {
+  const auto joules = [](std::uint64_t pico) {
+    return fmt::format("{:.3g} J", 1e-12 * static_cast<double>(pico));
+  };
+  const auto milliseconds = [&](std::uint64_t ns) {
+    return fmt::format("{:.3g} ms", 1e-6 * static_cast<double>(ns) / static_cast<double>(whole.steps));
+  };
+  const SimulatedStep& sum = whole.sum;
+  Row cells{subject};
+  for (const std::uint64_t number :
+       {whole.steps, sum.rounds, sum.queries, sum.unanswered, sum.positives, sum.collisions,
+        sum.false_negatives, sum.false_positives, sum.unresolved, whole.most_tangled})
+    cells.push_back(with_separators(number));
+  cells.insert(cells.end(),
+               {whole.first_tangled ? with_separators(*whole.first_tangled) : "-",
+                with_separators(whole.last.tangled), joules(whole.most_picojoules),
+                joules(whole.last.picojoules), milliseconds(sum.solver_ns), milliseconds(whole.subject_ns)});
+  return cells;
+}
+
+}  // namespace
+
+std::string simulation_tables(const Statistics& statistics) {
+  std::map<std::string, std::map<std::string, Whole>> scenes;
+  for (const auto& [key, step] : statistics.simulated) scenes[key.family][key.subject].add(key.step, step);
+  for (const auto& [key, counts] : statistics.counts)
+    if (const auto scene = scenes.find(key.family); scene != scenes.end())
+      if (const auto whole = scene->second.find(key.subject); whole != scene->second.end())
+        whole->second.subject_ns += counts.times.nanoseconds;
+  std::string text;
+  for (const auto& [scene, subjects] : scenes) {
+    std::vector<Row> rows{{scene, "steps", "rounds", "answered", "unanswered", "reported", "collisions",
+                           "missed", "false pos.", "unresolved", "tangled: most", "first in step",
+                           "at the end", "energy: most", "at the end", "a step: solver", "CCD"}};
+    for (const auto& [subject, whole] : subjects) rows.push_back(row(subject, whole));
+    text += "\n" + columns(rows, 1);
+  }
+  if (!text.empty())
+    text +=
+        "tangled: pairs of an edge and a triangle that pass through each other; unresolved: pairs that were "
+        "still "
+        "reported when a step ended;\nunanswered: pairs that the subject does not decide, or gave no answer "
+        "about\n";
+  return text;
+}
+
+nlohmann::ordered_json simulations_json(const Statistics& statistics) {
+  auto json = nlohmann::ordered_json::object();
+  for (const auto& [key, step] : statistics.simulated) {
+    auto& lists = json[key.family][key.subject];
+    lists["step"].push_back(key.step);
+    for_each_counter<SimulatedStep>([&lists, &counts = step](const auto& counter) {
+      lists[std::string(counter.json_key)].push_back(counts.*counter.member);
+    });
   }
   return json;
 }

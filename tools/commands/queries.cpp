@@ -1,16 +1,25 @@
-// nearmiss oracle: exact answers to queries.
+// nearmiss oracle, certify and verdict: exact answers to queries, proofs of them, and the answers of one
+// subject.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "ccd/query/error.hpp"
 #include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "oracle/agreement/answers.hpp"
 #include "oracle/agreement/checked.hpp"
+#include "oracle/certificates/certificate.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
@@ -22,9 +31,9 @@ namespace {
 
 // Values that --method takes in addition to the names of methods.
 constexpr const char* filtered = "filtered";
-constexpr const char* all = "all";
+constexpr const char* all_methods = "all";
 
-struct Options {
+struct OracleOptions {
   QueryInput input;
   std::string method = filtered;
   bool toi = false;
@@ -62,7 +71,7 @@ const char* show(const Answer& answer, Claim claim) {
 /// the answer that all exact methods give. Throws Disagreement for "all" if their answers differ.
 const char* answer_by(const std::string& method, const Query& query) {
   if (method == filtered) return show(to_answer(query, decide(query)), Claim::complete);
-  if (method == all) {
+  if (method == all_methods) {
     const Answers answers = ask_all(query);
     if (!disagreement(query, decide(query), answers).empty()) throw Disagreement(query);
     return show(answers.all().front(), Claim::complete);
@@ -75,7 +84,7 @@ const char* answer_by(const std::string& method, const Query& query) {
 std::vector<std::string> choices() {
   std::vector<std::string> names{filtered};
   for (const Method& method : methods()) names.emplace_back(method.name);
-  names.emplace_back(all);
+  names.emplace_back(all_methods);
   return names;
 }
 
@@ -89,10 +98,10 @@ std::string help_on_methods() {
                     "{}: all of these, compared. A parity method cannot distinguish an even number of roots "
                     "from no root; with certificate, a query without one has the answer -, and the exit code "
                     "is then 1",
-                    all);
+                    all_methods);
 }
 
-std::string answer(const Query& query, const Options& options) {
+std::string answer(const Query& query, const OracleOptions& options) {
   std::string line = answer_by(options.method, query);
   if (options.toi || options.rational) {
     auto time = earliest_time(query);
@@ -107,7 +116,7 @@ std::string answer(const Query& query, const Options& options) {
 }  // namespace
 
 void add_oracle(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<OracleOptions>();
   auto* command = app.add_subcommand(
       "oracle",
       "Decide queries exactly: one line each, 1 for a collision or a distance of at most h, 0 for none");
@@ -157,6 +166,131 @@ void add_oracle(CLI::App& app, int& exit_code) {
       exit_code = exit_found;
     }
   });
+}
+
+namespace {
+
+struct CertifyOptions {
+  QueryInput input;
+  bool toi = false;
+  bool distance = false;
+};
+
+Certificates statements_about(const Query& query, const CertifyOptions& options) {
+  Certificates all;
+  const auto add = [&](Certificates&& some) { std::ranges::move(some, std::back_inserter(all)); };
+  if (options.toi) add(certify_time(query));
+  if (options.distance) add(certify_distance(query));
+  if (all.empty()) all.push_back(certify(query));
+  return all;
+}
+
+/// The text that is printed if a statement about a query has no certificate: the reason.
+const char* why_none(const Query& query) {
+  return query.separation > 0
+             ? "no proof was found: perhaps the distance reaches h at an irrational time, and neither falls "
+               "below it nor stays at it"
+             : "no proof was found";
+}
+
+}  // namespace
+
+void add_certify(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CertifyOptions>();
+  auto* command = app.add_subcommand(
+      "certify",
+      "Prove the oracle's answers: one certificate a line, in JSON, which tools/certificates/ checks");
+  options->input.add_to(*command);
+  command->add_flag(
+      "--toi", options->toi,
+      "Prove the enclosure of the earliest time: nothing happens before it, and something in it");
+  command->add_flag("--distance", options->distance, "Prove the bounds of the smallest distance over [0, 1]");
+  command->footer(
+      "\nIf a statement has no certificate, its line has \"claim\":null and the reason, and the exit code is "
+      "1.\n"
+      "Example: nearmiss family uniform --kind vt --count 9 | nearmiss certify --kind vt > c.jsonl");
+  command->callback([options, &exit_code] {
+    std::size_t number = 0;
+    options->input.read([&](const Query& query) {
+      ++number;
+      for (const auto& each : statements_about(query, *options)) {
+        if (!each) exit_code = exit_found;
+        const std::string rest =
+            each ? each->substr(1) : fmt::format(R"("claim":null,"why":"{}"}})", why_none(query));
+        fmt::print("{{\"query\":\"{}\",{}\n", number, rest);
+      }
+    });
+  });
+}
+
+namespace {
+
+struct VerdictOptions {
+  QueryInput input;
+  std::string subject = "wang", bound;
+  PluginLimitOptions limits;
+  bool distance_bound = false;
+  bool rounded = false;
+};
+
+/// The bound B by which a false positive is judged: " B claimed" if the subject claims a bound, otherwise "
+/// B wang" with wang's bound.
+std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
+  const BoundAnswer answer = judge.ask_unit(query);
+  if (answer.fault == Fault::error)
+    throw Error(fmt::format("{}: found the distance bound {}, expected 0 or more", subject.name(),
+                            std::isnan(answer.bound) ? "NaN" : fmt::format("{}", answer.bound)));
+  if (answer.fault != Fault::none)
+    throw Error(fmt::format("{}: no distance bound: {}", subject.name(),
+                            fault_signature(subject, query.kind, answer.fault, answer.fault_code)));
+  return fmt::format(" {} {}", to_hex(answer.bound), subject.claims_bound() ? "claimed" : "wang");
+}
+
+void ask(const VerdictOptions& options) {
+  const auto subject = make_any_subject(options.subject, parse_bound(options.bound), options.limits.limits());
+  const Judge judge(*subject);
+  options.input.read([&](const Query& query) {
+    expect_kind(*subject, query.kind);
+    if (query.separation > 0) expect_separation(*subject, std::array{query.kind});
+    const Verdict verdict = subject->decide(query);
+    if (verdict.fault != Fault::none)
+      throw Error(fmt::format("{}: no answer: {}", subject->name(),
+                              fault_signature(query.kind, verdict, subject->fault_text(verdict))));
+    std::string line = "0";
+    if (verdict.hit)
+      line = fmt::format("1 {} {}", stage_names[static_cast<std::size_t>(verdict.stage)],
+                         std::isfinite(verdict.time) ? to_hex(verdict.time) : "nan");
+    const Query judged = subject->rounded(query);
+    if (options.distance_bound) line += show_distance_bound(*subject, judge, judged);
+    if (options.rounded) line += " " + to_line(judged);
+    fmt::print("{}\n", line);
+  });
+}
+
+}  // namespace
+
+void add_verdict(CLI::App& app, int& /*exit_code*/) {
+  auto options = std::make_shared<VerdictOptions>();
+  auto* command = app.add_subcommand(
+      "verdict",
+      "Let one subject decide queries: one line each, 0, or 1 with the accepting stage and the time");
+  options->input.add_to(*command);
+  command
+      ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
+      ->capture_default_str();
+  add_bound_option(*command, options->bound);
+  options->limits.add_to(*command);
+  command->add_flag(
+      "--distance-bound", options->distance_bound,
+      "Add the distance bound of false positives, and 'claimed', or 'wang' if it is wang's bound "
+      "because the subject claims none");
+  command->add_flag("--rounded", options->rounded,
+                    "Add the query as the subject rounds it, by which its answer is judged, with the "
+                    "separation unless it is 0");
+  command->footer(
+      "\nExample: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
+      "nearmiss verdict --kind vt --subject wang");
+  command->callback([options] { ask(*options); });
 }
 
 }  // namespace nearmiss::tools

@@ -1,12 +1,17 @@
-// --json FILE: results as JSON, in addition to the text that people read.
+// Where a command writes its results: --json FILE, and for systems of continuous integration --junit FILE and
+// --github. And --fail-on A,B: further failures for which a command exits with code 1.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "reports/campaign/campaign.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss::tools {
 
@@ -51,6 +56,39 @@ class JsonOutput {
 
  private:
   std::filesystem::path file_;
+};
+
+class CiOutput {
+ public:
+  /// Adds --junit and --github.
+  void add_to(CLI::App& command);
+
+  /// Throws Error if it is already clear that the file of --junit cannot be written, or if it is one of
+  /// `others`, such as the store.
+  void expect_writable(std::span<const OptionFile> others) const;
+
+  /// Writes the file and prints the annotations to `text`, each if its option is given. Throws Error if the
+  /// file cannot be written.
+  void write(const Campaign& campaign, const Failures& failing, std::FILE* text = stdout) const;
+
+ private:
+  std::filesystem::path junit_;
+  bool github_ = false;
+};
+
+/// The failures that count: the usual ones, and those that the user names.
+class FailOnOption {
+ public:
+  /// Adds --fail-on. The option throws Error for a name that no failure has.
+  void add_to(CLI::App& command);
+
+  [[nodiscard]] const Failures& failures() const { return failures_; }
+
+  /// exit_found if the statistics have a failure that counts, otherwise exit_fine.
+  [[nodiscard]] int exit_code(const Statistics& statistics) const;
+
+ private:
+  Failures failures_ = usual_failures();
 };
 
 }  // namespace nearmiss::tools

@@ -1,0 +1,49 @@
+// The files of a store: its lock, its logs, and the connections by which SQLite reads and writes it.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
+#include <string_view>
+
+namespace nearmiss {
+
+/// A lock held by the process that writes a file. While the process holds the lock, FILE.lock exists next to
+/// the file. A symbolic link to the file leads to the same lock. The system releases the lock however the
+/// process ends.
+class FileLock {
+ public:
+  /// Takes the lock. Throws Error if another process holds it, if it cannot be made, or if the file has a
+  /// second name (a hard link): another process could lock the file separately under that name.
+  explicit FileLock(const std::filesystem::path& file);
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+
+ private:
+  std::filesystem::path lock_;
+  int descriptor_ = -1;
+};
+
+/// The path of a store's log with this ending. SQLite keeps the log beside the store while a process writes
+/// it; if that process is killed, the log stays there.
+std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
+
+/// Opens a store to read it. This changes the store only if a process was killed while it wrote the file
+/// itself: SQLite then rolls back the unfinished change, by the journal beside the store.
+SQLite::Database open_to_read(const std::filesystem::path& file);
+
+/// A connection for writing.
+struct Connection {
+  Connection(const std::filesystem::path& file, int flags);
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection();
+
+  SQLite::Database db;
+};
+
+/// Whether a file is an empty database.
+bool is_empty_database(const std::filesystem::path& file);
+
+}  // namespace nearmiss

@@ -1,0 +1,35 @@
+// Times subjects side by side, for nearmiss bench.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fuzz/stop.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss::tools {
+
+/// Times of one subject on one input in ns per query, one entry for each run; NaN if the subject answered no
+/// query.
+using RunTimes = std::vector<double>;
+
+/// The measurements of one subject on one input, one entry for each run.
+struct Measured {
+  RunTimes times;
+  RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not give it
+  RunTimes
+      throughput;  ///< queries per second of wall-clock time through the subject's process; NaN without one
+  std::optional<Counts> judged = {};  ///< of the last run; only answered queries count
+};
+
+/// Whether some queries have a separation.
+bool any_separation(const std::vector<Query>& queries);
+
+/// Times the subjects by turns in every run, so that noise of the machine affects all of them alike. If
+/// `judges`, judges the answers of the last run. Adds each subject's queries and faults, and its misses if
+/// judged, to `answered`.
+std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
+                               bool judges, const Stop& stop, Statistics& answered);
+
+}  // namespace nearmiss::tools
