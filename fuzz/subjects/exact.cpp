@@ -76,10 +76,10 @@ class ExactSubject final : public Subject {
   /// reported.
   [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage, const KnownTime& time) const {
     if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(name_);
-    const Decision decision = settle(query, stage);
     const bool filtered = stage != FilterStage::undecided;
-    if (!decision.collision && !decision.is_tie)
-      return Verdict::rejected(filtered ? Rejection::filter : Rejection::exact);
+    if (filtered && !is_collision(stage)) return Verdict::rejected(Rejection::filter);
+    const Decision decision = settle(query, stage);
+    if (!decision.collision && !decision.is_tie) return Verdict::rejected(Rejection::exact);
     Verdict hit{.hit = true, .stage = filtered ? Stage::filter : Stage::exact};
     if (entry_.is_timed)
       hit.time = time.is_known_to(0) ? time.time.lo : EarliestTime(query, decision.known).enclosure().lo;

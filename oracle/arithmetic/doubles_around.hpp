@@ -1,6 +1,10 @@
-// The two neighbouring doubles around a double word.
+// Doubles near a number: the two neighbours of a double word, and the one with the fewest bits in an
+// interval.
 #pragma once
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "oracle/arithmetic/double_word.hpp"
@@ -20,6 +24,17 @@ template <class Half>
 std::pair<Half, Half> doubles_around(const DoubleWordOf<Half>& x) {
   const Half below = select(x.lo < 0, x.hi - to_next * x.hi, x.hi);
   return {below, below + to_next * below};
+}
+
+/// Guesses the number with the fewest bits between two positive numbers: the higher number, truncated after
+/// the first of 53 bits in which the two differ. If none of the 53 differs, the result is the higher number.
+inline double simplest_between(double lo, double hi) {
+  if (!(0 < lo && lo < hi)) return hi;
+  const int unit = std::ilogb(hi) - 52;
+  const auto a = static_cast<std::uint64_t>(std::ldexp(lo, -unit));
+  const auto b = static_cast<std::uint64_t>(std::ldexp(hi, -unit));
+  const std::uint64_t kept = a == b ? ~std::uint64_t{0} : ~(std::bit_floor(a ^ b) - 1);
+  return std::ldexp(static_cast<double>(b & kept), unit);
 }
 
 }  // namespace nearmiss::certified

@@ -156,9 +156,23 @@ Polynomial primitive(const Polynomial& p) {
   return Polynomial(std::move(coefficients));
 }
 
+namespace {
+
+/// The quotient of a polynomial and a linear factor of it, which has no content.
+Polynomial without_factor(const Polynomial& p, const Polynomial& factor) {
+  Numbers quotient(p.coefficients().begin() + 1, p.coefficients().end());
+  quotient.back() = quotient.back() / factor.leading();
+  for (std::size_t i = quotient.size() - 1; i > 0; --i)
+    quotient[i - 1] = (quotient[i - 1] - factor.coefficients()[0] * quotient[i]) / factor.leading();
+  return Polynomial(std::move(quotient));
+}
+
+}  // namespace
+
 Polynomial square_free(const Polynomial& p) {
   const Polynomial slope = p.derivative();
   if (are_coprime_by_residues(p, slope)) return p;
+  if (const auto factor = only_double_factor(p)) return without_factor(p, *factor);
   const Polynomial common = greatest_common_divisor(p, slope);
   return common.degree() < 1 ? p : primitive(divide(p, primitive(common)).quotient);
 }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "oracle/arithmetic/doubles_around.hpp"
 #include "oracle/exact/residues.hpp"
 
 namespace nearmiss::exact {
@@ -79,19 +80,6 @@ double value_at(const std::vector<double>& c, double s) {
   return value;
 }
 
-/// Guesses the number with the fewest bits between two positive numbers: the higher number, truncated after
-/// the first of 53 bits in which the two differ. If none of the 53 differs, the result is the higher number.
-double simplest_between(const Number& lower, const Number& higher) {
-  const double lo = CGAL::to_double(lower);
-  const double hi = CGAL::to_double(higher);
-  if (!(0 < lo && lo < hi)) return hi;
-  const int unit = std::ilogb(hi) - 52;
-  const auto a = static_cast<std::uint64_t>(std::ldexp(lo, -unit));
-  const auto b = static_cast<std::uint64_t>(std::ldexp(hi, -unit));
-  const std::uint64_t kept = a == b ? ~std::uint64_t{0} : ~(std::bit_floor(a ^ b) - 1);
-  return std::ldexp(static_cast<double>(b & kept), unit);
-}
-
 }  // namespace
 
 Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
@@ -118,10 +106,12 @@ Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   const Number width = from_hi ? lo - hi : hi - lo;
   if (!CGAL::is_zero(from)) shift(c, [&](const Number& each) { return each * from; });
   std::reverse(c.begin(), c.end());
-  Number power = 1;
-  for (std::size_t i = 1; i < c.size(); ++i) {
-    power = power * width;
-    c[i] = c[i] * power;
+  if (width != 1) {
+    Number power = 1;
+    for (std::size_t i = 1; i < c.size(); ++i) {
+      power = power * width;
+      c[i] = c[i] * power;
+    }
   }
   // The sum of a_i s^i is that of a_i s^i (s + (1 - s))^(n - i).
   shift(c, [](const Number& each) -> const Number& { return each; });
@@ -159,7 +149,7 @@ OnInterval OnInterval::part(const Number& from, const Number& to) const {
 }
 
 void OnInterval::round() {
-  constexpr std::ptrdiff_t kept_bits = 16'384;
+  constexpr std::ptrdiff_t kept_bits = 6'144;
   std::ptrdiff_t largest = std::numeric_limits<std::ptrdiff_t>::min();
   for (const Number& c : c_)
     if (!CGAL::is_zero(c)) largest = std::max(largest, exponent_above(c));
@@ -292,14 +282,15 @@ void Root::refine() {
   const Number lo = lo_;
   const Number width = hi_ - lo_;
   const OnInterval on(*p_, lo_, hi_);
-  if (const double s = on.guess_root(sign_at_lo_); std::min(s, 1 - s) < around) {
+  const double s = on.guess_root(sign_at_lo_);
+  if (std::min(s, 1 - s) < around) {
     if (const auto near_end = on.roots_near_end()) {
       lo_ = lo + near_end->lower * width;
       hi_ = lo + near_end->upper * width;
       return;
     }
   }
-  Number guess = Number(on.guess_root(sign_at_lo_));
+  Number guess = Number(s);
   Number unit = Number(around);
   // In a small interval p is nearly linear, so a step along the chord gives many more digits of the root.
   if (chord_steps_ > 1) {
@@ -314,7 +305,8 @@ void Root::refine() {
   const Number below = guess - radius;
   const Number above = guess + radius;
   // Roots are often numbers of few bits, and signs at such numbers are fast to compute.
-  for (const Number& at : {Number(simplest_between(below, above)), below, above})
+  for (const Number& at :
+       {Number(certified::simplest_between(CGAL::to_double(below), CGAL::to_double(above))), below, above})
     if (!is_number() && lo_ < at && at < hi_) cut(at);
   const bool found = hi_ - lo_ <= Number(2) * radius;
   chord_steps_ = found ? std::min(2 * chord_steps_, 64) : 1;
@@ -340,7 +332,7 @@ std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Po
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
   if (!is_number() && are_proportional(*p_, q)) return 0;
-  constexpr int patience = 2;  // two refinements, by 44 bits each, nearly always show a nonzero sign
+  constexpr int patience = 1;  // one refinement, by 44 bits, nearly always shows a nonzero sign
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;

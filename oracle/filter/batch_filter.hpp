@@ -43,6 +43,7 @@ class BatchFilter {
 
  private:
   using Real = Lanes<n>;
+  using Word = DoubleWordOf<Real>;
   using Mask = typename Real::Mask;
   using OfBatch = std::array<double, batch_size + n>;  ///< one number for each query
   static constexpr std::size_t weight_count = has_triangle(kind) ? 3 : 4;
@@ -162,50 +163,68 @@ class BatchFilter {
       auto F = coplanarity(p.a, p.b, p.c);
       F.error = caution_ * F.error;
       const auto [positive, negative] = certain_signs(F.b, F.error);
-      const Mask ends_known = (abs(F.b[0]) > F.error) & (abs(F.b[3]) > F.error);
       constexpr int one_sign = 1;
-      constexpr int known = 2;
       std::array<std::array<double, n>, 5> f;
       for (std::size_t c = 0; c < 4; ++c) F.b[c].store(f[c].data());
       F.error.store(f[4].data());
-      for_lanes((positive | negative).as(one_sign) | ends_known.as(known), rows.size() - i,
-                [&](std::size_t l, std::int64_t code) {
-                  const std::size_t row = rows[i + l];
-                  stages[row] = (code & one_sign) != 0 ? FilterStage::one_sign : FilterStage::undecided;
-                  if (code != known) return;
-                  for (std::size_t c = 0; c < 5; ++c) F_[c][left.size()] = f[c][l];
-                  left.add(row);
-                });
+      for_lanes((positive | negative).as(one_sign), rows.size() - i, [&](std::size_t l, std::int64_t code) {
+        const std::size_t row = rows[i + l];
+        stages[row] = code == one_sign ? FilterStage::one_sign : FilterStage::undecided;
+        if (code == one_sign) return;
+        for (std::size_t c = 0; c < 5; ++c) F_[c][left.size()] = f[c][l];
+        left.add(row);
+      });
     }
     return left;
   }
+
+  /// Turns vectors so that the component in which the normal is largest at some time comes first. Only the
+  /// other two are kept, because the weights need no more.
+  class Turn {
+   public:
+    /// From vectors at that time, times the same factor.
+    Turn(const Vec<Real>& x21, const Vec<Real>& x31, const Vec<Real>& a) {
+      const Vec<Real> x32 = x31 - x21;
+      Vec<Real> normal;
+      for (std::size_t k = 0; k < 3; ++k)
+        normal[k] = abs(has_triangle(kind) ? cross_component(x21, x31, k) : cross_component(a, x32, k));
+      first_ = !(normal[0] < max(normal[1], normal[2]));
+      second_ = !(normal[1] < normal[2]);
+    }
+
+    /// The weights over a part of the step.
+    template <class Number>
+    [[nodiscard]] Weights<Number> weights(const StepPart<Number>& p) const {
+      const auto turn = [&](const Motion<Number>& m) {
+        return Motion<Number>{choose(m.start), choose(m.end), choose(m.magnitude), m.rounded_once,
+                              m.rounded_once ? m.error : choose(m.error)};
+      };
+      return {kind, {p.begin, p.end, turn(p.a), turn(p.b), turn(p.c), turn(p.x21), turn(p.x31)}, 0};
+    }
+
+   private:
+    [[nodiscard]] Real either(const Mask& mask, const Real& x, const Real& y) const {
+      return select(mask, x, y);
+    }
+    [[nodiscard]] Word either(const Mask& mask, const Word& x, const Word& y) const {
+      return {select(mask, x.hi, y.hi), select(mask, x.lo, y.lo)};
+    }
+    template <class Number>
+    [[nodiscard]] Vec<Number> choose(const Vec<Number>& v) const {
+      return {Number(0), either(first_, v[1], either(second_, v[2], v[0])),
+              either(first_, v[2], either(second_, v[0], v[1]))};
+    }
+
+    Mask first_, second_;
+  };
 
   /// Stores the weights in the component in which the normal is largest at t = 1/2.
   void prepare_weights(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const StepPart<Real> whole = whole_step<Real>(points(rows.pack(i)));
-      const auto twice_middle = [](const Motion<Real>& m) {
-        return Vec<Real>{m.start[0] + m.end[0], m.start[1] + m.end[1], m.start[2] + m.end[2]};
-      };
-      const Vec<Real> x21 = twice_middle(whole.x21);
-      const Vec<Real> x31 = twice_middle(whole.x31);
-      const Vec<Real> a = twice_middle(whole.a);
-      const Vec<Real> x32{x31[0] - x21[0], x31[1] - x21[1], x31[2] - x21[2]};
-      Vec<Real> normal;
-      for (std::size_t k = 0; k < 3; ++k)
-        normal[k] = abs(has_triangle(kind) ? cross_component(x21, x31, k) : cross_component(a, x32, k));
-      const Mask first = !(normal[0] < max(normal[1], normal[2]));
-      const Mask second = !(normal[1] < normal[2]);
-      // Rotates the components so that k comes first; only the other two are needed.
-      const auto choose = [&](const Vec<Real>& v) {
-        return Vec<Real>{Real(0), select(first, v[1], select(second, v[2], v[0])),
-                         select(first, v[2], select(second, v[0], v[1]))};
-      };
-      const auto turn = [&](const Motion<Real>& m) {
-        return Motion<Real>{choose(m.start), choose(m.end), choose(m.magnitude), true, {}};
-      };
-      const Weights<Real> weights(
-          kind, {0, 1, turn(whole.a), turn(whole.b), turn(whole.c), turn(whole.x21), turn(whole.x31)}, 0);
+      const auto twice_middle = [](const Motion<Real>& m) { return m.start + m.end; };
+      const Turn turn(twice_middle(whole.x21), twice_middle(whole.x31), twice_middle(whole.a));
+      const Weights<Real> weights = turn.weights(whole);
       for (std::size_t w = 0; w < weight_count; ++w) {
         for (std::size_t c = 0; c < 3; ++c) weights.w[w].b[c].store(&W_[4 * w + c][i]);
         (caution_ * weights.w[w].error).store(&W_[4 * w + 3][i]);
@@ -241,7 +260,7 @@ class BatchFilter {
     /// Adds the part [lo, hi] of `whole` if it is not empty; false if there is no room or the part is too
     /// small.
     bool push(const PendingPart& whole, double lo, double hi) {
-      constexpr std::uint8_t deepest = 8;
+      constexpr std::uint8_t deepest = 6;
       if (whole.depth == deepest || count == room) return false;
       if (lo < hi) parts[count++] = {lo, hi, whole.place, static_cast<std::uint8_t>(whole.depth + 1)};
       return true;
@@ -262,6 +281,8 @@ class BatchFilter {
       std::fill_n(parts.parts.begin() + parts.count, n, PendingPart{0, 1, 0, 0});
       look_at_parts(parts, rows, stages, next);
     }
+    std::fill_n(precise_.parts.begin() + precise_.count, n, PendingPart{0, 1, 0, 0});
+    for (std::size_t i = 0; i < precise_.count; i += n) look_precisely(i, rows, stages, next);
   }
 
   void look_at_steps(const Rows& rows, FilterStage* stages, PendingParts& next) {
@@ -284,6 +305,42 @@ class BatchFilter {
       const auto part = [&](std::size_t l) { return pack[l]; };
       take_over(look(F, weights, lo, hi, asks_first_), parts.count - i, part, rows, stages, next);
     }
+  }
+
+  /// Looks in double words at the weights near roots at which double does not show their signs.
+  void look_precisely(std::size_t i, const Rows& rows, FilterStage* stages, PendingParts& next) {
+    const PendingPart* const pack = &precise_.parts[i];
+    const auto take = [&](const OfBatch& c) {
+      return Real::gather([&](std::size_t l) { return c[pack[l].place]; });
+    };
+    std::array<std::uint8_t, n> packed;
+    for (std::size_t l = 0; l < n; ++l) packed[l] = static_cast<std::uint8_t>(rows[pack[l].place]);
+    const StepPart<Word> whole = whole_step<Word>(points(packed.data()));
+    const Bernstein<Real, 4> F{{take(F_[0]), take(F_[1]), take(F_[2]), take(F_[3])}, take(F_[4])};
+    const Neighbours<Real> near =
+        neighbours_of_root(whole, F, Real::gather([&](std::size_t l) { return pack[l].lo; }),
+                           Real::gather([&](std::size_t l) { return pack[l].hi; }));
+    const auto part = [&](const Motion<Word>& motion) { return part_of(motion, near.lo, near.hi); };
+    const StepPart<Word> p{
+        0, 1, part(whole.a), part(whole.b), part(whole.c), part(whole.x21), part(whole.x31)};
+    const auto at = [&](const Motion<Word>& m) {
+      return Vec<Real>{m.start[0].hi, m.start[1].hi, m.start[2].hi};
+    };
+    const Weights<Word> weights = Turn(at(p.x21), at(p.x31), at(p.a)).weights(p);
+    Quadratics approximate_weights;
+    for (std::size_t w = 0; w < weight_count; ++w)
+      approximate_weights[w] = {{weights.w[w].b[0].hi, weights.w[w].b[1].hi, weights.w[w].b[2].hi},
+                                weights.w[w].error};
+    const auto signs =
+        weight_signs(approximate_weights, [](const auto& w) { return certain_signs(w.b, w.error); });
+    Look seen;
+    seen.left = near.lo;
+    seen.right = near.hi;
+    const Mask agree = near.hold & signs.agree;
+    seen.outcome = agree.as(Look::collision | Look::bracket) |
+                   (!(agree | (near.hold & signs.opposed))).as(Look::unknown);
+    take_over(
+        seen, precise_.count - i, [&](std::size_t l) { return pack[l]; }, rows, stages, next);
   }
 
   /// Sets the stages and first contacts from the results for n parts, and adds the parts to examine next.
@@ -312,6 +369,8 @@ class BatchFilter {
         if (!next.push(part, lo, hi)) leave_unclear();
       };
       if ((outcome & Look::unknown) != 0) leave_unclear();
+      if ((outcome & Look::precise) != 0 && (caution_ > 1 || !precise_.push(part, left[l], right[l])))
+        leave_unclear();
       if ((outcome & Look::before) != 0) push(part.lo, left[l]);
       if ((outcome & Look::middle) != 0) push(left[l], right[l]);
       if ((outcome & Look::behind) != 0) push(right[l], part.hi);
@@ -347,6 +406,7 @@ class BatchFilter {
   // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
   std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error
   std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
+  PendingParts precise_;                     ///< parts for look_precisely()
   // For each query, the bracket around the first contact that has been found, and the beginning of the first
   // part that is unclear; 1 if there is none.
   OfBatch first_lo_, first_hi_, unclear_from_;

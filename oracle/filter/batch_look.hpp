@@ -72,25 +72,37 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
 }
 
 /// The outcome for a part of the step, and which of its parts must be examined next: [lo, left], [left,
-/// right] and [right, hi]. With `bracket`, there is a collision in [left, right].
+/// right] and [right, hi]. With `bracket`, there is a collision in [left, right]. With `precise`, F has a
+/// root there, but double does not show the signs of the weights.
 template <int n>
 struct Look {
-  enum : std::int64_t { collision = 1, unknown = 2, before = 4, middle = 8, behind = 16, bracket = 32 };
+  enum : std::int64_t {
+    collision = 1,
+    unknown = 2,
+    before = 4,
+    middle = 8,
+    behind = 16,
+    bracket = 32,
+    precise = 64
+  };
   typename Lanes<n>::Integers outcome;
   Lanes<n> left, right;
 };
 
-/// The lanes in which the signs of F at both ends of a part are known, and those in which they differ.
+/// The lanes in which the sign of F is known at the left end, at the right end and at both ends of a part,
+/// and those in which the signs differ.
 template <int n>
 struct EndSigns {
-  typename Lanes<n>::Mask rises, changes, known;
+  typename Lanes<n>::Mask rises, changes, left_known, right_known, known;
 
   EndSigns(const Lanes<n>& at_left, const Lanes<n>& at_right, const Lanes<n>& error) {
     const Signs<n> at_lo = certain_signs(std::array{at_left}, error);
     const Signs<n> at_hi = certain_signs(std::array{at_right}, error);
     rises = at_lo.negative & at_hi.positive;
     changes = rises | (at_lo.positive & at_hi.negative);
-    known = (at_lo.positive | at_lo.negative) & (at_hi.positive | at_hi.negative);
+    left_known = at_lo.positive | at_lo.negative;
+    right_known = at_hi.positive | at_hi.negative;
+    known = left_known & right_known;
   }
 };
 
@@ -133,6 +145,19 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
   return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
 }
 
+/// The lanes in which two weights certainly have opposite signs at each end of [lo, hi] at which the sign of
+/// F is not known. So there is no contact at these ends, and smaller parts may show more.
+template <int n, std::size_t count>
+typename Lanes<n>::Mask opposed_at_unknown_ends(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
+                                                const EndSigns<n>& ends, const Lanes<n>& lo,
+                                                const Lanes<n>& hi) {
+  const auto opposed_at = [&](const Lanes<n>& t) {
+    return weight_signs(weights, [&](const auto& w) { return certain_signs(std::array{w.at(t)}, w.error); })
+        .opposed;
+  };
+  return (ends.left_known | opposed_at(lo)) & (ends.right_known | opposed_at(hi));
+}
+
 /// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is
 /// asked for, a part with a collision but without a bracket must be divided, and the part before a bracket
 /// must be examined next.
@@ -160,12 +185,16 @@ Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n
   const Mask bracketed = changes & root.holds & (in_all.agree | near.agree);
   const Mask found = bracketed | (changes & in_all.agree);
   const Mask asked(asks_first);
-  const Mask go_on = ends.known & (!dropped) & (!(bracketed | (found & (!asked))));
+  Mask can_divide = ends.known;
+  if (any_of((!ends.known) & (!dropped))) can_divide = opposed_at_unknown_ends(weights, ends, lo, hi);
+  const Mask go_on = can_divide & (!dropped) & (!(bracketed | (found & (!asked))));
+  const Mask unsure = go_on & root.holds & (!near.opposed);
+  const Mask narrow = root.h < 0x1p-40;
   result.outcome =
       found.as(Look<n>::collision) | bracketed.as(Look<n>::bracket) |
-      ((!ends.known) & (!dropped)).as(Look<n>::unknown) |
+      ((!can_divide) & (!dropped)).as(Look<n>::unknown) |
       ((go_on | (bracketed & asked)) & (!(before.positive | before.negative))).as(Look<n>::before) |
-      (go_on & root.holds & (!near.opposed)).as(Look<n>::middle) |
+      (unsure & (!narrow)).as(Look<n>::middle) | (unsure & narrow).as(Look<n>::precise) |
       (go_on & (!(behind.positive | behind.negative))).as(Look<n>::behind);
   return result;
 }

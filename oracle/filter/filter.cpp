@@ -4,25 +4,40 @@
 #include <cmath>
 
 #include "ccd/query/arithmetic.hpp"
+#include "ccd/query/lanes.hpp"
+#include "oracle/arithmetic/doubles_around.hpp"
 #include "oracle/filter/box.hpp"
-#include "oracle/filter/end_contact.hpp"
 #include "oracle/filter/instruction_sets.hpp"
 #include "oracle/filter/neighbours.hpp"
 #include "oracle/filter/planes.hpp"
 #include "oracle/filter/search.hpp"
+#include "oracle/filter/sure_contact.hpp"
 
 namespace nearmiss {
 
 namespace certified {
 namespace {
 
-template <Kind kind, class Points>
-bool separated_by_a_plane(const Points& x) {
-  return separated_across_axes<kind>(x) || separated_across_diagonals<kind>(x);
+/// Whether a plane perpendicular to an axis or a diagonal separates the primitives; two directions side by
+/// side.
+template <Kind kind>
+bool separated_by_a_plane(const Query& query) {
+  using Two = Lanes<2>;
+  const auto across = [&](const auto& height) {
+    return any_of(is_separated<kind>(
+        [&](std::size_t time, std::size_t vertex) { return height(&query.x[12 * time + 3 * vertex]); },
+        IsAbove{}));
+  };
+  const auto xy = [](const double* p) { return Two::load(p); };
+  const auto yz = [](const double* p) { return Two::load(p + 1); };
+  return across(xy) || across(yz) || across([&](const double* p) { return xy(p) + yz(p); }) ||
+         across([&](const double* p) { return xy(p) - yz(p); }) || across([](const double* p) {
+           return Two::gather([&](std::size_t lane) { return lane == 0 ? p[2] + p[0] : p[2] - p[0]; });
+         });
 }
 
-/// The result of a search, and an interval that contains the first contact, if there is one and its time is
-/// asked for; no interval if there certainly is none.
+/// The result of a search, and an interval that contains the first contact, if there is one; no interval if
+/// there certainly is none. If the time is not asked for, it is an interval that is unclear, or nothing.
 struct Found {
   FilterStage stage;
   std::optional<KnownTime> time;
@@ -44,29 +59,30 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return search(query, F, whole).stage;
 }
 
-/// The neighbouring doubles around the first contact, if it is in an interval and this can be shown.
-/// Everything is inlined, so that the compiler drops what this one root does not need.
+/// The neighbouring doubles around the first contact, or a double at which it is, if it is in an interval and
+/// this can be shown. Everything is inlined, so that the compiler drops what this one root does not need.
 [[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
                                                              const Bernstein<double, 4>& F,
                                                              const Enclosure& time) {
   const auto [lo, hi, hold] =
       neighbours_of_root(whole_step<DoubleWord>(coordinates(query)), F, time.lo, time.hi);
-  if (!hold) return std::nullopt;
-  return KnownTime{{lo, hi}, true};
+  if (hold) return KnownTime{{lo, hi}, true};
+  // If F is monotone, a touch is its only root.
+  const double t = simplest_between(time.lo, time.hi);
+  if (derivative(F).sign_on(time.lo, time.hi) == 0 || !touch_at(query, t)) return std::nullopt;
+  return KnownTime{{t, t}};
 }
 
 /// Decides a query whose F may have a root. If `time` is not null, it also sets the time of the first
 /// contact if neighbouring doubles are known between which it lies.
 [[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
                                                         const Bernstein<double, 4>& F, KnownTime* time) {
-  const auto touches_at = [&](int end) {
-    return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error) && touch_at_end(query, end);
-  };
-  if (touches_at(0)) {
+  const auto may_touch_at = [&](int end) { return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error); };
+  if (may_touch_at(0) && touch_at(query, 0)) {
     if (time != nullptr) *time = {{0, 0}};
     return FilterStage::at_an_end;
   }
-  if (time == nullptr && touches_at(1)) return FilterStage::at_an_end;
+  if (time == nullptr && may_touch_at(1) && touch_at(query, 1)) return FilterStage::at_an_end;
   Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
   if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
@@ -74,7 +90,10 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
     if (!found.time->is_between) found = search(query, F, whole);
   }
   if (found.stage != FilterStage::undecided) return found.stage;
-  if (time != nullptr && touches_at(1)) return FilterStage::at_an_end;
+  if ((time != nullptr && may_touch_at(1) && touch_at(query, 1)) ||
+      (found.time && touch_at(query, simplest_between(found.time->time.lo, found.time->time.hi))) ||
+      crosses_in_a_plane(query))
+    return FilterStage::at_an_end;
   return search_in_double_words(query);
 }
 
@@ -105,27 +124,29 @@ void filter_all(const QueryRows& queries, double caution, std::span<FilterStage>
   const PlainArithmetic guard;
   if (!is_finite(query)) return FilterStage::undecided;
   const auto x = coordinates(query);
-  if (with_kind(query.kind, [&]<Kind kind>() { return separated_by_a_plane<kind>(x); }))
+  if (with_kind(query.kind, [&]<Kind kind>() { return separated_by_a_plane<kind>(query); }))
     return FilterStage::planes;
-  StepPart<double> whole{
-      0, 1, difference<double>(x, 1, 0), difference<double>(x, 2, 0), difference<double>(x, 3, 0), {}, {}};
+  const auto whole = whole_step<double>(x);
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
-  whole.x21 = difference<double>(x, 2, 1);
-  whole.x31 = difference<double>(x, 3, 1);
   return look_closer(query, whole, F, time);
 }
 
 /// Decides many queries, and finds the times of their first contacts if `times` is not empty.
 void filter(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
             Instructions instructions) {
+  const PlainArithmetic guard;
   filter_all(queries, 1, stages, times, instructions);
   for (std::size_t i = 0; i < queries.size(); ++i)
     if (stages[i] == FilterStage::undecided) {
       const Query query = queries[i];
-      if (is_finite(query))
-        stages[i] =
-            boxes_meet(query) ? filter(query, times.empty() ? nullptr : &times[i]) : FilterStage::boxes;
+      if (!is_finite(query)) continue;
+      if (!boxes_meet(query))
+        stages[i] = FilterStage::boxes;
+      else if (times.empty() && crosses_in_a_plane(query))  // saves a search, which is likely to fail
+        stages[i] = FilterStage::at_an_end;
+      else
+        stages[i] = filter(query, times.empty() ? nullptr : &times[i]);
     }
 }
 
@@ -146,7 +167,7 @@ std::optional<KnownTime> time_of_contact(const Query& query, double width) {
   const auto whole = whole_step<double>(coordinates(query));
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return std::nullopt;
-  if (!(std::abs(F.b[0]) > F.error) && touch_at_end(query, 0)) return KnownTime{{0, 0}};
+  if (!(std::abs(F.b[0]) > F.error) && touch_at(query, 0)) return KnownTime{{0, 0}};
   const auto time = search(query, F, whole, Asked::when).time;
   if (!time || time->time.hi - time->time.lo <= width) return time;
   const bool is_precise = width < rough_time;

@@ -21,7 +21,7 @@ enum class FilterStage : std::uint8_t {
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: two weights have opposite signs at every time at which F may vanish
   sign_change,  ///< yes: F changes its sign where all weights are inside
-  at_an_end,    ///< yes: the primitives touch at t = 0 or t = 1, by exact predicates
+  at_an_end,    ///< yes: they touch where F or a weight is exactly 0, as at t = 0 or 1 (sure_contact.hpp)
   apart,        ///< no: the distance is always above the separation h > 0
   within,       ///< yes: the distance falls below the separation h > 0
   undecided,    ///< exact arithmetic must decide

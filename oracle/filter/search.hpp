@@ -37,15 +37,16 @@ class ContactSearch {
     int budget = F_.error < HUGE_VAL ? 64 : 0;  // nothing can be said after overflow
     push({0, 1});
     while (count_ > 0) {
-      const Enclosure interval = intervals_[--count_];
+      --count_;
+      const Enclosure interval{lo_[count_], hi_[count_]};
       const FilterStage stage = budget-- > 0 ? look(interval) : unclear(interval);
       if (stage != FilterStage::weights) return stage;
     }
     return found_ ? FilterStage::sign_change : unclear_ ? FilterStage::undecided : FilterStage::weights;
   }
 
-  /// An interval of the step that contains the time of the first contact in this part, if there is one.
-  /// Requires that the search was asked for a time.
+  /// An interval of the step that contains the time of the first contact in this part, if there is one. If
+  /// the search was not asked for a time, it is the interval that is unclear, or nothing.
   [[nodiscard]] std::optional<Enclosure> first() const {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
@@ -93,8 +94,8 @@ class ContactSearch {
   /// The Bernstein coefficients of F as seen from the other end of an interval.
   static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
 
-  /// Estimates where in an interval, as a fraction of its length, |F| begins to exceed its error by the factor
-  /// `clear`. The term that rises fastest decides.
+  /// Estimates where in an interval, as a fraction of its length, |F| begins to exceed its error by the
+  /// factor `clear`. The term that rises fastest decides.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
     const Powers<double> F = in_powers(f);
     const double rise = clear * F_.error;
@@ -213,15 +214,13 @@ class ContactSearch {
 
   /// Notes that it is not known whether there is a contact in an interval.
   FilterStage unclear(const Enclosure& interval) {
-    if (asked_ == Asked::whether) return FilterStage::undecided;
     return unclear_in_step(in_step(interval, is_whole() ? 0 : zoom_rounding));
   }
 
   FilterStage unclear_in_step(const std::optional<Enclosure>& time) {
-    if (asked_ == Asked::whether) return FilterStage::undecided;
     if (!unclear_) unclear_ = time;
     unclear_ = Enclosure{std::min(unclear_->lo, time->lo), std::max(unclear_->hi, time->hi)};
-    return FilterStage::weights;
+    return asked_ == Asked::whether ? FilterStage::undecided : FilterStage::weights;
   }
 
   /// Searches the interval as a part of its own, if it is much smaller than this part.
@@ -254,8 +253,9 @@ class ContactSearch {
   }
 
   bool push(const Enclosure& interval) {
-    if (count_ == intervals_.size()) return false;
-    intervals_[count_++] = interval;
+    if (count_ == lo_.size()) return false;
+    lo_[count_] = interval.lo;
+    hi_[count_++] = interval.hi;
     return true;
   }
 
@@ -272,7 +272,7 @@ class ContactSearch {
   std::optional<Enclosure> unclear_;  ///< in the time of the step; contains all unclear intervals
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;
-  std::array<Enclosure, 64> intervals_;
+  std::array<double, 64> lo_, hi_;  ///< the first `count_` intervals are still to be searched
   std::size_t count_ = 0;
 };
 

@@ -37,8 +37,7 @@ struct SubjectNight {
   bool clean = true;
   std::string text;  ///< its verdict
   std::optional<double> queries = {}, false_positive_rate = {}, ns_per_query = {};
-  std::map<std::string, std::pair<double, double>> missed =
-      {};  ///< by class: how many of how many collisions
+  std::map<std::string, std::pair<double, double>> missed = {};  ///< by class: misses, and collisions
 };
 
 /// A campaign and what its report says.

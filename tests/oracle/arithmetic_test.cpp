@@ -23,8 +23,8 @@ std::vector<Query> close_calls() {
   std::vector<Query> queries;
   for (const double scale : {1.0, 0x1p-1000, 0x1p-1021, 0x1p-1050, 0x1p-1070})
     for (const double z : {0.0, 1.0, -1.0})
-      for (const Query& query :
-           {falling_vertex(0.25, 0.5, 8, z), falling_vertex(1.25, 0, 8, z), falling_edge(8, z)})
+      for (const Query& query : {falling_vertex(0.25, 0.5, 8, z), falling_vertex(0, 0.5, 8, z),
+                                 falling_vertex(1.25, 0, 8, z), falling_edge(8, z)})
         queries.push_back(testing::scaled(query, scale));
   for (const double tiny : {0x1p-1074, 0x1p-60})
     for (const Query& query :

@@ -55,9 +55,35 @@ TEST(Filter, DecidesPlainQueries) {
   EXPECT_EQ(filter(falling_edge(0, 1)), FilterStage::at_an_end);
 }
 
-TEST(Filter, LeavesWhatTouchesOnlyToExactArithmetic) {
-  EXPECT_EQ(filter(testing::falling_vertex(0.5, 0.5, 1, -1)), FilterStage::undecided);
-  EXPECT_EQ(filter(Query{}), FilterStage::undecided);
+TEST(Filter, DecidesWhatTouchesAtADouble) {
+  const auto touches = [](const Query& query, const Enclosure& first) {
+    KnownTime time;
+    EXPECT_EQ(filter(query), FilterStage::at_an_end);
+    EXPECT_EQ(filter_for_time(query, time), FilterStage::at_an_end);
+    EXPECT_EQ(time.time, first);
+  };
+  touches(testing::falling_vertex(0.5, 0.5, 1, 0), {1, 1});
+  touches(testing::falling_vertex(0.5, 0.5, 1, -1), {0.5, 0.5});  // on an edge
+  touches(testing::falling_vertex(0.5, 0.5, 3, -5), {0.375, 0.375});
+  touches(Query{}, {0, 0});
+  touches({.kind = Kind::edge_edge}, {0, 0});
+  const Vector3<double> o(0, 0, 0), a(1, 0, 0);
+  touches(testing::make_query(Kind::vertex_triangle, {{0.25, 0.5, -0.25}, o, a, {0, 1, -1}},
+                              {{0.25, 0, 0.25}, o, a, {0, 1, 1}}),
+          {0, 1});  // 0.5 is a double root
+}
+
+TEST(Filter, DecidesWhatCrossesAnEdgeInAPlaneAcrossAnAxis) {
+  KnownTime time;
+  EXPECT_EQ(filter(testing::falling_vertex(0, 0.5, 1, -2)), FilterStage::at_an_end);
+  EXPECT_EQ(filter_for_time(testing::falling_vertex(0, 0.5, 1, -2), time), FilterStage::at_an_end);
+  EXPECT_EQ(time.time, (Enclosure{0x1.5555555555555p-2, 0x1.5555555555556p-2}));
+  EXPECT_EQ(filter(testing::falling_vertex(0x1p-1000, 0.5, 1, -2)), FilterStage::sign_change);
+  EXPECT_EQ(filter(testing::falling_vertex(-0x1p-1000, 0.5, 1, -2)), FilterStage::planes);
+}
+
+TEST(Filter, LeavesWhatTouchesAtAnotherTimeToExactArithmetic) {
+  EXPECT_EQ(filter(testing::falling_vertex(0.5, 0.5, 1, -2)), FilterStage::undecided);
 }
 
 // --- many at once -----------------------------------------------------------------------------------------
@@ -80,6 +106,8 @@ TEST(BatchFilter, AnswersAsTheFilterOfOneQuery) {
   std::size_t decided = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const FilterStage alone = filter(queries[i]);
+    const bool is_separated = stages[i] == FilterStage::boxes || stages[i] == FilterStage::planes;
+    ASSERT_EQ(alone == FilterStage::planes, is_separated) << testing::repeat(i, queries[i]);
     if (stages[i] == FilterStage::undecided) {
       ASSERT_EQ(alone, FilterStage::undecided) << testing::repeat(i, queries[i]);
     }
@@ -121,6 +149,19 @@ TEST(BatchFilter, NeverContradictsExactArithmetic) {
   const auto queries = hard_queries(6, 30000);
   const auto stages = filter_all(queries, widest_instructions());
   for (std::size_t i = 0; i < queries.size(); ++i) ASSERT_TRUE(is_right(stages[i], i, queries[i]));
+}
+
+TEST(BatchFilter, LooksInDoubleWordsNearARoot) {
+  // The vertex falls within an ulp of the triangle's longest edge, and reaches the plane at t = 1/3.
+  const std::vector<Query> queries{testing::falling_vertex(0.5, 0.5 - 0x1p-54, 1, -2),
+                                   testing::falling_vertex(0.5, 0.5 + 0x1p-53, 1, -2),
+                                   testing::falling_vertex(0.5, 0.5, 1, -2)};
+  std::vector<FilterStage> stages(queries.size());
+  filter_with_caution(queries, 1, stages);
+  EXPECT_THAT(stages,
+              ::testing::ElementsAre(FilterStage::sign_change, FilterStage::weights, FilterStage::undecided));
+  filter_with_caution(queries, 2, stages);
+  EXPECT_THAT(stages, ::testing::Each(FilterStage::undecided));
 }
 
 TEST(BatchFilter, InstructionsChangeNothing) {

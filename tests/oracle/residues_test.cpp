@@ -42,6 +42,29 @@ TEST(Residues, ShowNothingIfThePrimeDividesALeadingCoefficient) {
   const Number prime(2147483647.0);
   const Polynomial factor({Number(1), prime});  // its residue is the constant 1
   EXPECT_FALSE(are_coprime_by_residues(factor, factor * factor));
+  EXPECT_FALSE(only_double_factor(factor * factor));
+}
+
+TEST(Residues, FindTheFactorOfTheOnlyDoubleRoot) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Random random(seed, 2, i);
+    const Polynomial factor = random_polynomial(random, 1);
+    const Polynomial other = random_polynomial(random, 1);
+    const Polynomial rest = random_polynomial(random, random.integer(0, 4));
+    const Polynomial p = factor * factor * rest;
+    const auto found = only_double_factor(p);
+    ASSERT_TRUE(found && are_proportional(*found, factor)) << i;
+    EXPECT_TRUE(are_proportional(square_free(p), factor * rest)) << i;
+    EXPECT_FALSE(only_double_factor(factor * rest)) << i;
+    EXPECT_FALSE(only_double_factor(p * factor)) << i;
+    EXPECT_FALSE(only_double_factor(p * other * other)) << i;
+  }
+}
+
+TEST(Residues, RefuseARootThatIsDoubleOnlyModuloThePrime) {
+  const Number prime(2147483647.0);
+  EXPECT_FALSE(only_double_factor(Polynomial({prime, Number(0), Number(1)})));
+  EXPECT_FALSE(only_double_factor(Polynomial({prime - Number(2), Number(5), Number(-4), Number(1)})));
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// Contacts that no search in floating-point arithmetic finds, because F or a weight is exactly zero there.
+#pragma once
+
+#include "ccd/query/query.hpp"
+
+namespace nearmiss::certified {
+
+/// Whether the primitives touch at a time in [0, 1], by exact predicates. The answer is exact if all vertices
+/// have doubles as coordinates at that time, as they have at t = 0 and t = 1; otherwise it is false.
+bool touch_at(const Query& query, double time);
+
+/// Whether a vertex certainly crosses an edge of the other primitive while both stay in a plane that is
+/// perpendicular to an axis, and may move along it. Scenes of boxes and grids have many such contacts.
+bool crosses_in_a_plane(const Query& query);
+
+}  // namespace nearmiss::certified
