@@ -145,6 +145,11 @@ class Subject {
     return BoundAnswer::given(distance_bound(query));
   }
 
+  /// bounds[i] = ask_bound(queries[i]); both spans have the same length.
+  virtual void ask_bounds(std::span<const Query> queries, std::span<BoundAnswer> bounds) const {
+    for (std::size_t i = 0; i < queries.size(); ++i) bounds[i] = ask_bound(queries[i]);
+  }
+
   /// Whether the subject gives distances of primitives of a kind.
   [[nodiscard]] virtual bool gives_distance(Kind /*kind*/) const { return false; }
 

@@ -6,7 +6,6 @@
 
 #include "fuzz/families/facing.hpp"
 #include "fuzz/families/tables.hpp"
-#include "oracle/distance.hpp"
 
 namespace nearmiss {
 
@@ -40,17 +39,16 @@ Vector approaching(Random& random) {
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};
-  const auto number = static_cast<std::size_t>(random.integer(0, static_cast<int>(bases.size()) - 1));
-  const Family base = find_family(bases[number], families());
+  const Family base = find_family(one_of(random, bases), families());
   const double off = power_of_two(x);
   const bool is_above = random.one_in(2);
   for (;;) {
     Query query = base.make(random, kind);
     repeat_vertices(query);
-    const Enclosure distance = minimum_distance(query, 0);
-    if (distance.hi == 0) continue;
-    const double below = std::nextafter(distance.hi, 0);
-    const double h = is_above ? distance.hi + off * distance.hi : below - off * below;
+    const double distance = rounded_distance(query);
+    if (distance == 0) continue;
+    const double below = std::nextafter(distance, 0);
+    const double h = is_above ? distance + off * distance : below - off * below;
     if (0 < h && std::isfinite(h)) return with_separation(query, h);
   }
 }

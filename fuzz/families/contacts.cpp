@@ -2,9 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
+
+#include "ccd/query/arithmetic.hpp"
+#include "oracle/distance.hpp"
+#include "oracle/exact/nearness.hpp"
 
 namespace nearmiss {
 
@@ -173,7 +180,7 @@ Query turned(Random& random, Query query) {
        {Eigen::Matrix3d{{3, 4, 0}, {-4, 3, 0}, {0, 0, 5}}, 5},
        {Eigen::Matrix3d{{2, 3, 6}, {3, -6, 2}, {6, 2, -3}}, 7},
        {Eigen::Matrix3d{{1, 4, 8}, {4, 7, -4}, {8, -4, 1}}, 9}}};
-  const auto& [rotation, length] = rotations[static_cast<std::size_t>(random.integer(0, 4))];
+  const auto& [rotation, length] = one_of(random, rotations);
   const int first_axis = random.integer(0, 2);
   Vector signs;
   for (double& each : signs) each = random.one_in(2) ? -1 : 1;
@@ -237,6 +244,23 @@ double extent(const Query& query) {
     largest = std::max(largest, hi - lo);
   }
   return largest;
+}
+
+// Exact comparisons find the last bits. A search for bounds that are neighbouring doubles would take long,
+// and fail: the lower bound is rounded down, and the upper one up.
+double rounded_distance(const Query& query) {
+  const PlainArithmetic guard;
+  const auto [lo, hi] = minimum_distance(query, 0x1p-20);
+  if (hi == 0) return 0;
+  exact::SmallestDistance smallest(query);
+  // The bits of positive doubles, read as integers, are in the order of the doubles.
+  auto below = std::bit_cast<std::uint64_t>(std::nextafter(lo, 0));
+  auto most = std::bit_cast<std::uint64_t>(hi);
+  while (most - below > 1) {
+    const std::uint64_t middle = std::midpoint(below, most);
+    (smallest.is_at_most(std::bit_cast<double>(middle)) ? most : below) = middle;
+  }
+  return std::bit_cast<double>(most);
 }
 
 double power_of_ten(double x) {

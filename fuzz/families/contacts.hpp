@@ -118,11 +118,20 @@ Query finished(Random& random, const Query& query);
 /// The largest side of the box that the primitives sweep.
 double extent(const Query& query);
 
+/// The smallest distance during the step, rounded up to a double.
+double rounded_distance(const Query& query);
+
 /// The power of two nearest to 10^x. Multiplying by it is exact.
 double power_of_ten(double x);
 
 /// 2^x for a whole number x.
 inline double power_of_two(double x) { return std::ldexp(1.0, static_cast<int>(x)); }
+
+/// One of the values, drawn at random.
+template <class Range>
+auto one_of(Random& random, const Range& values) {
+  return values[static_cast<std::size_t>(random.integer(0, static_cast<int>(values.size()) - 1))];
+}
 
 /// 1 or -1.
 inline double random_sign(Random& random) { return random.one_in(2) ? -1 : 1; }

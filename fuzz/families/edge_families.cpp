@@ -7,7 +7,6 @@
 #include "ccd/wang/elementary.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
-#include "oracle/distance.hpp"
 
 namespace nearmiss {
 
@@ -33,7 +32,7 @@ Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path
 /// separation is 2^x if d is 0.
 Query with_separation_beside(Random& random, const Query& query, double x) {
   const double off = random.uniform(-1, 1) * exp2_of(x);
-  const double d = minimum_distance(query, 0).hi;
+  const double d = rounded_distance(query);
   return with_separation(query, d > 0 ? d + off * d : exp2_of(x));
 }
 
@@ -72,8 +71,7 @@ const std::array<Motion, 5> at_minima{{
 /// candidate time of Algorithm 2 detects this. Axes change places and directions, and time may run backwards.
 /// h differs from the smallest distance by up to 2^x of it.
 Query at_minimum(Random& random, Kind kind, double x) {
-  const auto number = static_cast<std::size_t>(random.integer(0, static_cast<int>(at_minima.size()) - 1));
-  const Motion& motion = at_minima[number];
+  const Motion& motion = one_of(random, at_minima);
   const int turn = random.integer(0, 2);
   const int signs = random.integer(0, 7);
   const bool swaps = random.one_in(2);

@@ -88,12 +88,6 @@ constexpr std::array edges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array steps{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array scenes{1.0, 10.0, 100.0};
 
-/// One of the values, drawn at random.
-template <std::size_t size>
-double one_of(Random& random, const std::array<double, size>& values) {
-  return values[static_cast<std::size_t>(random.integer(0, static_cast<int>(size) - 1))];
-}
-
 /// The size of a scene, of the primitives in it, and of their motion in a step, in metres.
 struct Metres {
   double edge, step, scene;

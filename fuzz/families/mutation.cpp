@@ -18,11 +18,6 @@ using Vector = Vector3<double>;
 
 int sign(Random& random) { return random.one_in(2) ? 1 : -1; }
 
-template <class Range>
-auto one_of(Random& random, const Range& range) {
-  return range[static_cast<std::size_t>(random.integer(0, static_cast<int>(range.size()) - 1))];
-}
-
 /// The extent of a query; 1 if all positions coincide.
 double size_of(const Query& query) {
   const double size = extent(query);

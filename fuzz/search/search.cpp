@@ -187,8 +187,8 @@ struct GivenTime {
   static constexpr double least = 0x1p-50;
 };
 
-/// The value of a time for late_search. Any late time has a higher value than any other time, and later times
-/// have higher values. Among the other times, a smaller (t* - time) / t* gives a higher value.
+/// The value of a time for SearchFor::late. Any late time has a higher value than any other time, and later
+/// times have higher values. Among the other times, a smaller (t* - time) / t* gives a higher value.
 double lateness(const GivenTime& given) {
   constexpr double late = 200;
   const double least = GivenTime::least;
@@ -237,47 +237,36 @@ Query search_time(const Searched& subject, Random& random, Kind kind) {
 
 // --- families -------------------------------------------------------------------------------------------
 
-/// The family of a search's results. Its name consists of the prefix and the subject's name.
-///
-/// A query of directed search takes about as long as a few thousand queries of other families. The subjects'
-/// run times do not count, because batches are small, and the search warms the caches only for its own
-/// subject.
-Family search_family(std::string_view prefix, std::string_view about,
-                     Query (*search_one)(const Searched&, Random&, Kind), const Subject& subject,
-                     const Stop& stop, std::string_view separation) {
-  const std::string name = std::string(prefix) + subject.name();
+/// A directed search, in the order of SearchFor.
+struct Search {
+  std::string_view prefix;  ///< of the family's name
+  std::string_view about;
+  Query (*one)(const Searched&, Random&, Kind);
+};
+constexpr std::array<Search, 4> all_searches{
+    {{miss_search_family, "collisions that are nearly missed, by directed search", search_miss},
+     {far_search_family, "far false positives, by directed search", search_far},
+     {late_search_family, "late times, by directed search", search_time<lateness>},
+     {early_search_family, "early times, by directed search", search_time<earliness>}}};
+
+}  // namespace
+
+// A query of directed search takes about as long as a few thousand queries of other families. The subjects'
+// run times do not count, because batches are small, and the search warms the caches only for its own
+// subject.
+Family search_for(SearchFor what, const Subject& subject, const Stop& stop, std::string_view separation) {
+  const Search& search = all_searches[static_cast<std::size_t>(what)];
+  const std::string name = std::string(search.prefix) + subject.name();
   ChooseSeparation choose;
   if (!separation.empty()) choose = parse_family_separation(separation, name);
   const auto searched = std::make_shared<Searched>(subject, stop, choose);
   return {.name = separation.empty() ? name : name_with_separation(name, separation),
-          .about = std::string(about),
-          .make = [searched, search_one](Random& random,
-                                         Kind kind) { return search_one(*searched, random, kind); },
+          .about = std::string(search.about),
+          .make = [searched, one = search.one](Random& random,
+                                               Kind kind) { return one(*searched, random, kind); },
           .block_cases = 1,
           .timed = false,
           .has_separation = !separation.empty()};
-}
-
-}  // namespace
-
-Family miss_search(const Subject& subject, const Stop& stop, std::string_view separation) {
-  return search_family(miss_search_family, "collisions that are nearly missed, by directed search",
-                       search_miss, subject, stop, separation);
-}
-
-Family far_search(const Subject& subject, const Stop& stop, std::string_view separation) {
-  return search_family(far_search_family, "far false positives, by directed search", search_far, subject,
-                       stop, separation);
-}
-
-Family late_search(const Subject& subject, const Stop& stop, std::string_view separation) {
-  return search_family(late_search_family, "late times, by directed search", search_time<lateness>, subject,
-                       stop, separation);
-}
-
-Family early_search(const Subject& subject, const Stop& stop, std::string_view separation) {
-  return search_family(early_search_family, "early times, by directed search", search_time<earliness>,
-                       subject, stop, separation);
 }
 
 Family among_vertices(Family search) {
@@ -286,28 +275,21 @@ Family among_vertices(Family search) {
   return search;
 }
 
-namespace {
-
-/// All searches of a subject.
-std::vector<Family> all_searches(const Subject& subject, const Stop& stop, std::string_view separation) {
-  std::vector<Family> all{miss_search(subject, stop, separation), far_search(subject, stop, separation)};
-  if (subject.time_sort() != TimeSort::none) {
-    all.push_back(late_search(subject, stop, separation));
-    all.push_back(early_search(subject, stop, separation));
-  }
-  return all;
-}
-
-}  // namespace
-
 std::vector<Family> searches(const Subject& subject, const Stop& stop, std::string_view separation) {
+  const auto all_of = [&](std::string_view h) {
+    std::vector<Family> all;
+    for (const SearchFor what : {SearchFor::misses, SearchFor::far, SearchFor::late, SearchFor::early})
+      if (what < SearchFor::late || subject.time_sort() != TimeSort::none)
+        all.push_back(search_for(what, subject, stop, h));
+    return all;
+  };
   const auto decides_some = [&](std::span<const Kind, 2> some, bool within) {
     return std::ranges::any_of(some, [&](Kind kind) { return subject.is_asked(kind, within); });
   };
   std::vector<Family> all;
-  if (decides_some(kinds_of_meshes, !separation.empty())) all = all_searches(subject, stop, separation);
+  if (decides_some(kinds_of_meshes, !separation.empty())) all = all_of(separation);
   if (decides_some(kinds_of_vertices, true))
-    for (Family& each : all_searches(subject, stop, separation.empty() ? drawn_separation : separation))
+    for (Family& each : all_of(separation.empty() ? drawn_separation : separation))
       all.push_back(among_vertices(std::move(each)));
   return all;
 }

@@ -14,42 +14,41 @@ namespace nearmiss {
 /// A search asks the subject about at most this many queries for each query that it returns.
 inline constexpr int search_evaluations = 2000;
 
-/// The family "search-miss-NAME". Each query is a collision that the subject misses; if the search found
-/// none, the collision that came nearest to being missed.
+/// What a directed search looks for. Each query of its family is the best that one search found:
+enum class SearchFor {
+  /// "search-miss-NAME": a collision that the subject misses; if the search found none, the collision that
+  /// came nearest to being missed.
+  misses,
+  /// "search-far-NAME": the farthest false positive, relative to the subject's claimed bound, or to wang's
+  /// bound if the subject claims none. A false positive that refutes the bound ends the search. If a search
+  /// finds no false positive, it returns another query.
+  far,
+  /// "search-late-NAME", for a subject that gives times: the collision with the latest time, compared with
+  /// t*, the exact earliest time. If some time is after t*, the query is the one with the largest time - t*,
+  /// otherwise the one with the smallest (t* - time) / t*. The search skips misses, and up to 20 queries
+  /// over the time limit.
+  late,
+  early,  ///< "search-early-NAME": as `late`, but the collision with the largest t* - time
+};
+
+/// The family of a directed search against one subject.
 ///
 /// The search moves on the manifold of contacts, on which the primitives always meet. Half of the searches
 /// use a grid on which contact is exact; the others use all bits of a double, and the oracle decides whether
-/// the primitives still meet. The search maximises Subject::needed_tolerance(). If the subject does not have
-/// this function, the search maximises a random mixture of properties that make a contact hard: a grazing
-/// motion, a small angle between the primitives, a small barycentric weight, unequal edges, a time near 0 or
-/// 1. It starts at random points and continues from the best point so far. A query over the subject's time
-/// limit ends the search; after a few such searches, the subject is not asked any more. Making a query throws
-/// Stopped when `stop` is due. The subject and `stop` must outlive the family.
+/// the primitives still meet. The search for misses maximises Subject::needed_tolerance(). If the subject
+/// does not have this function, the search maximises a random mixture of properties that make a contact
+/// hard: a grazing motion, a small angle between the primitives, a small barycentric weight, unequal edges,
+/// a time near 0 or 1. The search for far false positives also moves vertices, besides contacts and gaps:
+/// plane culling compares the vertices' coordinates, and after nearly any change of the contact, some plane
+/// separates a far pair. A search starts at random points and continues from the best point so far. A query
+/// over the subject's time limit ends the search; after a few such searches, the subject is not asked any
+/// more. Making a query throws Stopped when `stop` is due. The subject and `stop` must outlive the family.
 ///
-/// With a separation (parse_family_separation), the family is "search-miss-NAME~SEPARATION". Each search has
-/// one separation h > 0. It moves among queries in which two points of the primitives come within h; a
-/// smallest distance near h is a further property that makes a query hard.
-Family miss_search(const Subject& subject, const Stop& stop = Stop::never(),
-                   std::string_view separation = {});
-
-/// The family "search-far-NAME". Each query is the farthest false positive that a search found, relative to
-/// the subject's claimed bound, or to wang's bound if the subject claims none. A false positive that refutes
-/// the bound ends the search. If a search finds no false positive, it returns another query. Besides contacts
-/// and gaps, the search moves vertices. Plane culling compares the vertices' coordinates, and after nearly
-/// any change of the contact, some plane separates a far pair. All else is as for miss_search.
-Family far_search(const Subject& subject, const Stop& stop = Stop::never(), std::string_view separation = {});
-
-/// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest
-/// time that a search found, compared with t*, the exact earliest time. If some time is after t*, the query
-/// is the one with the largest time - t*, otherwise the one with the smallest (t* - time) / t*. The search
-/// skips misses, and up to 20 queries over the time limit. All else is as for miss_search.
-Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
-                   std::string_view separation = {});
-
-/// The family "search-early-NAME", for a subject that gives times. Each query is the collision with the
-/// largest t* - time that a search found. All else is as for late_search.
-Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
-                    std::string_view separation = {});
+/// With a separation (parse_family_separation), the name ends with ~SEPARATION. Each search has one
+/// separation h > 0. It moves among queries in which two points of the primitives come within h; a smallest
+/// distance near h is a further property that makes a query hard.
+Family search_for(SearchFor what, const Subject& subject, const Stop& stop = Stop::never(),
+                  std::string_view separation = {});
 
 /// The family of the given search, among vv and ve queries: "v-search-miss-NAME~SEPARATION".
 Family among_vertices(Family search);

@@ -44,15 +44,15 @@ struct Gauge {
   std::function<std::optional<double>(const Query&)> read;
 };
 
-/// The family of miss_search() or far_search(); if `among` is set, its queries are vv and ve.
-template <class Search>
-Family search_by(const Search& search, const Subject& subject, bool among, const Stop& stop) {
-  return among ? among_vertices(search(subject, stop, drawn_separation)) : search(subject, stop, "");
+/// The family of a directed search; if `among` is set, its queries are vv and ve.
+Family search_by(SearchFor what, const Subject& subject, bool among, const Stop& stop) {
+  return among ? among_vertices(search_for(what, subject, stop, drawn_separation))
+               : search_for(what, subject, stop);
 }
 
 Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among, const Stop& stop) {
   auto subject = try_make_defect(scaled_tolerance(tolerance.name, 1));
-  auto search = search_by(miss_search, *subject, among, stop);
+  auto search = search_by(SearchFor::misses, *subject, among, stop);
   const auto of = tolerance.accepts ? Extreme::Of::accepting_tolerance : Extreme::Of::keeping_tolerance;
   auto nothing = nothing_found(of, std::string(tolerance.name));
   const auto read = [&tolerance, &subject = *subject,
@@ -70,7 +70,7 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among, const Stop& s
 
 Gauge tests_gauge(const Tests& tests, bool among, const Stop& stop) {
   auto subject = make_any_subject(tests.subject);
-  auto search = search_by(far_search, *subject, among, stop);
+  auto search = search_by(SearchFor::far, *subject, among, stop);
   const auto read = [&subject = *subject](const Query& query) -> std::optional<double> {
     if (!subject.decide(query).hit || collides(query)) return std::nullopt;
     return closest_ratio(query, subject.distance_bound(query));

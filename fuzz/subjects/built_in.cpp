@@ -4,7 +4,6 @@
 #include "fuzz/subjects/exact.hpp"
 #include "fuzz/subjects/ladder/adaptive.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
-#include "fuzz/subjects/parity.hpp"
 
 namespace nearmiss {
 
@@ -22,7 +21,6 @@ std::unique_ptr<Subject> try_make_built_in(std::string_view name, std::optional<
   if (auto defect = try_make_defect(name)) return defect;
   if (auto exact = try_make_exact(name)) return exact;
   if (auto adaptive = try_make_adaptive(name)) return adaptive;
-  if (auto parity = try_make_parity(name)) return parity;
   if (auto scaled = try_make_scaled(name, given_bound)) return scaled;
   return try_make_subject(name, given_bound);
 }

@@ -7,6 +7,7 @@
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
+#include "oracle/parity/parity.hpp"
 #include "oracle/within_separation.hpp"
 
 namespace nearmiss {
@@ -90,6 +91,24 @@ class ExactSubject final : public Subject {
   std::string name_;
 };
 
+class ParitySubject final : public Subject {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    const PlainArithmetic guard;
+    if (!is_finite(query)) refuse_coordinates(name_);
+    if (!root_parity(query).collision()) return Verdict::rejected(Rejection::exact);
+    return {.hit = true, .stage = Stage::exact};
+  }
+
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+  [[nodiscard]] Contract contract() const override { return {.one_root = true}; }
+
+ private:
+  std::string name_{parity_info.name};
+};
+
 }  // namespace
 
 std::span<const SubjectInfo> exact_subjects() {
@@ -116,6 +135,7 @@ std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subject
 }
 
 std::unique_ptr<Subject> try_make_exact(std::string_view name) {
+  if (name == parity_info.name) return std::make_unique<ParitySubject>();
   const auto entry =
       std::find_if(entries.begin(), entries.end(), [&](const Entry& each) { return each.info.name == name; });
   return entry == entries.end() ? nullptr : std::make_unique<ExactSubject>(*entry);

@@ -1,4 +1,4 @@
-// The oracle as a subject.
+// The oracle's methods as subjects.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,15 @@ std::span<const SubjectInfo> exact_subjects();
 std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
                                const std::function<bool(Kind)>& has_separations);
 
-/// Makes the exact subject with the given name; null for any other name.
+inline constexpr SubjectInfo parity_info{
+    "parity",
+    "the root parity of Brochu, Edwards and Bridson, in rational numbers; its contract is one root"};
+
+/// Makes the exact subject with the given name, or `parity`; null for any other name. `parity` asks the
+/// oracle's method of this name (oracle/parity/parity.hpp), which is exact, but takes an even number of
+/// roots for none. Therefore its contract excludes queries with several roots or a double root, and queries
+/// whose vertices are always coplanar. It does not decide vv and ve queries. Within the contract it has no
+/// misses and no false positives, so its distance bound is 0.
 std::unique_ptr<Subject> try_make_exact(std::string_view name);
 
 }  // namespace nearmiss

@@ -32,6 +32,9 @@ class ForwardingSubject : public BatchSubject {
   }
   [[nodiscard]] double distance_bound(const Query& query) const override { return to_.distance_bound(query); }
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override { return to_.ask_bound(query); }
+  void ask_bounds(std::span<const Query> queries, std::span<BoundAnswer> bounds) const override {
+    to_.ask_bounds(queries, bounds);
+  }
   [[nodiscard]] bool claims_bound() const override { return to_.claims_bound(); }
   [[nodiscard]] bool gives_distance(Kind kind) const override { return to_.gives_distance(kind); }
   [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {

@@ -62,18 +62,21 @@ std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth)
   return error;
 }
 
-std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict, Truth& truth) const {
+bool Judge::needs_unit(const Verdict& verdict, const Decision& decision) {
+  return verdict.hit && verdict.fault == Fault::none && verdict.stage != Stage::unknown &&
+         !decision.collision && !decision.is_tie;
+}
+
+std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict, Truth& truth,
+                                                            const std::optional<BoundAnswer>& known) const {
   Outcome outcome{.verdict = verdict,
                   .collision = truth.collision() || (truth.is_tie() && verdict.hit),
                   .measured_by_wang = wang_ != nullptr};
   if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
-  if (verdict.fault != Fault::none || !verdict.hit) return {outcome, std::nullopt};
-  if (outcome.collision) {
+  if (verdict.fault == Fault::none && verdict.hit && outcome.collision)
     outcome.time = time_error(verdict, truth);
-    return {outcome, std::nullopt};
-  }
-  if (verdict.stage == Stage::unknown) return {outcome, std::nullopt};
-  const BoundAnswer unit = ask_unit(truth.query());
+  if (!needs_unit(verdict, truth.decision())) return {outcome, std::nullopt};
+  const BoundAnswer unit = known ? *known : ask_unit(truth.query());
   outcome.verdict.fault = unit.fault;
   outcome.verdict.fault_code = unit.fault_code;
   if (unit.fault != Fault::none) outcome.fault_text = subject_.fault_text(outcome.verdict);
@@ -81,8 +84,9 @@ std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdi
   return {outcome, counts ? std::optional(unit.bound) : std::nullopt};
 }
 
-Outcome Judge::judge(const Verdict& verdict, Truth& truth, double least_kept) const {
-  auto [outcome, unit] = outcome_of(verdict, truth);
+Outcome Judge::judge(const Verdict& verdict, Truth& truth, double least_kept,
+                     const std::optional<BoundAnswer>& known) const {
+  auto [outcome, unit] = outcome_of(verdict, truth, known);
   if (!unit) return outcome;
   const auto [ratio, exceeds] = truth.distance(*unit);
   outcome.bound_refuted = exceeds && subject_.claims_bound();

@@ -38,7 +38,12 @@ class Judge {
   /// fault. The answer "cannot tell" claims nothing about the distance. The ratio of a false positive is that
   /// of `Truth::distance`, accurate to 1/1000 if a finding stores it or if it is at least `least_kept`
   /// (Counts). The ratio is 0 if the unit is infinite, since no distance is larger.
-  [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0) const;
+  /// `known` is the answer of ask_unit(), if it is known already.
+  [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
+                              const std::optional<BoundAnswer>& known = {}) const;
+
+  /// Whether judge() needs the unit: the answer is a false positive, but not "cannot tell".
+  [[nodiscard]] static bool needs_unit(const Verdict& verdict, const Decision& decision);
 
   /// Asks the subject. Returns how it fails on a query; nothing if it does not. Throws Error as the subject
   /// does.
@@ -48,10 +53,9 @@ class Judge {
 
  private:
   /// The outcome of an answer, without the distance of a false positive; and the unit in which to measure
-  /// this distance. It is only measured if the answer is a false positive, is not "cannot tell", and
-  /// ask_unit() gives a finite unit.
-  [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
-                                                                     Truth& truth) const;
+  /// this distance. It is only measured if needs_unit() holds and the unit is finite.
+  [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(
+      const Verdict& verdict, Truth& truth, const std::optional<BoundAnswer>& known = {}) const;
   /// The error of a true positive's time of impact; nothing if the subject gives no time.
   [[nodiscard]] std::optional<TimeError> time_error(const Verdict& verdict, Truth& truth) const;
 

@@ -21,26 +21,54 @@ namespace nearmiss {
 
 namespace {
 
-/// The rounded queries on which a subject that rounds coordinates is judged.
-class Rounded {
+/// The queries on which a subject is judged: rounded if the subject rounds coordinates.
+class Judged {
  public:
-  Rounded(const Subject& subject, const std::vector<Query>& queries) {
-    if (!subject.rounds()) return;
-    for (const Query& query : queries) queries_.push_back(subject.rounded(query));
-    decisions_.resize(queries_.size());
-    decide(queries_, decisions_);
+  /// The queries, and the oracle's decisions about them, must outlive this object.
+  Judged(const Subject& subject, const std::vector<Query>& queries, const std::vector<Decision>& decisions)
+      : given_queries_(queries), given_decisions_(decisions), rounds_(subject.rounds()) {
+    if (!rounds_) return;
+    for (const Query& query : queries) rounded_.push_back(subject.rounded(query));
+    decisions_.resize(rounded_.size());
+    decide(rounded_, decisions_);
   }
 
+  [[nodiscard]] const Query& query(std::size_t i) const { return rounds_ ? rounded_[i] : given_queries_[i]; }
+  [[nodiscard]] const Decision& decision(std::size_t i) const {
+    return rounds_ ? decisions_[i] : given_decisions_[i];
+  }
   /// The truth about rounded query i; nothing if the subject does not round.
-  [[nodiscard]] std::optional<Truth> truth(std::size_t i) const {
-    if (queries_.empty()) return std::nullopt;
-    return Truth(queries_[i], decisions_[i]);
+  [[nodiscard]] std::optional<Truth> rounded_truth(std::size_t i) const {
+    if (!rounds_) return std::nullopt;
+    return Truth(rounded_[i], decisions_[i]);
   }
 
  private:
-  std::vector<Query> queries_;
+  const std::vector<Query>& given_queries_;
+  const std::vector<Decision>& given_decisions_;
+  bool rounds_;
+  std::vector<Query> rounded_;
   std::vector<Decision> decisions_;
 };
+
+/// By query: the bound that the subject claims, if its answer is a false positive. All bounds are asked at
+/// once, because a call of a plug-in's process takes longer than an answer. Empty if the subject claims none.
+std::vector<std::optional<BoundAnswer>> bounds_of(const Subject& subject, const Judged& judged,
+                                                  const std::vector<Verdict>& answers) {
+  if (!subject.claims_bound()) return {};
+  std::vector<std::size_t> numbers;
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!Judge::needs_unit(answers[i], judged.decision(i))) continue;
+    numbers.push_back(i);
+    queries.push_back(judged.query(i));
+  }
+  std::vector<BoundAnswer> bounds(queries.size());
+  if (!queries.empty()) subject.ask_bounds(queries, bounds);
+  std::vector<std::optional<BoundAnswer>> all(answers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) all[numbers[k]] = bounds[k];
+  return all;
+}
 
 /// For each query, whether the filter decides it near its bounds.
 std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& decisions) {
@@ -159,9 +187,10 @@ class Judging {
   TrialResult run() {
     decide(batch_.queries, decisions_);
     if (comparison_.near_bounds) near_ = near_bounds(batch_, decisions_);
-    for (const auto& subject : subjects_) {
-      judges_.emplace_back(*subject);
-      rounded_.emplace_back(*subject, batch_.queries);
+    for (std::size_t s = 0; s < subjects_.size(); ++s) {
+      judges_.emplace_back(*subjects_[s]);
+      judged_.emplace_back(*subjects_[s], batch_.queries, decisions_);
+      bounds_.push_back(bounds_of(*subjects_[s], judged_[s], answers_[s]));
     }
     if (batch_.queries.empty()) return std::move(result_);
     OracleCounts& by_oracle = result_.statistics.oracle[{batch_.kind, batch_.family}];
@@ -171,7 +200,7 @@ class Judging {
       if (batch_.factors) factors_ = batch_.factors(i);
       for (std::size_t s = 0; s < subjects_.size(); ++s) {
         if (counts_[s] == nullptr) continue;
-        std::optional<Truth> own = rounded_[s].truth(i);
+        std::optional<Truth> own = judged_[s].rounded_truth(i);
         try_subject(i, s, own ? *own : truth);
       }
       versions_.finish_query(result_.findings);
@@ -234,7 +263,8 @@ class Judging {
     Known& known = known_[s];
     const Verdict& answer = known.is_set_aside() ? not_asked : answers_[s][i];
     const double least_kept = std::max(known.least_kept, Counts::least_kept(counts_[s]->farthest));
-    Outcome outcome = judges_[s].judge(answer, truth, least_kept);
+    Outcome outcome =
+        judges_[s].judge(answer, truth, least_kept, bounds_[s].empty() ? std::nullopt : bounds_[s][i]);
     known.slow += outcome.verdict.fault == Fault::time ? 1 : 0;
     auto failure = failure_of(outcome, truth);
     if (failure) outcome.query_class = truth.query_class();
@@ -278,11 +308,12 @@ class Judging {
   std::vector<Known> known_;  // by subject, before the next query
   const Verdicts& answers_;   // by subject and query
   TrialResult result_;
-  std::vector<Counts*> counts_;       // by subject, in the result; null if it does not decide this kind
-  std::vector<Judge> judges_;         // by subject
-  std::vector<Rounded> rounded_;      // by subject
-  std::vector<Decision> decisions_;   // by query
-  std::vector<bool> near_;            // by query; empty if not asked for
+  std::vector<Counts*> counts_;  // by subject, in the result; null if it does not decide this kind
+  std::vector<Judge> judges_;    // by subject
+  std::vector<Judged> judged_;   // by subject
+  std::vector<std::vector<std::optional<BoundAnswer>>> bounds_;  // by subject
+  std::vector<Decision> decisions_;                              // by query
+  std::vector<bool> near_;                                       // by query; empty if not asked for
   std::vector<std::string> factors_;  // of the query that is judged, if the batch has factors
   VersionComparison versions_;
 };

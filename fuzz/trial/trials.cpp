@@ -9,6 +9,7 @@
 #include "ccd/subjects/described_subject.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
 
 namespace nearmiss {
 
@@ -50,6 +51,13 @@ std::size_t largest_batch_of(const Subjects& subjects) {
   return std::min(largest, most);
 }
 
+/// The number of cases of a slice: `usual`, or more for a plug-in, so that calls of its process take little
+/// of the time.
+std::size_t largest_slice(const Subjects& subjects, std::size_t usual) {
+  const auto is_plugin = [](const auto& each) { return plugin_info(*each) != nullptr; };
+  return std::ranges::any_of(subjects, is_plugin) ? std::max(usual, 4 * Pace::usual) : usual;
+}
+
 /// The number of queries over the time limit in some counters.
 std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
   const auto found = statistics.counts.find(key);
@@ -74,7 +82,7 @@ Trials::Trials(const Subjects& subjects, Comparison comparison, int jobs, const 
       stop_(stop),
       sink_(std::move(sink)),
       batch_size_(largest_batch_of(subjects)),
-      pace_(batch_size_),
+      pace_(largest_slice(subjects, batch_size_)),
       shrinking_(subjects, jobs, stop, shrink) {}
 
 void Trials::resume(const Statistics& before, const std::vector<Finding>& findings) {

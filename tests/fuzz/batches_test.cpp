@@ -89,6 +89,26 @@ TEST(Batches, ACrashIsThatOfOneQuery) {
     ASSERT_EQ(verdicts[i].fault, i == crashing ? Fault::crash : Fault::error) << i;
 }
 
+TEST(Batches, OnlyTheQueriesThatWereAskedTogetherWithAFailureAreAskedAgain) {
+  for (const auto& [x, fault] : {std::pair(0.95, Fault::crash), std::pair(-0.95, Fault::time)}) {
+    const auto subject = make_isolated_plugin(testing::plugin("batches") + ":counts-50",
+                                              {.time = std::chrono::milliseconds(200)});
+    std::vector<Query> queries(400);
+    queries[120].x[0] = x;
+    const auto verdicts = answers_of(*subject, queries);
+    for (std::size_t i = 0; i < 150; ++i)
+      EXPECT_EQ(verdicts[i].fault_code, i < 100 ? -50 : i != 120 ? -1 : x > 0 ? SIGSEGV : 0) << i;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      EXPECT_EQ(verdicts[i].fault, i == 120 ? fault : Fault::error) << i;
+  }
+}
+
+TEST(Batches, HaveTheLimitOfOneQueryAndAThousandthForEachOther) {
+  EXPECT_EQ(isolation::limit_of_batch(1), 1);
+  EXPECT_NEAR(isolation::limit_of_batch(51), 1.05, 1e-15);
+  EXPECT_EQ(isolation::limit_of_batch(batch), 10);
+}
+
 // The whole call crashes, then a part of it, but no query of this part crashes by itself.
 TEST(Batches, ACrashThatDoesNotRepeatCounts) {
   const auto verdicts = answers_of(*wanting("wearing"), std::vector<Query>(20'000));

@@ -18,7 +18,7 @@ Query search(const Family& family, std::uint64_t index) { return make_query(fami
 /// Whether one of the first queries is a collision that the subject misses.
 bool finds_miss(const std::string& name, std::uint64_t queries) {
   const auto subject = make_any_subject(name);
-  const Family family = miss_search(*subject);
+  const Family family = search_for(SearchFor::misses, *subject);
   for (std::uint64_t i = 0; i < queries; ++i)
     if (const Query query = search(family, i); !subject->decide(query).hit && collides(query)) return true;
   return false;
@@ -35,7 +35,7 @@ TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
   const auto wang = make_subject("wang");
   double most = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
-    const Query query = search(miss_search(*wang), i);
+    const Query query = search(search_for(SearchFor::misses, *wang), i);
     EXPECT_TRUE(collides(query));
     EXPECT_TRUE(wang->decide(query).hit);
     most = std::max(most, wang->needed_tolerance(query));
@@ -54,7 +54,7 @@ TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
   testing::BitHash hash;
   for (const char* name : {"wang", "basic", "wang-tight:p24", "defect:vv"}) {
     const auto subject = make_any_subject(name);
-    for (const auto& family : {miss_search(*subject), far_search(*subject)})
+    for (const auto& family : {search_for(SearchFor::misses, *subject), search_for(SearchFor::far, *subject)})
       hash.add_all(search(family, 0).x);
   }
   EXPECT_EQ(hash.value(), 0x95311bd1d2b1733a) << std::hex << hash.value();
@@ -67,7 +67,7 @@ TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
     return Verdict{.hit = true, .stage = Stage::unspecified};
   };
   const testing::MadeUpSubject subject("failing", fail_at_last, {.bound = 1});
-  EXPECT_THROW(search(miss_search(subject), 0), Error);
+  EXPECT_THROW(search(search_for(SearchFor::misses, subject), 0), Error);
 }
 
 /// Expects that one of the first searches finds a false positive at more than `wanted` times the subject's
@@ -75,7 +75,7 @@ TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
 void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   double ratio = 0;
   for (std::uint64_t i = 0; i < searches && ratio <= wanted; ++i) {
-    const Query query = search(far_search(subject), i);
+    const Query query = search(search_for(SearchFor::far, subject), i);
     if (!subject.decide(query).hit || collides(query)) continue;
     EXPECT_FALSE(distance_exceeds(query, subject.distance_bound(query)));
     ratio = std::max(ratio, minimum_distance(query).lo / subject.distance_bound(query));
@@ -94,7 +94,7 @@ TEST(FarSearch, RefutesBoundsThatDoNotHold) {
   const auto subject = make_any_subject("defect:lambda2*0");
   bool refuted = false;
   for (std::uint64_t i = 0; i < 40 && !refuted; ++i) {
-    const Query query = search(far_search(*subject), i);
+    const Query query = search(search_for(SearchFor::far, *subject), i);
     refuted = subject->decide(query).hit && distance_exceeds(query, subject->distance_bound(query));
   }
   EXPECT_TRUE(refuted);

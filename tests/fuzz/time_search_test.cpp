@@ -88,13 +88,13 @@ int late_ones(const Subject& subject, const Family& family, std::uint64_t querie
 TEST(LateSearch, FindsTimesThatAreLateInASmallRegionAlone) {
   const MadeUpSubject subject = late_in_a_region();
   EXPECT_EQ(late_ones(subject, find_family("uniform-end"), 1000), 0);
-  EXPECT_GE(late_ones(subject, late_search(subject), 10), 3);
+  EXPECT_GE(late_ones(subject, search_for(SearchFor::late, subject), 10), 3);
 }
 
 TEST(LateSearch, GoesOnToTheLatest) {
   const MadeUpSubject subject = late_in_a_region();
   constexpr double latest = 0.1 * region * 0.4;
-  const double found = largest(subject, late_search(subject), 10, 1);
+  const double found = largest(subject, search_for(SearchFor::late, subject), 10, 1);
   EXPECT_GT(found, 0.9 * latest);
   EXPECT_LE(found, 1.1 * latest);
 }
@@ -102,13 +102,15 @@ TEST(LateSearch, GoesOnToTheLatest) {
 TEST(LateSearch, FindsThemForASeparationToo) {
   const MadeUpSubject subject = late_in_a_region();
   for (const char* separation : {"drawn", "0.0625"})
-    EXPECT_GE(late_ones(subject, late_search(subject, Stop::never(), separation), 4), 1) << separation;
+    EXPECT_GE(late_ones(subject, search_for(SearchFor::late, subject, Stop::never(), separation), 4), 1)
+        << separation;
 }
 
 TEST(LateSearch, FindsNoneIfThereIsNone) {
   const auto exact = make_any_subject("exact");
   for (const char* separation : {"", "drawn"})
-    EXPECT_EQ(late_ones(*exact, late_search(*exact, Stop::never(), separation), 2), 0) << separation;
+    EXPECT_EQ(late_ones(*exact, search_for(SearchFor::late, *exact, Stop::never(), separation), 2), 0)
+        << separation;
 }
 
 TEST(LateSearch, ShowsCollisionsOfASubjectThatMissesMost) {
@@ -116,14 +118,14 @@ TEST(LateSearch, ShowsCollisionsOfASubjectThatMissesMost) {
     return query.x[0] < query.x[3] ? verdict : Verdict{};
   });
   for (std::uint64_t i = 0; i < 6; ++i)
-    EXPECT_TRUE(error_of(subject, make_query(late_search(subject), 1, i))) << i;
+    EXPECT_TRUE(error_of(subject, make_query(search_for(SearchFor::late, subject), 1, i))) << i;
 }
 
 TEST(EarlySearch, FindsTheEarliestTimes) {
   const MadeUpSubject subject = early_in_a_region();
   EXPECT_LT(largest(subject, find_family("uniform-end"), 1000, -1), 0.01);
-  EXPECT_GT(largest(subject, early_search(subject), 5, -1), 0.19);
-  EXPECT_GT(largest(subject, early_search(subject, Stop::never(), "drawn"), 5, -1), 0.19);
+  EXPECT_GT(largest(subject, search_for(SearchFor::early, subject), 5, -1), 0.19);
+  EXPECT_GT(largest(subject, search_for(SearchFor::early, subject, Stop::never(), "drawn"), 5, -1), 0.19);
 }
 
 TEST(TimeSearches, ArePureFunctionsAndGiveQueriesWithTheirSeparation) {
@@ -175,7 +177,7 @@ TEST(MissSearch, FindsMissesNextToTheSeparation) {
   });
   int missed = 0;
   for (std::uint64_t i = 0; i < 10; ++i) {
-    const Query query = make_query(miss_search(subject, Stop::never(), "drawn"), 1, i);
+    const Query query = make_query(search_for(SearchFor::misses, subject, Stop::never(), "drawn"), 1, i);
     missed += collides(query) && !subject.decide(query).hit ? 1 : 0;
   }
   EXPECT_GE(missed, 5);
@@ -191,7 +193,7 @@ TEST(FarSearch, RefutesBoundsBeyondTheSeparation) {
       0.5e-3);
   int refuted = 0;
   for (std::uint64_t i = 0; i < 10; ++i) {
-    const Query query = make_query(far_search(subject, Stop::never(), "drawn"), 1, i);
+    const Query query = make_query(search_for(SearchFor::far, subject, Stop::never(), "drawn"), 1, i);
     refuted += subject.decide(query).hit && distance_exceeds(query, query.separation + 0.5e-3) ? 1 : 0;
   }
   EXPECT_GE(refuted, 5);

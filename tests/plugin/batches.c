@@ -2,8 +2,8 @@
  *   rows, arrays, small-arrays: give the fractional part of a mean of a query's coordinates as the time of
  *     impact. They read the coordinates in the layout of their names. `rows` says that its computing time is
  *     infinite, `arrays` that it is unknown. `small-arrays` wants 7 queries at once.
- *   counts: answers every query with an error code: minus the number of queries in the call. Crashes if
- *     x[0] > 0.9.
+ *   counts, counts-50: answer every query with an error code: minus the number of queries in the call. Crash
+ *     if x[0] > 0.9, hang if x[0] < -0.9. `counts-50` wants 50 queries at once.
  *   wearing: crashes at the 5000th query of its process, whatever the query is. */
 #include <math.h>
 #include <signal.h>
@@ -46,6 +46,8 @@ static void count(void* state, int kind, size_t n, const double* x, const double
   (void)state, (void)kind, (void)h, (void)toi;
   for (size_t i = 0; i < n; ++i) {
     if (x[24 * i] > 0.9) raise(SIGSEGV);
+    while (x[24 * i] < -0.9) {
+    }
     answer[i] = -(int)n;
   }
 }
@@ -73,6 +75,7 @@ static const nearmiss_subject detectors[] = {
     DETECTOR(.name = "arrays", .batch = 100000, ARRAYS, .seconds_of_kernels = unknown),
     DETECTOR(.name = "small-arrays", .batch = 7, ARRAYS),
     DETECTOR(.name = "counts", .batch = 100000, .decide = count),
+    DETECTOR(.name = "counts-50", .batch = 50, .decide = count),
     DETECTOR(.name = "wearing", .batch = 100000, .decide = wear_out)};
 
 const nearmiss_subject* nearmiss_get_subject(size_t index) {

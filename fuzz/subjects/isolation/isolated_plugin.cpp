@@ -53,14 +53,14 @@ class IsolatedPlugin final : public DescribedSubject {
 
   using DescribedSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    perform(Request::decide, queries, [&](const Done& done) { answer(done, verdicts); });
+    perform(Request::decide, queries, [&](const Done& done) { decide(done, verdicts); });
   }
 
   BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     BatchTime sum;
     perform(Request::decide_timed, queries, [&](const Done& done) {
-      answer(done, verdicts);
-      if (done.failure) return;
+      decide(done, verdicts);
+      if (!done.is_whole) return;
       sum.queries += done.count;
       sum.nanoseconds += done.worker->measured();
       sum.kernel_nanoseconds += done.worker->measured_kernels();
@@ -77,8 +77,15 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
-    return ask<BoundAnswer>(Request::bounds, query,
-                            [](const WorkerProcess& worker) { return BoundAnswer::given(worker.number(0)); });
+    BoundAnswer bound;
+    ask_bounds(std::span(&query, 1), std::span(&bound, 1));
+    return bound;
+  }
+
+  void ask_bounds(std::span<const Query> queries, std::span<BoundAnswer> bounds) const override {
+    perform(Request::bounds, queries, [&](const Done& done) {
+      answer(done, bounds, [&](std::uint32_t i) { return BoundAnswer::given(done.worker->number(i)); });
+    });
   }
 
   [[nodiscard]] DistanceAnswer ask_distance(const Query& query) const override {
@@ -117,6 +124,7 @@ class IsolatedPlugin final : public DescribedSubject {
     std::size_t first;            ///< index of the call's first query among all queries
     std::uint32_t count;          ///< number of queries that were answered
     const std::optional<WorkerFailure>& failure;
+    bool is_whole;  ///< whether these are all queries of the call
   };
 
   /// Asks a question about one query. given(worker) reads the answer from the worker.
@@ -124,20 +132,25 @@ class IsolatedPlugin final : public DescribedSubject {
   Answer ask(Request request, const Query& query, const Given& given) const {
     Answer answer;
     perform(request, std::span(&query, 1), [&](const Done& done) {
-      answer = done.failure ? Answer{.fault = done.failure->fault, .fault_code = code_of(*done.failure)}
-                            : given(*done.worker);
+      this->answer(done, std::span(&answer, 1), [&](std::uint32_t /*i*/) { return given(*done.worker); });
     });
     return answer;
   }
 
-  void answer(const Done& done, std::span<Verdict> verdicts) const {
+  /// Writes the answers to the queries of a call; given(i) reads the answer to query i from the worker.
+  template <class Answer, class Given>
+  void answer(const Done& done, std::span<Answer> answers, const Given& given) const {
     in_parts(done.count, [&](std::size_t first, std::size_t last) {
-      for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
-        verdicts[done.first + i] = verdict_of(info(), done.worker->value(i), done.worker->number(i));
+      for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) answers[done.first + i] = given(i);
     });
     if (done.failure)
-      verdicts[done.first + done.count] = {.fault = done.failure->fault,
-                                           .fault_code = code_of(*done.failure)};
+      answers[done.first + done.count] = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+  }
+
+  void decide(const Done& done, std::span<Verdict> verdicts) const {
+    answer(done, verdicts, [&](std::uint32_t i) {
+      return verdict_of(info(), done.worker->value(i), done.worker->number(i));
+    });
   }
 
   /// The code of a failure in a verdict. Keeps what the process wrote.
@@ -175,8 +188,9 @@ class IsolatedPlugin final : public DescribedSubject {
     for (std::size_t start = 0; start < queries.size();) {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
       perform_batch(worker, request, batch, late,
-                    [&](std::uint32_t first, std::uint32_t end, const std::optional<WorkerFailure>& failure) {
-                      take_done(Done{worker.get(), start + first, end - first, failure});
+                    [&](std::uint32_t first, std::uint32_t end, const std::optional<WorkerFailure>& failure,
+                        bool is_whole) {
+                      take_done(Done{worker.get(), start + first, end - first, failure, is_whole});
                     });
       start += batch.size();
     }
@@ -184,29 +198,26 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
   /// Makes a worker perform the request for one batch. If a worker cannot be used any more, a new worker
-  /// replaces it and continues after the query that failed. If a call fails as a whole, it is repeated in
-  /// parts, a failing part in smaller parts, and at last query by query, to find the query that is to blame.
-  /// If a part fails, but none of its own parts does, the last query of the part is to blame, since a failure
-  /// that depends on earlier queries, such as a crash at every 1000th query, is also a fault. (If the call
-  /// was only late as a whole, no query is to blame, because the queries together may take that long.) `late`
-  /// counts the queries over the time limit.
+  /// replaces it and continues after the query that failed. If there are several suspects, they are asked
+  /// again in parts, a failing part in smaller parts, and at last query by query, to find the query that is
+  /// to blame. If a part fails, but none of its own parts does, the last query of the part is to blame,
+  /// since a failure that depends on earlier queries, such as a crash at every 1000th query, is also a
+  /// fault. (If the part was only late, no query is to blame, because the queries together may take that
+  /// long.) `late` counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
-    const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
     const bool is_decided = request != Request::distances && request != Request::steps;
     const bool is_asked = !is_decided || can_decide(batch.front());
     const auto size = static_cast<std::uint32_t>(batch.size());
     std::vector<Repeated> repeated;  // each call is a part of the call before it
     for (std::uint32_t first = 0; first < size;) {
-      if (!is_asked || (limits_.most_late != 0 && late >= limits_.most_late)) {
-        take_part(first, first, not_asked);
-        ++first;
-        continue;
-      }
-      if (!worker) {
+      const bool is_left_out = !is_asked || (limits_.most_late != 0 && late >= limits_.most_late);
+      if (is_left_out || !worker) {
         take_part(first, first,
-                  WorkerFailure{.query = first, .fault = Fault::load, .text = why_not_loaded()});
+                  is_left_out ? WorkerFailure{first, Fault::not_asked}
+                              : WorkerFailure{.query = first, .fault = Fault::load, .text = why_not_loaded()},
+                  false);
         ++first;
         continue;
       }
@@ -217,34 +228,36 @@ class IsolatedPlugin final : public DescribedSubject {
       if (failure) failure->query += first;
       code_->expect_unchanged(*limits_.stop);  // a write to the file can also change running processes
       if (repeated.empty()) adapt(last - first, *worker, failure);
-      if (failure && failure->of_call) {
-        repeated.push_back(
-            {last, part_of(last - first), failure->fault == Fault::time ? std::nullopt : failure});
+      if (failure && failure->suspects != 0) {
+        take_part(first, failure->query, std::nullopt, false);
+        first = failure->query;
+        repeated.push_back({first + failure->suspects, part_of(failure->suspects),
+                            failure->fault == Fault::time ? std::nullopt : failure});
       } else {
         const auto unexplained = std::ranges::find_if(
             repeated, [&](const Repeated& call) { return call.end == last && call.failure; });
         const bool is_last_to_blame = !failure && unexplained != repeated.end();
         const std::uint32_t end = failure ? failure->query : is_last_to_blame ? last - 1 : last;
-        take_part(first, end, is_last_to_blame ? unexplained->failure : failure);
+        take_part(first, end, is_last_to_blame ? unexplained->failure : failure, end == last);
         if (failure || is_last_to_blame)
           for (Repeated& call : repeated) call.failure.reset();
         first = failure ? end + 1 : last;
         while (!repeated.empty() && repeated.back().end <= first) repeated.pop_back();
       }
       if (!failure) continue;
-      late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
+      late += failure->fault == Fault::time && failure->suspects == 0 ? 1 : 0;
       if (failure->goes_on) continue;
       worker = start_worker();
     }
   }
 
-  /// A call that failed as a whole, and is repeated in parts.
+  /// Queries that are asked again in parts, because one of them may be to blame for a failure.
   struct Repeated {
     std::uint32_t end, part;
     std::optional<WorkerFailure> failure;  ///< set until a query is blamed for it
   };
 
-  /// The size of the parts in which a call of this size is repeated.
+  /// The size of the parts in which this number of queries is asked again.
   static std::uint32_t part_of(std::uint32_t size) {
     constexpr std::uint32_t few = 4096;
     constexpr std::uint32_t parts = 64;
@@ -255,8 +268,8 @@ class IsolatedPlugin final : public DescribedSubject {
   void adapt(std::uint32_t count, const WorkerProcess& worker,
              const std::optional<WorkerFailure>& failure) const {
     constexpr std::uint32_t fewer = 8;
-    if (failure && failure->of_call) in_a_call_ = std::max(1U, count / fewer);
-    const bool quick = !failure && fewer * worker.elapsed() < isolation::call_limit * limits_.time;
+    if (failure && failure->suspects != 0) in_a_call_ = std::max(1U, failure->suspects / fewer);
+    const bool quick = !failure && fewer * worker.elapsed() < limits_.time;
     if (quick && count == in_a_call_)
       in_a_call_ = static_cast<std::uint32_t>(
           std::min<std::size_t>(2 * std::size_t{count}, isolation::capacity_for(info())));

@@ -28,7 +28,7 @@ enum class Request : std::uint8_t {
   decide,
   decide_timed,  ///< decides, and measures the time of all queries together
   time_each,     ///< measures the time of each query
-  bounds,        ///< gives the distance bound of the first query
+  bounds,        ///< gives the distance bound of each query
   distances,     ///< gives the distance of the first query's primitives
   steps,         ///< filters the first query's step
 };

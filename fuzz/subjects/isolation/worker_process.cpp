@@ -66,16 +66,10 @@ void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
 
-/// The largest number of times that a request calls the plug-in for one query.
+/// The largest number of times that a request calls the plug-in for one query: to warm up, and timed, or
+/// three tries.
 double calls_per_query(Request request) {
-  switch (request) {
-    case Request::decide_timed:
-      return 2;  // to warm up, and timed
-    case Request::time_each:
-      return 3;
-    default:
-      return 1;
-  }
+  return request == Request::decide_timed ? 2 : request == Request::time_each ? 3 : 1;
 }
 
 }  // namespace
@@ -281,10 +275,11 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::span<c
   answers_->current = 0;
   answers_->exception[0] = '\0';
   const Call call{++call_, request, queries.front().kind, n};
+  const bool decides = request == Request::decide || request == Request::decide_timed;
+  const auto at_once = decides ? static_cast<std::uint32_t>(std::min<std::size_t>(info_.batch, n)) : 1;
   const Duration of_queries = limits_.time * calls_per_query(request);
-  const Duration of_call = n == 1 ? of_queries : call_limit * of_queries;
-  End end = ask(call, Elapsed::with_waiting(info_.batch == 1 ? limits_.time : of_call),
-                Elapsed::with_waiting(of_call));
+  End end = ask(call, Elapsed::with_waiting(limit_of_batch(at_once) * limits_.time),
+                Elapsed::with_waiting(n == 1 ? of_queries : call_limit * of_queries));
   const auto answers = [&](std::uint32_t i) { return batch_.calls()[i] == call.number; };
   if (end == End::done && answers_->threw == call.number) end = End::threw;
   for (std::uint32_t i = 0; i < n && end == End::done; ++i)
@@ -300,7 +295,8 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::span<c
     if (!answers(i)) query = i;
   WorkerFailure found = failure(end, query);
   if (end == End::dead) found.errors = lines_of(ended_);
-  found.of_call |= info_.batch > 1 && n > 1;
+  if (n > 1 && (at_once > 1 || end == End::call_late))
+    found.suspects = std::min(end == End::call_late ? n : at_once, n - query);
   return found;
 }
 
@@ -308,9 +304,8 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) const {
   if (answers_->memory_refused != 0 && end != End::broken) return {query, Fault::memory};
   switch (end) {
     case End::query_late:
-      return {query, Fault::time};
     case End::call_late:
-      return {.query = query, .fault = Fault::time, .of_call = batch_.n > 1};
+      return {query, Fault::time};
     case End::threw:
       return {.query = query, .fault = Fault::exception, .text = text(answers_->exception), .goes_on = true};
     case End::dead: {
@@ -394,21 +389,20 @@ void WorkerProcess::send_call(const Call& call) const {
 }
 
 std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
-  pollfd replies{replies_.number(), POLLIN, 0};
-  if (poll(&replies, 1, 0) > 0) {
-    const End end = read_reply(call);
-    if (end != End::dead) return end;
-    // A process that dies closes its socket, and right after, its supervisor reports the end.
-    return ends_within(milliseconds(1000)) ? End::dead : End::broken;
-  }
-  return ends_within(milliseconds(0)) ? std::optional(End::dead) : std::nullopt;
+  const std::optional<End> end = read_reply(call);
+  if (!end) return ends_within(milliseconds(0)) ? std::optional(End::dead) : std::nullopt;
+  if (end != End::dead) return end;
+  // A process that dies closes its socket, and right after, its supervisor reports the end.
+  return ends_within(milliseconds(1000)) ? End::dead : End::broken;
 }
 
-WorkerProcess::End WorkerProcess::read_reply(std::uint64_t call) const {
+/// The end that a message on the worker's socket shows; nothing if there is no message.
+std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) const {
   std::uint64_t reply = 0;
   std::array<char, sizeof reply + 1> message{};
   const auto size = recv(replies_.number(), message.data(), message.size(), MSG_DONTWAIT);
-  if (size == 0 || (size < 0 && errno != EAGAIN)) return End::dead;
+  if (size < 0 && errno == EAGAIN) return std::nullopt;
+  if (size <= 0) return End::dead;
   std::memcpy(&reply, message.data(), sizeof reply);
   char more = 0;
   const bool is_alone = recv(replies_.number(), &more, sizeof more, MSG_PEEK | MSG_DONTWAIT) <= 0;

@@ -43,8 +43,13 @@ constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(l
 /// the worker can take at once if these are fewer. Throws a TrialError if they exceed the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
-/// A call with several queries may take this many times the limit of one query.
+/// A request about several queries may take this many times the limit of one query.
 inline constexpr double call_limit = 10;
+/// A detector's function may take this many times the limit of one query to decide several queries at once.
+constexpr double limit_of_batch(std::size_t queries) {
+  constexpr double of_each = 1e-3;
+  return std::min(call_limit, 1 + of_each * static_cast<double>(queries - 1));
+}
 
 /// Why a query has no answer.
 struct WorkerFailure {
@@ -53,8 +58,10 @@ struct WorkerFailure {
   std::int32_t code = 0;    ///< for a crash: the signal, or the negated exit code
   std::string text = {};    ///< for an exception: what it says; for a failure to load: why
   std::string errors = {};  ///< the end of what the process wrote to standard error, if it has ended
-  bool of_call = false;     ///< the call failed as a whole: which query is to blame is not known
-  bool goes_on = false;     ///< the worker can be used for other queries
+  /// The number of queries, from `query` on, that were asked together, so that any of them may be to blame; 0
+  /// if `query` is to blame.
+  std::uint32_t suspects = 0;
+  bool goes_on = false;  ///< the worker can be used for other queries
 };
 
 /// Checks a worker's description of its plug-in, and returns it with printable texts. `options` are those
@@ -146,7 +153,7 @@ class WorkerProcess {
   void send_call(const Call& call) const;
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
-  [[nodiscard]] End read_reply(std::uint64_t call) const;
+  [[nodiscard]] std::optional<End> read_reply(std::uint64_t call) const;
   /// The largest Memory::data of a process of the plug-in, in bytes.
   [[nodiscard]] std::uint64_t data() const;
   /// Whether the supervisor reports within this time that the process has ended.

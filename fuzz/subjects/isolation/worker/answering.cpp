@@ -183,14 +183,16 @@ class Asking {
   /// The part of the last measured time without copies to a device.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const { return kernel_nanoseconds_; }
 
-  /// Writes the number that ask(x, h) returns as the answer to the first query.
+  /// Writes the number that ask(x, h) returns as the answer to each query.
   template <class Ask>
   void give(const Ask& ask) {
-    begin(0);
-    shared.numbers()[0] = ask(coordinates(plugin_, call_.kind, 0, 1), shared.separations()[0]);
-    note(shared.calls(), 1, call_.number);
+    for (std::uint32_t i = 0; i < call_.queries; ++i) {
+      begin(i);
+      shared.numbers()[i] = ask(coordinates(plugin_, call_.kind, i, 1), shared.separations()[i]);
+      note(shared.calls() + i, 1, call_.number);
+    }
   }
-  void give_bound() {
+  void give_bounds() {
     give([&](const double* x, double h) { return plugin_.bound(call_.kind, x, h).bound; });
   }
   void give_distance() {
@@ -249,7 +251,7 @@ void answer(const Detector& detector, const Call& call) {
             [&] { asking.ask_empty(i, i + 1, 1); });
       break;
     case Request::bounds:
-      asking.give_bound();
+      asking.give_bounds();
       break;
     case Request::distances:
       asking.give_distance();

@@ -18,26 +18,17 @@ namespace nearmiss::isolation {
 
 namespace {
 
-unsigned long count_entries(const std::string& folder) {
-  DIR* const entries = opendir(folder.c_str());
-  if (entries == nullptr) return 0;
-  unsigned long count = 0;
-  while (const dirent* entry = readdir(entries)) count += entry->d_name[0] != '.' ? 1 : 0;
-  closedir(entries);
-  return count;
-}
-
-/// The number of threads of all processes of this user.
+/// The number of threads of all processes of this user. The folder /proc/PID/task has a link for each thread,
+/// and the two links of every folder.
 unsigned long threads_of_user() {
   DIR* const processes = opendir("/proc");
   if (processes == nullptr) return 0;
   unsigned long count = 0;
   while (const dirent* entry = readdir(processes)) {
     if (entry->d_name[0] < '0' || entry->d_name[0] > '9') continue;
-    const std::string folder = std::string("/proc/") + entry->d_name;
+    const std::string threads = std::string("/proc/") + entry->d_name + "/task";
     struct stat about {};
-    if (stat(folder.c_str(), &about) == 0 && about.st_uid == getuid())
-      count += count_entries(folder + "/task");
+    if (stat(threads.c_str(), &about) == 0 && about.st_uid == getuid()) count += about.st_nlink - 2;
   }
   closedir(processes);
   return count;
