@@ -86,11 +86,6 @@ Family with_kinds(const CampaignOptions& options, const Family& family, std::spa
   return family;
 }
 
-/// The family of the pairs of a mesh.
-Family family_of_mesh(const CampaignOptions& options, const Stop& stop) {
-  return mesh_family(open_scene(options.mesh), stop);
-}
-
 /// The queries in files and folders.
 std::vector<Query> queries_of(const std::vector<std::filesystem::path>& paths) {
   std::vector<Query> queries;
@@ -106,7 +101,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   const std::string separation = options.separation.of_families();
   const bool asks_for_contact = options.separation.is_given() && separation.empty();
   std::vector<Family> known(families().begin(), families().end());
-  if (!options.mesh.empty()) with_kinds(options, known.emplace_back(family_of_mesh(options, stop)), asked);
+  if (!options.mesh.empty())
+    with_kinds(options, known.emplace_back(mesh_family(open_scene(options.mesh), stop)), asked);
   std::vector<Family> near_within;
   for (const Family& each : near_families(queries_of(options.near)))
     if (of_kinds(each, asked))

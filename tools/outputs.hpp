@@ -30,8 +30,8 @@ void expect_writable(const std::filesystem::path& file, std::string_view option,
                      const std::filesystem::path& db = {});
 
 /// --json: where a command writes its results as JSON. It writes to a file, to standard output (-), or
-/// nowhere. With
-/// --json -, standard output gets the JSON and nothing else, and the command's text goes to standard error.
+/// nowhere. With --json -, standard output gets the JSON and nothing else, and the command's text goes to
+/// standard error.
 class JsonOutput {
  public:
   /// Adds --json.

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "reports/text/json.hpp"
@@ -149,19 +149,39 @@ struct Marks::Primitives {
 /// Adds the triangles, each with its own marks and those of its edges, then the edges that are in no
 /// triangle.
 void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
-  std::vector<std::array<int, 2>> of_triangles;
+  const auto size = mesh.start.size() + 1;
+  // Most primitives have no mark, which their vertices show faster than a search.
+  std::vector<bool> is_marked(size);
+  const auto mark_vertices = [&](const auto& marks) {
+    for (const auto& [primitive, unused] : marks)
+      for (const int vertex : primitive) is_marked[static_cast<std::size_t>(vertex)] = true;
+  };
+  mark_vertices(triangles_);
+  mark_vertices(edges_);
+  const auto mark_of_primitive = [&](const auto& marks, const auto& primitive) {
+    const auto may_be_marked = [&](int vertex) { return is_marked[static_cast<std::size_t>(vertex)]; };
+    return std::ranges::all_of(primitive, may_be_marked) ? mark_of(marks, primitive) : 0;
+  };
+  // The edges are sorted: those of which v is the smaller vertex are from first[v] to first[v + 1].
+  std::vector<std::ptrdiff_t> first(size);
+  for (const auto& e : mesh.edges) ++first[static_cast<std::size_t>(e[0]) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<bool> is_of_triangle(mesh.edges.size());
   for (const auto& t : mesh.triangles) {
-    Mark mark = mark_of(triangles_, t);
+    Mark mark = mark_of_primitive(triangles_, t);
     for (const auto& side : {edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])}) {
-      mark |= mark_of(edges_, side);
-      of_triangles.push_back(side);
+      mark |= mark_of_primitive(edges_, side);
+      const auto* const at = &first[static_cast<std::size_t>(side[0])];
+      const auto end = mesh.edges.begin() + at[1];
+      const auto place = std::lower_bound(mesh.edges.begin() + at[0], end, side);
+      if (place != end && *place == side)
+        is_of_triangle[static_cast<std::size_t>(place - mesh.edges.begin())] = true;
     }
     primitives.add(Vertices(t.begin(), t.end()), mark);
   }
-  std::ranges::sort(of_triangles);
-  std::vector<std::array<int, 2>> lines;
-  std::ranges::set_difference(mesh.edges, of_triangles, std::back_inserter(lines));
-  for (const auto& e : lines) primitives.add(Vertices(e.begin(), e.end()), mark_of(edges_, e));
+  for (std::size_t i = 0; i < mesh.edges.size(); ++i)
+    if (const auto& e = mesh.edges[i]; !is_of_triangle[i])
+      primitives.add(Vertices(e.begin(), e.end()), mark_of_primitive(edges_, e));
 }
 
 /// Adds the points that have a mark or are in no primitive.

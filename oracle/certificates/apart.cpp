@@ -2,13 +2,15 @@
 // primitives strictly. So does the normal of the closest features, which moves with them: x - y for two
 // vertices, (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. A direction that separates at
 // a time also separates for a while, and [from, to] is compact. So a search that cuts [from, to] into parts
-// ends, unless the smallest distance is exactly h.
+// ends, unless the smallest distance is exactly h. Near a time at which normals change, parts may have to be
+// very short. Cuts approach such a time as fast as root finding does.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,57 +31,59 @@ namespace {
 using namespace exact;
 using certificates::FeatureNormal;
 using certificates::Gaps;
+using certificates::Interval;
 using certificates::Normal;
+using certificates::RoughVector;
 using certified::ClosestFeatures;
 
-constexpr int most_tries = 500'000;  ///< tests of a normal on an interval
+constexpr int most_tries = 50'000;  ///< tests of a normal on an interval
 constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
-constexpr int depth_of_doubles = 50;  ///< at smaller depths, doubles show which features are closest
+constexpr double width_of_doubles = 0x1p-50;  ///< in wider parts, doubles show which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
+/// The depth from which on cuts approach times of change, and normals are tried exactly, first in the middle.
+constexpr int deep = 16;
 
 struct Piece {
-  Number lo, hi;
+  Interval at;
   Normal normal;
-  bool is_extended = false;  ///< whether it extends as far as its normal separates
+  bool may_be_rounded = false;  ///< whether a rounded normal may do, too
+  bool is_extended = false;     ///< whether it extends as far as its normal separates
 };
 
 /// A part of the step for which a normal is to be found.
 struct Part {
-  Number lo, hi;
-  int depth = 0;                 ///< the part was halved at least this many times
-  int kept_lo = 0, kept_hi = 0;  ///< how many cuts in a row kept this end
+  Interval at;
+  int depth = 0;                         ///< how often it was cut
+  const Polynomial* obstacle = nullptr;  ///< the polynomial that kept a normal from separating before the cut
+  std::optional<Root> change = {};       ///< a root of it, or of a derivative, in this part
+  bool is_beside_a_change = false;       ///< whether the last cut approached a change of it outside this part
 
-  /// The parts after and before a cut, which is in the middle at first. If `may_be_uneven` and many cuts in a
-  /// row kept one end, the part at that end gets 2^-n of the length, and n grows with each cut: what happens
-  /// near an end may last only 2^-2000.
-  [[nodiscard]] std::array<Part, 2> cut(bool may_be_uneven) const {
-    constexpr int usual = 4;
-    const int kept = std::max(kept_lo, kept_hi);
-    const int n = may_be_uneven && kept > usual ? kept : 1;
-    const bool is_near_lo = kept_lo >= kept_hi;
-    const double part = std::ldexp(1.0, -n);
-    const Number at = is_near_lo ? between(lo, hi, part) : between(hi, lo, part);
-    return {{{at, hi, depth + (is_near_lo ? 1 : n), 0, kept_hi + 1},
-             {lo, at, depth + (is_near_lo ? n : 1), kept_lo + 1, 0}}};
-  }
+  [[nodiscard]] bool is_point() const { return at.lo == at.hi; }
 };
 
-PolynomialVector constant(const certified::Vec<double>& n) {
-  PolynomialVector result;
-  for (std::size_t k = 0; k < 3; ++k) result[k] = Polynomial({Number(n[k])});
+/// The polynomial without its roots at a time.
+Polynomial without_root(Polynomial p, const Number& t) {
+  while (!p.is_zero() && p.sign_at(t) == 0) p = divide(p, Polynomial({-t, 1})).quotient;
+  return p;
+}
+
+/// The only root of a polynomial in an interval; nothing if it is not known to have only one.
+std::optional<Root> only_root(const Polynomial& p, const Interval& in) {
+  if (p.sign_at(in.lo) == 0 || p.sign_at(in.hi) == 0) return std::nullopt;
+  if (OnInterval(p, in.lo, in.hi).changes() != 1) return std::nullopt;
+  return Root(std::make_shared<const Polynomial>(p), in.lo, in.hi);
+}
+
+RoughVector constant(const certified::Vec<double>& n) {
+  RoughVector result;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (n[k] != 0) result[k].push_back(n[k]);
   return result;
 }
 
 PolynomialVector times(const Polynomial& factor, const PolynomialVector& v) {
   return {factor * v[0], factor * v[1], factor * v[2]};
-}
-
-Gaps gaps_of(const Query& query, const exact::Unit& unit, const std::array<PolynomialVector, 4>& x,
-             bool is_strict) {
-  std::vector<PolynomialVector> differences;
-  for (const auto& [from, to] : topology(query.kind).gaps) differences.push_back(x[from] - x[to]);
-  return {std::move(differences), unit.scaled(query.separation), is_strict};
 }
 
 /// Separates the primitives of a query piece by piece.
@@ -88,24 +92,21 @@ class Separator {
   /// `reaches_h`: the primitives come within h. A proof then exists only if they do so at a cut, so all cuts
   /// are in the middle, and few normals are tried.
   Separator(const Query& query, bool is_strict, bool reaches_h)
-      : kind_(query.kind),
-        unit_(query),
-        differences_(query),
-        x_(moving_points(query, unit_)),
-        gaps_(gaps_of(query, unit_, x_, is_strict)),
-        cuts_unevenly_(!reaches_h),
+      : gaps_(query, is_strict),
+        halves_only_(reaches_h),
         tries_left_(reaches_h ? most_tries_if_reached : most_tries) {}
 
   /// Covers [lo, hi], or [lo, hi) if `open`, with pieces, and cuts each part for which it finds no normal.
   /// Returns false if it gives up.
   bool cover(const Number& lo, const Number& hi, bool open) {
-    std::vector<Part> parts{{lo, hi}};  // the earliest part is the last element
+    std::vector<Part> parts{{{lo, hi}}};  // the earliest part is the last element
     while (!parts.empty()) {
-      const Part part = std::move(parts.back());
+      Part part = std::move(parts.back());
       parts.pop_back();
-      if (find(part, open && parts.empty())) continue;
-      if (part.depth >= most_depth || tries_left_ < 0) return false;
-      for (Part& each : part.cut(cuts_unevenly_)) parts.push_back(std::move(each));
+      const bool is_open = open && parts.empty();
+      if (find(part, is_open)) continue;
+      if (part.is_point() || part.depth >= most_depth || tries_left_ < 0) return false;
+      cut(std::move(part), is_open, parts);
     }
     return true;
   }
@@ -114,7 +115,7 @@ class Separator {
   /// primitives are nearest often separates before and after, too.
   void merge(bool open) {
     const auto is_before = [](const Piece& a, const Piece& b) {
-      return a.is_extended != b.is_extended ? b.is_extended : a.hi - a.lo < b.hi - b.lo;
+      return a.is_extended != b.is_extended ? b.is_extended : a.at.width.x < b.at.width.x;
     };
     while (true) {
       const auto narrowest = std::ranges::min_element(pieces_, is_before);
@@ -123,13 +124,25 @@ class Separator {
     }
   }
 
-  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Rounds the normals that were found without a look at rounded ones, if they then still separate.
+  void round(bool open) {
+    for (Piece& piece : pieces_)
+      for (const int bits : certificates::roundings) {
+        if (!piece.may_be_rounded || bits == 0) break;
+        Normal rounded(certificates::rounded(piece.normal.rough(), bits), gaps_);
+        if (!rounded.separates(piece.at, open && &piece == &pieces_.back())) continue;
+        piece.normal = std::move(rounded);
+        break;
+      }
+  }
+
+  [[nodiscard]] std::vector<Piece>& pieces() { return pieces_; }
 
  private:
   /// Extends piece i as far as its normal separates the primitives.
   void extend(std::size_t i, bool open) {
     const auto reaches = [&](std::size_t first, std::size_t last) {
-      return pieces_[i].normal.separates(pieces_[first].lo, pieces_[last].hi,
+      return pieces_[i].normal.separates({pieces_[first].at.lo, pieces_[last].at.hi},
                                          open && last + 1 == pieces_.size());
     };
     std::size_t first = i;
@@ -138,25 +151,87 @@ class Separator {
       if (last + step < pieces_.size() && reaches(first, last + step)) last += step;
       if (first >= step && reaches(first - step, last)) first -= step;
     }
-    pieces_[i] = {pieces_[first].lo, pieces_[last].hi, std::move(pieces_[i].normal), true};
+    pieces_[i].at = {pieces_[first].at.lo, pieces_[last].at.hi};
+    pieces_[i].is_extended = true;
     std::swap(pieces_[first], pieces_[i]);
     pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
                   pieces_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   }
 
+  /// Cuts a part in the middle or, once several cuts were of no use, around a time of change. What happens
+  /// there may last only 2^-2000.
+  void cut(Part&& part, bool open, std::vector<Part>& parts) {
+    auto& [at, depth, obstacle, change, is_beside] = part;
+    const Polynomial* const before = obstacle;
+    obstacle = halves_only_ || depth < deep ? nullptr : first_obstacle(at, open);
+    if (obstacle == nullptr || (is_beside && obstacle == before))
+      change = {};
+    else if (!change || obstacle != before)
+      change = time_of_change(*obstacle, at);
+    if (change) approach(*change, at);
+    const Number first = change ? change->lo() : between(at.lo, at.hi, 0.5);
+    const Number last = change ? change->hi() : first;
+    if (last < at.hi) parts.push_back({{last, at.hi}, depth + 1, obstacle, {}, change.has_value()});
+    if (first < last) parts.push_back({{first, last}, depth + 1, obstacle, change});
+    if (at.lo < first) parts.push_back({{at.lo, first}, depth + 1, obstacle, {}, change.has_value()});
+  }
+
+  /// Refines a root until its interval is not much longer than its distance from the ends of a part.
+  static void approach(Root& root, const Interval& in) {
+    constexpr int most_refinements = 40;
+    const Number much = 0x1p-20;
+    for (int i = 0; i < most_refinements; ++i) {
+      root.refine();
+      const Number width = much * (root.hi() - root.lo());
+      if (width <= root.lo() - in.lo && width <= in.hi - root.hi()) return;
+    }
+  }
+
+  /// What keeps the normal that separates in the middle of a part from separating in all of it; or, if that is
+  /// 0 at an end of the part, what keeps one that separates at this end.
+  const Polynomial* first_obstacle(const Interval& in, bool open) {
+    const auto of = [&](Normal* normal) -> const Polynomial* {
+      for (std::size_t gap = 0; normal != nullptr && gap < gaps_.size(); ++gap)
+        if (const Polynomial* const obstacle = normal->obstacle(gap, in, open)) return obstacle;
+      return nullptr;
+    };
+    const Polynomial* obstacle = of(in_the_middle_);
+    for (const Number& end : {in.lo, in.hi})
+      if (obstacle != nullptr && obstacle->sign_at(end) == 0)
+        if (const Polynomial* const other = of(normal_at(end))) obstacle = other;
+    return obstacle;
+  }
+
+  /// A normal that separates at a time; null if none is known.
+  Normal* normal_at(const Number& t) {
+    for (auto& [features, normals] : normals_)
+      if (Normal& exact = normals.in_front_at(t).back(); exact.separates_at(t)) return &exact;
+    return nullptr;
+  }
+
+  /// A time in a part at which an obstacle changes its sign, or is smallest, or the centre of several such times.
+  [[nodiscard]] static std::optional<Root> time_of_change(const Polynomial& obstacle, const Interval& in) {
+    Polynomial p = without_root(without_root(obstacle, in.lo), in.hi);
+    for (; p.degree() >= 1; p = p.derivative())
+      if (auto root = only_root(p, in)) return root;
+    return std::nullopt;
+  }
+
   /// Finds a normal that separates the primitives in all of a part.
   bool find(const Part& part, bool open) {
-    if (part.depth < depth_of_doubles) {
-      const double t = CGAL::to_double(between(part.lo, part.hi, 0.5));
-      const auto points = certified::closest_points(certified::VerticesAt<double>(differences_, t));
+    in_the_middle_ = nullptr;
+    if (part.at.width.x > width_of_doubles) {
+      const double t = CGAL::to_double(between(part.at.lo, part.at.hi, 0.5));
+      const auto points = certified::closest_points(certified::VerticesAt<double>(gaps_.differences(), t));
+      const RoughVector direction = constant(points.difference);
       for (const int bits : certificates::roundings) {
-        Normal normal(certificates::rounded(constant(points.difference), bits), gaps_);
+        Normal normal(bits > 0 ? certificates::rounded(direction, bits) : direction, gaps_);
         if (take(normal, part, open)) return true;
       }
       if (take_normal(points.features, part, open)) return true;
     }
-    if (part.depth < all_features_from) return false;
-    const Topology& of = topology(kind_);
+    if (part.depth < all_features_from && !part.is_point()) return false;
+    const Topology& of = topology(gaps_.kind());
     using Combination = ClosestFeatures::Combination;
     for (const auto& [from, to] : of.gaps)
       if (take_normal({Combination::vertices, from, to, to}, part, open)) return true;
@@ -173,42 +248,46 @@ class Separator {
     auto known = normals_.find(key);
     if (known == normals_.end())
       known = normals_.emplace(key, FeatureNormal(normal_of(features), gaps_)).first;
-    auto& normals = known->second.in_front_at(between(part.lo, part.hi, 0.5));
-    return !normals.back().clearly_fails(part.lo, part.hi) &&
-           std::ranges::any_of(normals, [&](Normal& each) { return take(each, part, open); });
+    const Number middle = between(part.at.lo, part.at.hi, 0.5);
+    auto& normals = known->second.in_front_at(middle);
+    Normal& exact = normals.back();
+    if (part.depth < deep)
+      return !exact.clearly_fails(part.at) &&
+             std::ranges::any_of(normals, [&](Normal& each) { return take(each, part, open); });
+    if (!exact.separates_at(middle)) return false;
+    if (in_the_middle_ == nullptr) in_the_middle_ = &exact;
+    return take(exact, part, open, true);
   }
 
-  [[nodiscard]] PolynomialVector normal_of(const ClosestFeatures& features) const {
-    const PolynomialVector p = x_[features.vertex] - x_[features.from];
+  [[nodiscard]] PolynomialVector normal_of(const ClosestFeatures& features) {
+    const auto& x = gaps_.points();
+    const PolynomialVector p = x[features.vertex] - x[features.from];
     switch (features.combination) {
       case ClosestFeatures::Combination::vertices:
         return p;
       case ClosestFeatures::Combination::vertex_and_edge: {
-        const PolynomialVector e = x_[features.to] - x_[features.from];
+        const PolynomialVector e = x[features.to] - x[features.from];
         return times(dot(e, e), p) - times(dot(p, e), e);
       }
       case ClosestFeatures::Combination::interiors:
         break;
     }
-    const auto& [unused, q, r] = topology(kind_).pqr;
-    return cross(x_[q.to] - x_[q.from], x_[r.to] - x_[r.from]);
+    const auto& [unused, q, r] = topology(gaps_.kind()).pqr;
+    return cross(x[q.to] - x[q.from], x[r.to] - x[r.from]);
   }
 
   /// Keeps a piece with this normal if it separates the primitives.
-  bool take(Normal& normal, const Part& part, bool open) {
-    if (--tries_left_ < 0 || !normal.separates(part.lo, part.hi, open)) return false;
-    pieces_.push_back({part.lo, part.hi, normal});
+  bool take(Normal& normal, const Part& part, bool open, bool may_be_rounded = false) {
+    if (--tries_left_ < 0 || !normal.separates(part.at, open)) return false;
+    pieces_.push_back({part.at, normal, may_be_rounded});
     return true;
   }
 
-  Kind kind_;
-  exact::Unit unit_;
-  certified::VertexDifferences differences_;
-  std::array<PolynomialVector, 4> x_;
   Gaps gaps_;
   std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
+  Normal* in_the_middle_ = nullptr;  ///< separates in the middle of the part that find() got last
   std::vector<Piece> pieces_;
-  bool cuts_unevenly_;
+  bool halves_only_;
   int tries_left_;
 };
 
@@ -222,13 +301,15 @@ bool is_reached(const Query& query, const Span& span) {
 
 }  // namespace
 
-std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict) {
+std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict,
+                                         bool is_known) {
   const PlainArithmetic guard;
-  const bool reaches_h = is_reached(query, span);
+  const bool reaches_h = !is_known && is_reached(query, span);
   if (is_strict && reaches_h) return std::nullopt;
   Separator separator(query, is_strict, reaches_h);
   if (!separator.cover(span.from, span.to, span.is_open)) return std::nullopt;
   separator.merge(span.is_open);
+  separator.round(span.is_open);
   using namespace certificates;
   const auto number = [](const Number& x) { return quoted(certificates::to_text(x)); };
   const auto polynomial = [&](const Polynomial& p) {
@@ -237,11 +318,10 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
   std::string text = heading(query, "apart", span.from, to_text(Number(span.to))) +
                      (span.is_open ? R"(,"open":true)" : "") + (is_strict ? "" : R"(,"strict":false)");
   std::vector<Number> times{Number(span.from)};
-  for (const Piece& piece : separator.pieces()) times.push_back(piece.hi);
+  for (const Piece& piece : separator.pieces()) times.push_back(piece.at.hi);
   text += R"(,"times":)" + list(times, number);
-  text += R"(,"normals":)" + list(separator.pieces(), [&](const Piece& piece) {
-            return list(piece.normal.vector(), polynomial);
-          });
+  text += R"(,"normals":)" +
+          list(separator.pieces(), [&](Piece& piece) { return list(piece.normal.exact(), polynomial); });
   return if_short(text + "}");
 }
 

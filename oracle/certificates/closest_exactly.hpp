@@ -28,9 +28,9 @@ Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const Weight
     for (std::size_t k = 0; k < 3; ++k) {
       const Real part = weights[vertex] * x[vertex][k];
       if (i < split(kind))
-        d[k] += part;
+        d[k] = d[k] + part;
       else
-        d[k] -= part;
+        d[k] = d[k] - part;
     }
   }
   return dot(d, d);

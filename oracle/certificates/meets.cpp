@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "oracle/arithmetic/ball.hpp"
 #include "oracle/certificates/certificate.hpp"
 #include "oracle/certificates/closest_exactly.hpp"
 #include "oracle/certificates/positive.hpp"
@@ -27,6 +28,7 @@ namespace nearmiss {
 namespace {
 
 using namespace certificates;
+using certified::Ball;
 using exact::Number;
 using exact::Polynomial;
 using exact::PolynomialVector;
@@ -39,6 +41,12 @@ std::array<Vec<Real>, 4> positions(const Query& query, const Real& t) {
     for (std::size_t k = 0; k < 3; ++k)
       x[i][k] = (1 - t) * Real(query.x[3 * i + k]) + t * Real(query.x[12 + 3 * i + k]);
   return x;
+}
+
+/// A double near x, with a bound of its error.
+Ball<double> ball(const mpq_class& x) {
+  const double d = x.get_d();
+  return {d, 0x1p-51 * std::abs(d) + certified::smallest};
 }
 
 /// Whether a time is in a span.
@@ -60,19 +68,32 @@ class Meeting {
       : query_(query),
         span_(span),
         is_strict_(is_strict),
-        squared_h_(mpq_class(query.separation) * mpq_class(query.separation)) {}
+        in_unit_(query),
+        squared_h_(mpq_class(query.separation) * mpq_class(query.separation)) {
+    double largest = 0;
+    for (const double x : query.x) largest = std::max(largest, std::abs(x));
+    const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+    for (double& x : in_unit_.x) x = std::ldexp(x, -exponent);
+    in_unit_.separation = std::ldexp(query.separation, -exponent);
+  }
 
   /// The proof that the primitives come within h at t. If approximately closest points are near enough, it
   /// uses these, because their weights need fewer digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
     if (!is_in(t, span_)) return std::nullopt;
-    const auto x = positions<mpq_class>(query_, t);
-    if (query_.separation > 0)
-      if (const auto weights = shortened(about_closest(t.get_d()), {3, 8, 20, 50}, x))
-        return text_at(t, *weights);
-    const ClosestWeights<mpq_class> closest(query_.kind, x);
+    const PositionsAt x(query_, t);
+    if (query_.separation > 0) {
+      const auto about = positions<double>(in_unit_, t.get_d());
+      const ClosestWeights<double> closest(query_.kind, about);
+      if (is_clearly_farther(closest.squared_distance())) return std::nullopt;
+      if (const auto weights = shortened(closest.weights(), {3, 8, 20, 50}, x)) return text_at(t, *weights);
+    }
+    const ClosestWeights<mpq_class> closest(query_.kind, x.exact());
     if (!is_within(closest.squared_distance())) return std::nullopt;
-    return text_at(t, shortened(closest.weights(), {50, 200, 1000}, x).value_or(closest.weights()));
+    if (const auto weights = shortened(closest.weights(), {50, 200, 1000}, x)) return text_at(t, *weights);
+    if (auto text = text_at(t, closest.weights())) return text;  // nothing if it is too long
+    const auto weights = shortened(closest.weights(), {4000}, x);
+    return weights ? text_at(t, *weights) : std::nullopt;
   }
 
   [[nodiscard]] std::optional<std::string> at(double t) const {
@@ -80,27 +101,55 @@ class Meeting {
   }
 
  private:
+  /// The vertices at a time, in balls and, on first use, exactly. The query and the time must outlive it.
+  class PositionsAt {
+   public:
+    PositionsAt(const Query& query, const mpq_class& t)
+        : query_(query), t_(t), rough_(positions(query, ball(t))) {}
+
+    [[nodiscard]] const std::array<Vec<Ball<double>>, 4>& rough() const { return rough_; }
+    [[nodiscard]] const std::array<Vec<mpq_class>, 4>& exact() const {
+      if (!exact_) exact_ = positions(query_, t_);
+      return *exact_;
+    }
+
+   private:
+    const Query& query_;
+    const mpq_class& t_;
+    std::array<Vec<Ball<double>>, 4> rough_;
+    mutable std::optional<std::array<Vec<mpq_class>, 4>> exact_;
+  };
+
+  /// Whether the distance is so far above h that exact arithmetic would not help, given its approximate
+  /// square in the unit of `in_unit_`.
+  [[nodiscard]] bool is_clearly_farther(double squared_distance) const {
+    constexpr double error = 1e-6;
+    return std::sqrt(squared_distance) > (1 + error) * in_unit_.separation + error;
+  }
+
   [[nodiscard]] bool is_within(const mpq_class& squared_distance) const {
     return is_strict_ ? squared_distance < squared_h_ : squared_distance <= squared_h_;
   }
 
-  /// Weights of approximately closest points. After overflow, they are not finite, and `shortened` refuses
-  /// them.
-  [[nodiscard]] WeightsOfPoints<double> about_closest(double t) const {
-    const auto x = positions<double>(query_, t);
-    return ClosestWeights<double>(query_.kind, x).weights();
+  /// Whether the points with these weights are within h.
+  [[nodiscard]] bool is_within(const WeightsOfPoints<mpq_class>& weights, const PositionsAt& x) const {
+    WeightsOfPoints<Ball<double>> rough;
+    std::ranges::transform(weights, rough.begin(), ball);
+    const Ball<double> h = query_.separation;
+    const int excess = (squared_distance(query_.kind, x.rough(), rough) - h * h).sign();
+    return excess != 0 ? excess < 0 : is_within(squared_distance(query_.kind, x.exact(), weights));
   }
 
   /// The weights, rounded to the first number of bits in `bits` that brings the points within h.
   template <class Real>
-  [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(
-      const WeightsOfPoints<Real>& weights, std::initializer_list<unsigned> bits,
-      const std::array<Vec<mpq_class>, 4>& x) const {
+  [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(const WeightsOfPoints<Real>& weights,
+                                                                    std::initializer_list<unsigned> bits,
+                                                                    const PositionsAt& x) const {
     if (!std::ranges::all_of(weights, [](const Real& each) { return each >= 0 && each <= 1; }))
       return std::nullopt;
     for (const unsigned each : bits) {
       const auto rounded = rounded_weights(weights, each);
-      if (rounded && is_within(squared_distance(query_.kind, x, *rounded))) return rounded;
+      if (rounded && is_within(*rounded, x)) return rounded;
     }
     return std::nullopt;
   }
@@ -137,6 +186,7 @@ class Meeting {
   Query query_;
   Span span_;
   bool is_strict_;
+  Query in_unit_;  ///< approximately the query in a unit in which the largest coordinate is between 1 and 2
   mpq_class squared_h_;
 };
 
@@ -212,13 +262,9 @@ class Crossing {
 };
 
 /// Any proof of the first contact, for a time that exact arithmetic finds.
-std::optional<std::string> certify_first_contact(const Query& query, const Span& span, const Meeting& meeting,
-                                                 const Crossing& crossing) {
+std::optional<std::string> certify_first_contact(const Span& span, const Meeting& meeting,
+                                                 const Crossing& crossing, Root time) {
   constexpr int most_refinements = 40;
-  exact::Predicates predicates(query);
-  auto contact = exact::first_contact(predicates);
-  if (!contact) return std::nullopt;
-  Root& time = contact->time;
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
   for (int i = 0; i < most_refinements; ++i, time.refine()) {
     const bool is_outside = time.hi() <= Number(span.from) || Number(span.to) <= time.lo();
@@ -229,7 +275,7 @@ std::optional<std::string> certify_first_contact(const Query& query, const Span&
   return std::nullopt;
 }
 
-std::optional<std::string> certify_contact(const Query& query, const Span& span) {
+std::optional<std::string> certify_contact(const Query& query, const Span& span, const KnownTimes& times) {
   const Meeting meeting(query, span, false);
   const Crossing crossing(query, span);
   if (auto text = crossing.bracket(span.from, span.to)) return text;
@@ -239,41 +285,52 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span)
     for (const double t : {known->time.lo, known->time.hi})
       if (auto text = meeting.at(t)) return text;
   }
-  return certify_first_contact(query, span, meeting, crossing);
+  if (times.exactly) return certify_first_contact(span, meeting, crossing, times.exactly->time);
+  exact::Predicates predicates(query);
+  const auto contact = exact::first_contact(predicates);
+  if (!contact) return std::nullopt;
+  return certify_first_contact(span, meeting, crossing, contact->time);
 }
 
-/// A search for a proof gives up when its time is known to about this many bits.
-constexpr unsigned most_bits = 5'000;
+/// Searches for a proof give up when its time is known to about this many bits. The distance may stay at h for
+/// no time at all, so that search ends earlier.
+constexpr unsigned most_bits = 10'000;
+constexpr unsigned most_bits_of_touch = 5'000;
 
 /// The proof that the distance is h: at the first such time if this is rational, or soon after it if the
 /// distance stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
-  for (const Number least = exact::power_of_half(most_bits);; time.refine()) {
+  for (const Number least = exact::power_of_half(most_bits_of_touch);; time.refine()) {
     if (auto text = meeting.at(mpq_class(CGAL::Gmpq(time.hi()).mpq()))) return text;
     if (time.hi() - time.lo() < least) return std::nullopt;
   }
 }
 
-/// The proof that the distance is below h right after a time: at the first, second or third next multiple of
-/// 2^-bits.
+/// The proof that the distance is below h right after a time: at the next multiple of 2^-bits, or the one
+/// after it if the next one may be before the time.
 std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
   for (unsigned bits = 4; bits < most_bits; bits *= 2) {
     while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();
-    const mpq_class scaled = mpq_class(CGAL::Gmpq(after.lo()).mpq()) << bits;
-    for (const int next : {1, 2, 3})
-      if (auto text = meeting.at(mpq_class(mpz_class(scaled) + next) >> bits)) return text;
+    const mpq_class hi(CGAL::Gmpq(after.hi()).mpq());
+    mpz_class next(mpq_class(mpq_class(CGAL::Gmpq(after.lo()).mpq()) << bits));
+    mpq_class t;
+    do {
+      t = mpq_class(++next) >> bits;
+      if (auto text = meeting.at(t)) return text;
+    } while (t <= hi);
   }
   return std::nullopt;
 }
 
-std::optional<std::string> certify_approach(const Query& query, const Span& span, bool is_strict) {
+std::optional<std::string> certify_approach(const Query& query, const Span& span, bool is_strict,
+                                            const KnownTimes& times) {
   const Meeting meeting(query, span, is_strict);
-  const KnownApproach known = known_approach(query);
+  const KnownApproach known = times.approach ? *times.approach : known_approach(query);
   for (const double t : {span.from, std::round(known.time.hi * 16) / 16,
                          std::round(known.time.hi * 1024) / 1024, known.time.hi, span.to})
     if (auto text = meeting.at(t)) return text;
-  auto approach = exact::first_approach(query);
+  const auto approach = times.exactly ? *times.exactly : exact::first_approach(query);
   if (!approach) return std::nullopt;
   // If the distance falls below h, points near the closest ones prove that, too, with fewer digits.
   if (approach->below)
@@ -283,11 +340,13 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
 
 }  // namespace
 
-std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict) {
+std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict,
+                                         const KnownTimes& known) {
   const PlainArithmetic guard;
   if (const double before = std::nextafter(span.to, 0); span.is_open && span.from <= before)
-    if (auto text = certify_meets(query, {span.from, before}, is_strict)) return text;
-  return query.separation > 0 ? certify_approach(query, span, is_strict) : certify_contact(query, span);
+    if (auto text = certify_meets(query, {span.from, before}, is_strict, known)) return text;
+  return query.separation > 0 ? certify_approach(query, span, is_strict, known)
+                              : certify_contact(query, span, known);
 }
 
 }  // namespace nearmiss

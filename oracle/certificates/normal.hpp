@@ -4,90 +4,109 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <tuple>
 #include <vector>
 
-#include "oracle/arithmetic/vectors.hpp"
+#include "ccd/query/query.hpp"
+#include "oracle/certificates/rough.hpp"
+#include "oracle/distance/vertex_differences.hpp"
 #include "oracle/exact/moving.hpp"
 #include "oracle/exact/polynomial.hpp"
 
 namespace nearmiss::certificates {
 
-using exact::Number;
 using exact::Polynomial;
 using exact::PolynomialVector;
 
-/// A vector of polynomials in doubles. It quickly rejects directions that do not separate the primitives.
-/// Only exact arithmetic accepts one.
-class RoughVector {
+/// The differences of a vertex of the first primitive and one of the second. A direction separates the
+/// primitives if all differences are longer than h along it; unless `is_strict`, a length of exactly h > 0
+/// suffices. Exact vectors are computed on first use.
+class Gaps {
  public:
-  explicit RoughVector(const PolynomialVector& v);
+  Gaps(const Query& query, bool is_strict);
 
-  /// The approximate value at t. Its rounding errors are at most a constant factor times `size`.
-  struct Value {
-    certified::Vec<double> v{}, size{};
-  };
-  /// The value at t in [0, 1].
-  [[nodiscard]] Value at(double t) const;
+  [[nodiscard]] Kind kind() const { return differences_.kind(); }
+  [[nodiscard]] bool is_strict() const { return is_strict_; }
+  [[nodiscard]] bool has_separation() const { return query_.separation > 0; }
+  [[nodiscard]] const certified::VertexDifferences& differences() const { return differences_; }
+
+  /// The vertices.
+  const std::array<PolynomialVector, 4>& points();
+
+  [[nodiscard]] std::size_t size() const { return rough_.size(); }
+  /// A gap, and h². Exact and rough lengths have different units.
+  template <class AnyPolynomial>
+  [[nodiscard]] const certified::Vec<AnyPolynomial>& vector(std::size_t gap);
+  template <class AnyPolynomial>
+  [[nodiscard]] AnyPolynomial squared_h() const;
 
  private:
-  std::array<std::vector<double>, 3> coefficients_;
-};
-
-/// The differences of a vertex of the first primitive and one of the second. A direction separates the
-/// primitives if all differences are longer than h along it.
-struct Gaps {
-  Gaps(std::vector<PolynomialVector> differences, const Number& separation, bool strictly);
-
-  std::vector<PolynomialVector> exact;
-  std::vector<RoughVector> rough;
-  Number squared_h;
-  double h;        ///< the separation, rounded
-  bool is_strict;  ///< if not, a length of exactly h > 0 suffices
+  Query query_;
+  bool is_strict_;
+  exact::Unit unit_;
+  certified::VertexDifferences differences_;
+  std::vector<RoughVector> rough_;
+  std::optional<std::array<PolynomialVector, 4>> points_;
+  std::vector<PolynomialVector> exact_;
 };
 
 /// A direction that moves with time. The gaps must outlive it.
 class Normal {
  public:
-  Normal(PolynomialVector n, const Gaps& gaps) : n_(std::move(n)), rough_(n_), gaps_(&gaps) {}
+  Normal(const PolynomialVector& n, Gaps& gaps);
+  /// A direction whose coefficients are exactly doubles.
+  Normal(const RoughVector& n, Gaps& gaps) : rough_(n), gaps_(&gaps) {}
 
-  [[nodiscard]] const PolynomialVector& vector() const { return n_; }
+  [[nodiscard]] const PolynomialVector& exact();
+  [[nodiscard]] const RoughVector& rough() const { return rough_; }
 
-  /// Whether the direction clearly does not separate the primitives at an end of [lo, hi] or in the middle.
-  [[nodiscard]] bool clearly_fails(const Number& lo, const Number& hi) const;
+  /// Whether the direction clearly does not separate the primitives at an end of the interval or in the
+  /// middle.
+  [[nodiscard]] bool clearly_fails(const Interval& interval);
 
-  /// Whether the checkers see that the direction separates the primitives in all of [lo, hi] or, if `open`,
-  /// [lo, hi).
-  [[nodiscard]] bool separates(const Number& lo, const Number& hi, bool open);
+  /// Whether the checkers see that the direction separates the primitives in all of an interval [lo, hi] or,
+  /// if `open`, [lo, hi).
+  [[nodiscard]] bool separates(const Interval& interval, bool open);
+  /// Whether the direction separates the primitives at a time.
+  [[nodiscard]] bool separates_at(const Number& t);
+  /// The polynomial with which a gap keeps separates() from being true; null if it does not.
+  [[nodiscard]] const Polynomial* obstacle(std::size_t gap, const Interval& interval, bool open);
 
   /// Whether the first primitive is behind the second one at t, seen in this direction, judged by their first
   /// vertices.
-  [[nodiscard]] bool is_behind_at(const Number& t) { return along(0).n_d.sign_at(t) < 0; }
+  [[nodiscard]] bool is_behind_at(const Number& t);
 
  private:
-  /// For one gap d: n · d, and for h > 0 also (n · d)² - h² n · n. They are computed on first use.
+  /// For one gap d: n · d, and for h > 0 also (n · d)² - h² n · n.
+  template <class AnyPolynomial>
   struct Along {
-    Polynomial n_d, excess;
+    AnyPolynomial n_d, excess;
   };
-  const Along& along(std::size_t gap);
+  /// They are computed on first use.
+  template <class AnyPolynomial>
+  struct Products {
+    std::optional<AnyPolynomial> least;  ///< h² n · n
+    std::vector<Along<AnyPolynomial>> along;
+  };
+  template <class AnyPolynomial>
+  const Along<AnyPolynomial>& along(std::size_t gap);
 
-  PolynomialVector n_;
+  std::optional<PolynomialVector> n_;
   RoughVector rough_;
-  const Gaps* gaps_;
-  std::vector<std::optional<Along>> along_;
-  std::optional<Polynomial> least_;  ///< h² n · n
+  Gaps* gaps_;
+  std::tuple<Products<Polynomial>, Products<RoughPolynomial>> products_;
 };
 
 /// The numbers of bits to which normals are rounded, one after the other; 0: not rounded.
 constexpr std::array roundings{6, 20, 50, 0};
 
-/// The vector with its coefficients rounded to integers, the largest of about `bits` bits; the vector itself
-/// if `bits` is 0.
-PolynomialVector rounded(const PolynomialVector& n, int bits);
+/// The vector with its coefficients rounded to integers, the largest of about `bits` bits; 0 if it is tiny.
+RoughVector rounded(const RoughVector& n, int bits);
 
 /// The normal of a pair of features in both directions, rounded to integers of various sizes.
 class FeatureNormal {
  public:
-  FeatureNormal(const PolynomialVector& n, const Gaps& gaps);
+  FeatureNormal(const PolynomialVector& n, Gaps& gaps) : gaps_(&gaps), exact_(n, gaps) {}
 
   /// The versions of the direction in which the first primitive is in front of the second one at t, judged by
   /// their first vertices. The version with the smallest integers comes first, and the one that is not
@@ -95,6 +114,8 @@ class FeatureNormal {
   [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
 
  private:
+  Gaps* gaps_;
+  Normal exact_;
   std::vector<Normal> forwards_, backwards_;
 };
 

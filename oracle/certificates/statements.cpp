@@ -7,29 +7,35 @@
 
 namespace nearmiss {
 
-std::optional<std::string> certify(const Query& query) {
-  const Decision decision = decide(query);
-  if (decision.is_tie) return certify_meets(query, {});
-  return decision.collision ? certify_meets(query, {}, query.separation > 0) : certify_apart(query, {});
+namespace {
+
+std::optional<std::string> certify(const Query& query, const Decision& decision) {
+  const bool is_strict = query.separation > 0 && !decision.is_tie;
+  if (decision.collision || decision.is_tie) return certify_meets(query, {}, is_strict, decision.known);
+  return certify_apart(query, {}, true, true);
 }
 
+}  // namespace
+
+std::optional<std::string> certify(const Query& query) { return certify(query, decide(query)); }
+
 Certificates certify_time(const Query& query) {
-  auto time = earliest_time(query);
-  if (!time) return {certify(query)};
-  const Enclosure t = time->enclosure();
+  const Decision decision = decide(query);
+  if (!decision.collision && !decision.is_tie) return {certify(query, decision)};
+  const Enclosure t = EarliestTime(query, decision.known).enclosure();
   Certificates statements;
-  if (t.lo > 0) statements.push_back(certify_apart(query, {0, t.lo, true}));
-  statements.push_back(certify_meets(query, {t.lo, t.hi}));
+  if (t.lo > 0) statements.push_back(certify_apart(query, {0, t.lo, true}, true, true));
+  statements.push_back(certify_meets(query, {t.lo, t.hi}, false, decision.known));
   return statements;
 }
 
 Certificates certify_distance(const Query& query) {
   const auto [lo, hi] = minimum_distance(query);
   Certificates statements;
-  if (lo > 0) {
+  if (lo > 0) {  // the distance is above it, too, as all bounds have a margin for errors
     const Query further = with_separation(query, std::nextafter(lo, 0));
-    const auto text = certify_apart(with_separation(query, lo), {}, false);
-    statements.push_back(text ? text : certify_apart(further, {}));
+    const auto text = certify_apart(with_separation(query, lo), {}, false, true);
+    statements.push_back(text ? text : certify_apart(further, {}, true, true));
   }
   if (std::isfinite(hi)) {
     const Query further = with_separation(query, std::nextafter(hi, HUGE_VAL));

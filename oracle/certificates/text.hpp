@@ -21,9 +21,9 @@ std::optional<std::string> if_short(std::string certificate);
 
 /// "key":[a,b,...], each element given by text(element).
 template <class List, class Text>
-std::string list(const List& elements, const Text& text) {
+std::string list(List&& elements, const Text& text) {
   std::string result = "[";
-  for (const auto& each : elements) {
+  for (auto&& each : elements) {
     if (result.size() > 1) result += ',';
     result += text(each);
   }

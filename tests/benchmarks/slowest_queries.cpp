@@ -1,8 +1,8 @@
 // Searches for the queries that take the oracle longest, for each part of its work: the decision; the
-// earliest time of a collision; the distance of a false positive; the comparison of all exact methods. The
-// search begins with queries of all families and with the cases in the files and folders PATH. Then it
-// mutates and crosses the slowest queries of each part. Prints ms of processor time, and writes the slowest
-// query of each part into FOLDER:
+// earliest time of a collision; the distance of a false positive; the comparison of all exact methods; the
+// certificates. The search begins with queries of all families and with the cases in the files and folders
+// PATH. Then it mutates and crosses the slowest queries of each part. Prints ms of processor time, and writes
+// the slowest query of each part into FOLDER:
 //   slowest_queries SECONDS SEED FOLDER [PATH...]
 #include <fmt/format.h>
 
@@ -28,6 +28,7 @@
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/truth.hpp"
+#include "oracle/certificates/certificate.hpp"
 
 namespace nearmiss {
 namespace {
@@ -64,6 +65,13 @@ constexpr Part parts[] = {
      [](const Query& query, const Decision& decision) {
        const Truth truth(query, decision);
        (void)truth.disagreement(truth.ask_methods());
+     }},
+    {"certificate", "proofs of the answer, of the earliest time and of the smallest distance",
+     [](const Decision& /*decision*/) { return true; },
+     [](const Query& query, const Decision& /*decision*/) {
+       certify(query);
+       certify_time(query);
+       certify_distance(query);
      }},
 };
 

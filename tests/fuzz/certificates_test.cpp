@@ -15,6 +15,7 @@
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/queries.hpp"
 #include "tools/certificates/check.hpp"
 
 namespace nearmiss {
@@ -122,6 +123,24 @@ TEST(Certificate, HasNoLongerNumbersThanTheCheckersRead) {
     ASSERT_TRUE(text);
     EXPECT_NO_THROW(certificates::check(*text));
   }
+}
+
+// The distance is below h for less than 2^-5000 of the step, at an irrational time.
+TEST(Certificate, ProvesACollisionThatLastsNearlyNoTime) {
+  constexpr double far = 0x1p1018;
+  constexpr double tiny = 0x1p-1070;
+  const Query contact = testing::make_query(Kind::vertex_triangle,
+                                            {{-far, tiny, 3 * tiny},
+                                             {0, 0, 0},
+                                             {tiny, tiny, 2 * far},
+                                             {0x1.d6b5b6f285be8p+1018, tiny, -0x1.12b0b56618ddep+990}},
+                                            {{2 * far, tiny, 3 * tiny},
+                                             {0, 0x1.2c60d9918a489p+1009, -0x1.1ff0a699ac81cp+1011},
+                                             {tiny, tiny, -far},
+                                             {-0x1.317e0acc9b252p+1013, -0x1.691773766ab19p+1013, 3 * tiny}});
+  const Query query = with_separation(contact, 2 * tiny);
+  ASSERT_TRUE(decide(query).collision);
+  expect_meets(query, {}, true);
 }
 
 TEST(Certificate, ATieIsProvedIfItsTimeIsRational) {
