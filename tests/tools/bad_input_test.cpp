@@ -1,5 +1,6 @@
 // Tests the command line with bad input: one short line says what is wrong, and no file is left.
 #include <algorithm>
+#include <cstdlib>
 
 #include "tests/tools/command_line.hpp"
 

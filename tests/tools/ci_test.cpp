@@ -1,5 +1,9 @@
 // Results for other programs, such as systems of continuous integration; and campaigns that a configuration
 // file describes.
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

@@ -2,8 +2,10 @@
 // other processes meanwhile.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <sys/types.h>
 
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <functional>

@@ -1,4 +1,6 @@
 // Tests the command line as a user sees it: answers and exit codes.
+#include <algorithm>
+
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {

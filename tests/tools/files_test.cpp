@@ -2,6 +2,7 @@
 // store come from the same build of nearmiss and of each plug-in.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 

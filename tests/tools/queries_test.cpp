@@ -1,5 +1,6 @@
 // Queries on the command line: queries of families, with separations and times of impact, and of vertices
 // and edges.
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>

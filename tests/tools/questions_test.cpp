@@ -1,4 +1,5 @@
 // nearmiss simulate, nearmiss distance and nearmiss step, as a user sees them.
+#include <cstdlib>
 #include <numeric>
 
 #include "tests/tools/command_line.hpp"

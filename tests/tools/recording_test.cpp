@@ -1,4 +1,5 @@
 // Recordings of simulations: nearmiss judges the answers that nearmiss_record.h has recorded.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 

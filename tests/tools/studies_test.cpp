@@ -1,6 +1,7 @@
 // Studies as a user sees them: ladder, audit, power, tightness, values of a CCD's option, and the claims of the
 // paper; and the demo, completion, and the first example of README.md.
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
