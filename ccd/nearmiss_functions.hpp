@@ -21,7 +21,7 @@
 // The compiler cannot tell that a function wants its vertices in another order, such as the triangle first,
 // or that two numbers mean something else than in the table: call such a function from one that takes a
 // Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts,
-// the detector claims the weakest of them.
+// the detector claims the weakest sort.
 //
 // Codim-IPC's functions get eta = 0.1, toi = 1, and rounded displacements; their thickness is the separation.
 // A vertex may be a const double*, any type of Eigen's if Eigen is included before this header, or a type
@@ -116,7 +116,7 @@ constexpr std::size_t vertices_of(int kind) {
 /// One query, for a function whose signature is not in the table.
 struct Question {
   int kind;
-  const double* x;  ///< its coordinates (nearmiss_subject.h)
+  const double* x;  ///< the query's coordinates (nearmiss_subject.h)
   double separation;
 
   [[nodiscard]] Point start(std::size_t vertex) const { return Point(x + 3 * vertex); }
@@ -132,7 +132,7 @@ struct Answer {
   static Answer of(bool collides) { return {collides ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION}; }
   static Answer of(bool collides, double time) { return {of(collides).value, time}; }
 
-  /// Whether a simulation must treat it as a collision.
+  /// Whether a simulation must treat the query as a collision.
   explicit operator bool() const { return value != NEARMISS_NO_COLLISION; }
 };
 
@@ -142,8 +142,8 @@ auto points(const Question& q, std::index_sequence<i...> /*vertices*/) {
   return std::tuple(q.start(i)..., q.end(i)...);
 }
 
-/// Calls act(start 0, start 1, ..., end 0, end 1, ...) for a query of n vertices: 4, unless its kind is vv or
-/// ve.
+/// Calls act(start 0, start 1, ..., end 0, end 1, ...) for a query of n vertices. n is 4 unless the query's
+/// kind is vv or ve.
 template <std::size_t n = 4, class Act>
 auto with_vertices(const Question& q, const Act& act) {
   return std::apply(act, points(q, std::make_index_sequence<n>()));
@@ -168,7 +168,7 @@ template <class Result>
 constexpr bool is_answer =
     std::is_same_v<Result, bool> || std::is_same_v<Result, int> || std::is_same_v<Result, Answer>;
 
-/// Whether an F takes these arguments, and returns an answer.
+/// Whether a function of type F takes these arguments, and returns an answer.
 template <class Void, class F, class... Argument>
 constexpr bool answers = false;
 template <class F, class... Argument>
@@ -198,7 +198,7 @@ class Asked {
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
 
   static constexpr bool is_question = takes<std::tuple<const Question&>>;
-  // The time must be a reference: a function that takes a plain number there means something else by it.
+  // The time must be a reference. A plain number in its place means something else.
   static constexpr bool is_ipc =
       takes<Points, double&, double, double> && !takes<Points, double, double, double>;
   static constexpr bool is_displaced =
@@ -266,7 +266,7 @@ struct Part {
   F f;
 };
 
-/// Whether an F takes these arguments, and returns a number.
+/// Whether a function of type F takes these arguments, and returns a number.
 template <class F, class Arguments>
 constexpr bool gives_number = false;
 template <class F, class... Argument>

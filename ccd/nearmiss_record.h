@@ -50,11 +50,11 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag: keep this record longer, in a part of the file that only such records use. It is for queries that
- * matter: slow ones, those with a time of 0, or those of a step that ends in an intersection. */
+/* A flag: keep this record longer, in a part of the file that is only for records with the flag. Set it for
+ * queries that matter: slow ones, those with a time of 0, or those of a step that ends in an intersection. */
 #define NEARMISS_KEEP 1
 
-/* The file: this header, then `slots` records, then `kept_slots` for those with NEARMISS_KEEP. */
+/* The file: this header, then `slots` records, then `kept_slots` records with NEARMISS_KEEP. */
 #define NEARMISS_RECORDING_MAGIC "NEARMISS"
 #define NEARMISS_RECORDING_VERSION 1
 #define NEARMISS_RECORDING_BYTE_ORDER 0x01020304
@@ -66,7 +66,7 @@ typedef struct {
   uint64_t unused[12];
   uint64_t next[8];      /* next[0]: the number of records so far, of both parts */
   uint64_t next_slot[8]; /* next_slot[0]: the number of records so far in the first part */
-  uint64_t next_kept[8]; /* next_kept[0]: those in the second part */
+  uint64_t next_kept[8]; /* next_kept[0]: the number of records so far in the second part */
   uint64_t rest[472];    /* up to 4096 bytes */
 } nearmiss_recording;
 
@@ -80,8 +80,7 @@ typedef struct {
   uint64_t unused[3];
 } nearmiss_record_slot;
 
-/* The program's recorder. All source files share it, and so do those shared objects that can see its
- * symbol. */
+/* The program's recorder. All source files share it, and so do the shared objects that can see its symbol. */
 typedef struct {
   int state;  /* 0: not yet asked; 1: off; 2: on; 3: a thread is deciding */
   int opener; /* the process that opens the file, while `state` is 3 */
@@ -171,7 +170,8 @@ __attribute__((unused)) static int nearmiss_record_open_own(const char* file, ch
   return fd;
 }
 
-/* Whether this process may write a file of this size. Beyond the limit, a signal would end the program. */
+/* Whether this process may write a file of this size. Writing beyond the process's limit would raise a signal
+ * that ends the program. */
 __attribute__((unused)) static int nearmiss_record_may_have(size_t size) {
   struct rlimit limit;
   return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
@@ -260,7 +260,7 @@ static inline int nearmiss_record_is_on(void) {
   return state == 2;
 }
 
-/* Sets the number and the check of a record, and writes it. */
+/* Sets the number and the checksum of a record, and writes the record. */
 __attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_record_slot* record) {
   nearmiss_recording* const file = nearmiss_the_recorder.file;
   nearmiss_record_slot* slot = (nearmiss_record_slot*)(file + 1);

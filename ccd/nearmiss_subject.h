@@ -27,9 +27,10 @@ extern "C" {
 #define NEARMISS_NO_TIME 0
 #define NEARMISS_TIME_ESTIMATE 1
 #define NEARMISS_TIME_LOWER_BOUND 2 /* nothing happens before this time */
-/* Nothing happens on the step to this time, either: on the straight way from a to a + toi (b - a), for each
- * vertex at a at t = 0 and at b at t = 1, where each operation is rounded to double, or to float if `bits` is
- * 24. Judged only if there is a collision. */
+/* A lower bound, and nothing happens on the shortened step, either: on this step, each vertex moves straight
+ * from a, its position at t = 0, to a + toi (b - a), where b is its position at t = 1. Each operation of this
+ * formula is rounded to double, or to float if `bits` is 24. The step is judged only if there is a collision.
+ */
 #define NEARMISS_TIME_FREE_STEP 3
 
 /* Layouts of the coordinates of n queries. */
@@ -89,9 +90,9 @@ typedef struct {
    * restores it. */
   void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
 
-  /* The bound that the detector claims for a query: if it reports the query falsely, the distance exceeds h
-   * by at most this, in the unit of the coordinates. NULL if it claims no bound, or if the bound depends on
-   * h. */
+  /* The bound that the detector claims for a query: if the detector reports the query falsely, the distance
+   * exceeds h by at most this bound, in the unit of the coordinates. NULL if the detector claims no bound, or
+   * if the bound depends on h. */
   double (*distance_bound)(void* state, int kind, const double* x);
 
   /* New in version 3: */

@@ -35,8 +35,8 @@ class PartFile {
 /// Removes all part files. A signal handler that ends the program may call this.
 void remove_part_files() noexcept;
 
-/// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees
-/// half of it, and a full disk leaves the old file unchanged. If the file is a pipe or a device
+/// Replaces the content of a file, or of the file that a link leads to, with this text. No reader ever sees
+/// half of the text, and a full disk leaves the old file unchanged. If the file is a pipe or a device
 /// (/dev/stdout), the text is written to it directly. Throws Error if the file cannot be written.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 

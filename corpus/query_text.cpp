@@ -48,8 +48,8 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
                                             hex ? std::chars_format::hex : std::chars_format::general);
   if (end != digits.data() + digits.size()) throw fail();
   if (error == std::errc::result_out_of_range) {
-    // The number is too large, or so small that it rounds to 0. Only the former is refused; strtod and strtof
-    // distinguish the two.
+    // The number is too large, or so small that it rounds to 0. Only a number that is too large is refused;
+    // strtod and strtof distinguish the two cases.
     const std::string again = std::string(hex ? "0x" : "").append(digits);
     if constexpr (std::is_same_v<Number, float>)
       value = std::strtof(again.c_str(), nullptr);
@@ -70,8 +70,9 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Whether the shortest decimal that is read as this value is exactly this value. It does if it has as many
-/// digits as the exact decimal of the value, because it is the nearest decimal with its number of digits.
+/// Whether the shortest decimal that is read as this value is exactly this value. The shortest decimal is the
+/// nearest decimal with its number of digits. So it is exact if it has as many digits as the value's exact
+/// decimal.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // of any double
   std::array<char, most_digits + 10> text;

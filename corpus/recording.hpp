@@ -24,7 +24,7 @@ struct Recorded {
   [[nodiscard]] Query asked() const;
 };
 
-/// Records of a file that cannot be used.
+/// How many records of a file cannot be used, and why.
 struct UnusedRecords {
   std::uint64_t unfinished = 0;   ///< they were being written when the program or the file ended
   std::uint64_t not_queries = 0;  ///< no query has their kind, coordinates, separation or tmax

@@ -32,7 +32,8 @@ Kind kind_of_file(const std::filesystem::path& path) {
                   path.string(), folder.string()));
 }
 
-/// The recorded truths for a file without a column for them, from the file sample_truths(), if it exists.
+/// The recorded truths of a CSV file that has no column for them. They are read from sample_truths(csv), if
+/// that file exists.
 class SeparateTruths {
  public:
   explicit SeparateTruths(const std::filesystem::path& csv)

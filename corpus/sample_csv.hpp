@@ -25,8 +25,8 @@ std::optional<SampleNames> sample_names(Kind kind);
 /// The file with the truths for a file `csv` that has no column for them.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);
 
-/// The eight lines of a query. It must have no separation, and a kind that the format has. The lines have a
-/// column for the truth if it is given.
+/// The eight lines of a query. The query must ask for contact, and be of a kind that the format has. The
+/// lines have a column for the truth if `truth` is given.
 std::string to_sample_csv(const Query& query, std::optional<bool> truth);
 
 }  // namespace nearmiss

@@ -16,12 +16,12 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// An enclosure of (the smallest distance - h) / unit for the query's separation h > 0; 0 if that is
-/// negative. Up to rounding, lo >= needed(hi).
+/// An enclosure of (the smallest distance - h) / unit for the query's separation h > 0; 0 if the difference
+/// is negative. Up to rounding, lo >= needed(hi).
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of (the smallest distance - h) / unit for the query's separation h, with a relative
-/// accuracy of 1e-3, or for h = 0 of 1e-9 if the quotient is near 1; infinite if the unit is 0.
+/// An upper bound of (the smallest distance - h) / unit for the query's separation h. It is infinite if the
+/// unit is 0. Its relative accuracy is 1e-3; for h = 0 and a quotient near 1, it is 1e-9.
 double closest_ratio(const Query& query, double unit);
 
 /// A time in [0, 1] at which the distance of the primitives is close to its minimum, for pictures.

@@ -45,8 +45,8 @@ Enclosure enclose(Root t, double width) {
   }
 }
 
-// Comparisons narrow what is known about a root. They do so in copies of the root, so that the answers to
-// later questions do not depend on earlier ones.
+// Comparisons narrow what is known about a root. The functions below compare copies of the root, so that the
+// answers to later questions do not depend on earlier ones.
 bool is_below(Root t, double time) {
   Root at{Number(time)};
   return t.is_below(at);

@@ -22,9 +22,9 @@ struct KnownTimes {
       exactly;  ///< what exact arithmetic found, if it was used; for h = 0, the contact
 };
 
-/// The time t* in [0, 1] at which the distance of the primitives is first at most h; for h = 0, at which they
-/// first share a point. Arithmetic with certified bounds encloses it first; exact arithmetic is only used for
-/// a question that the enclosure does not answer.
+/// The time t* in [0, 1] at which the distance of the primitives is first at most h. For h = 0, the
+/// primitives first share a point at t*. Arithmetic with certified bounds encloses t* first; exact arithmetic
+/// is only used for a question that the enclosure does not answer.
 class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
@@ -38,13 +38,13 @@ class EarliestTime {
   /// Whether t* < time. The answer is exact.
   [[nodiscard]] bool is_before(double time);
 
-  /// Whether `time` is late: something happens in [0, time). For h = 0 that means t* < time. For h > 0, the
-  /// distance is below h at some time before it; a distance of exactly h does not count, because a subject
-  /// may report it or not. The answer is exact.
+  /// Whether `time` is late: something happens in [0, time). For h = 0, this means that t* < time. For h > 0,
+  /// it means that the distance is below h at some time before `time`; a distance of exactly h does not
+  /// count, because a subject may report it or not. The answer is exact.
   [[nodiscard]] bool makes_late(double time);
 
-  /// An enclosure that is at most `width` wide, or as narrow as doubles allow; one number if t* is a double
-  /// and `width` is 0. It depends only on the query and the width.
+  /// An enclosure of t* that is at most `width` wide, or as narrow as doubles allow. Both ends are t* if t*
+  /// is a double and `width` is 0. The enclosure depends only on the query and the width.
   Enclosure enclosure(double width = 0);
 
   /// t* as a rational number, "p/q" or "p" in lowest terms; "" if it is irrational.

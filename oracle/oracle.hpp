@@ -30,8 +30,8 @@ Decision settle(const Query& query, FilterStage stage);
 /// ones.
 Decision decide(const Query& query);
 
-/// Decides many queries of any kinds. The filter processes those with h = 0 side by side. The answers are the
-/// same as for single queries; the stages may differ.
+/// Decides many queries of any kinds. The filter processes the queries with h = 0 side by side. This changes
+/// no answer, but may change a stage.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 /// Whether decide() finds a collision.

@@ -22,7 +22,8 @@ class ApproachSearch {
     required_ = to_distance.at_least(above(query.separation));
   }
 
-  /// Whether there is such a time, with an enclosure of it that may be wide.
+  /// Whether the distance falls below the separation, with an enclosure of the first such time, which may be
+  /// wide.
   [[nodiscard]] FirstTime decide() const {
     const FirstTime quick = QuickSearch(differences_, low_, required_).decide();
     return quick.never || quick.comes ? quick : thorough(1);

@@ -46,16 +46,16 @@ struct VertexAndEdge {
   std::uint8_t to;      ///< its other end
 };
 
-/// The names of a kind, the vertices and edges of its primitives, and pairs of these. No other place lists
-/// them.
+/// The names of a kind, the vertices and edges of its primitives, and pairs of such vertices and edges. No
+/// other place lists them.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
-  Primitive first;                    ///< the one with the vertices x[0 .. split)
-  Primitive second;                   ///< the one with the vertices x[split .. vertices)
+  Primitive first;                    ///< the primitive with the vertices x[0 .. split)
+  Primitive second;                   ///< the primitive with the vertices x[split .. vertices)
   std::span<const VertexPair> edges;  ///< the edges of both primitives
   std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
-  /// Each vertex with each edge of the other primitive; those with a vertex of the first primitive come
+  /// Each vertex with each edge of the other primitive. Pairs with a vertex of the first primitive come
   /// first. Two vertices count as a vertex x0 and an edge x1x2 of length 0.
   std::span<const VertexAndEdge> vertices_and_edges;
   std::span<const VertexAndEdge> first_to_second;  ///< the part with a vertex of the first primitive
@@ -131,7 +131,8 @@ constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[stat
 /// "vt", "ee", "vv" or "ve".
 constexpr std::string_view short_name(Kind kind) { return topology(kind).short_name; }
 
-/// The vertices of the first primitive are x[0 .. split), those of the second x[split .. vertices).
+/// The vertices of the first primitive are x[0 .. split); the vertices of the second are x[split ..
+/// vertices).
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
 /// Whether triangle meshes have pairs of this kind: whether it is one of kinds_of_meshes.

@@ -63,7 +63,7 @@ inline void repeat_vertices(Query& query) {
   }
 }
 
-/// A query from its coordinate_count(kind) coordinates: those of all its vertices at t = 0, then at t = 1.
+/// A query from its coordinate_count(kind) coordinates: first all vertices at t = 0, then all at t = 1.
 template <class Number>
 Query query_of(Kind kind, const Number* coordinates) {
   Query query{.kind = kind};

@@ -9,9 +9,9 @@
 
 namespace nearmiss {
 
-/// Queries whose 24 coordinates (with repeated vertices, where the kind has fewer) lie one after the other,
-/// in the order of Query::x: a span of Query values, or an array in another program's memory, whose queries
-/// have one kind and h = 0. The memory must outlive this view.
+/// Queries whose 24 coordinates lie one after the other, in the order of Query::x, with repeated vertices if
+/// the kind has fewer than four. They are a span of Query values, or an array in another program's memory;
+/// the queries of such an array have one kind and h = 0. The memory must outlive this view.
 class QueryRows {
  public:
   explicit QueryRows(std::span<const Query> queries)

@@ -55,8 +55,8 @@ bool gives_distance(const DetectorInfo& info, Kind kind);
 bool filters_step(const DetectorInfo& info, Kind kind);
 /// Whether a detector uses the separation of queries of a kind.
 bool takes_separation(const DetectorInfo& info, Kind kind);
-/// The query that a detector decides. If the detector is narrow, numbers are rounded to float, and those
-/// beyond the range of float to the largest float.
+/// The query that a detector decides. If the detector is narrow, numbers are rounded to float; numbers beyond
+/// the range of float become the largest float.
 Query rounded_for(const DetectorInfo& info, const Query& query);
 /// Writes the coordinates of query i, one of n queries of one kind, to the places in `x` at which a detector
 /// reads them.
@@ -85,8 +85,8 @@ class PluginLibrary {
   std::vector<const nearmiss_subject*> subjects_;  // `library_` owns them
 };
 
-/// A detector that is open, for one thread. It may change the rounding mode, the treatment of subnormals or
-/// the traps; arithmetic is plain again after each call.
+/// A detector that is open, for one thread. The detector may change the rounding mode, the treatment of
+/// subnormals or the traps; arithmetic is plain again after each call.
 class Detector {
  public:
   /// Opens the detector. The subject must outlive it. Throws Error if the subject refuses the options.
@@ -108,7 +108,7 @@ class Detector {
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
   /// The detector's distance at t = 0, for a kind for which it gives distances.
   [[nodiscard]] DistanceAnswer distance(Kind kind, const double* x) const;
-  /// The step that the detector filters, for a kind for which it does so.
+  /// The detector's safe part of the step, for a kind for which the detector filters steps.
   [[nodiscard]] StepAnswer step(Kind kind, const double* x) const;
   /// The time that the last decision took without copies, in ns; 0 if the detector does not say it.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const;

@@ -28,7 +28,7 @@ bool is_plugin(std::string_view name);
 /// path is the shortest prefix that is a file and ends at a ':' or at the end of the name.
 struct PluginName {
   std::string path;
-  std::string subject;  ///< one of the shared object's subjects; "" if the name leaves it open
+  std::string subject;  ///< one of the shared object's subjects; "" if the name gives none
   std::string options;  ///< "KEY=VALUE:KEY=VALUE"
 
   /// Throws Error if a subject is named twice, or after an option.

@@ -14,10 +14,11 @@ namespace nearmiss {
 /// Number of queries decided before a batch is timed, to bring the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
-/// Measures how long some work took, in ns. Reading the wall clock takes about 20 ns, but this clock keeps
-/// running while another process has the processor. The CPU clock, of this thread or of all threads of this
-/// process, stops then, but is only accurate to about 500 ns. So the shorter of the two times counts. If the
-/// work itself waited for a device or a thread, the time of the wall clock counts.
+/// Measures how long some work took, in ns, by two clocks. The wall clock is precise, since reading it takes
+/// about 20 ns, but it keeps running while another process has the processor. The CPU clock counts only the
+/// time of this thread, or of all threads of this process, but is only accurate to about 500 ns. So the
+/// shorter of the two times counts. If the work itself waited for a device or a thread, the time of the wall
+/// clock counts.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID

@@ -34,7 +34,8 @@ constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_c
 /// Whether times of this sort promise that nothing happens before them.
 constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
-/// A subject's assumptions. It is not judged on queries that violate them. 0 or false: no such assumption.
+/// A subject's assumptions. It is not judged on queries that violate them. A field that is 0 or false assumes
+/// nothing.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h
   bool one_root = false;  ///< the volume that the vertices span has at most one root in [0, 1], a simple one
@@ -55,7 +56,7 @@ struct BoundAnswer {
   /// A number that a subject gave as its bound; an error if it is not a distance.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
-  /// The bound as Subject::distance_bound returns it, NaN if there is none.
+  /// The bound as Subject::distance_bound returns it, or NaN if there is no bound.
   [[nodiscard]] double bound_or_nan() const {
     return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
   }
@@ -197,21 +198,21 @@ class Subject {
   /// could not be loaded; "" for any other verdict.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
-  /// Lines: the end of what the subject's process wrote to standard error when it last ended with such a fault,
-  /// and the stack of the crash if that is known. "" if nothing is known.
+  /// The last lines that the subject's process wrote to standard error before it last ended with such a
+  /// fault, and the stack of the crash if that is known. "" if nothing is known.
   [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
 
-  /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as
-  /// lengths (D, ψ^½, S, μ^⅓), must be multiplied so that the subject just reports the query. It is at most 1
-  /// if the subject reports the query, and larger otherwise. It guides directed search, is accurate to a few
+  /// How near the query is to the other answer. All accepting tolerances, taken as lengths (D, ψ^½, S, μ^⅓),
+  /// must be multiplied by this factor so that the subject just reports the query. The factor is at most 1 if
+  /// the subject reports the query, and larger otherwise. It guides directed search, is accurate to a few
   /// bits, and is NaN if the subject does not say.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that decides nothing, but is asked in the same way as this one. Its time is subtracted from
-  /// this one's.
+  /// A subject that decides nothing, but is asked in the same way as this subject. The time of the empty
+  /// subject is subtracted from the time of this one.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 

@@ -27,11 +27,11 @@ namespace nearmiss {
 
 namespace {
 
-/// A policy has `template <Kind> Verdict decide(query, given)` for the pairs of triangle meshes, with
-/// separations if `takes_separation`, and `Verdict decide_within(query, given)` for two vertices, and for a
-/// vertex and an edge, always with separations. It also has functions `distance_bound(query, given)` and
-/// `needed_tolerance(query, given)` that return double, and the constants `claims_bound` and `time_sort`. Its
-/// members are the values of its options.
+/// A policy decides the pairs of triangle meshes by `template <Kind> Verdict decide(query, given)`, with
+/// separations if `takes_separation` is true. It decides two vertices, and a vertex and an edge, by `Verdict
+/// decide_within(query, given)`, always with separations. It also has functions `distance_bound(query,
+/// given)` and `needed_tolerance(query, given)` that return double, and the constants `claims_bound` and
+/// `time_sort`. Its members are the values of its options.
 template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:

@@ -1,5 +1,5 @@
-// Conservative advancement: finds whether and when two primitives come within a separation, by time steps
-// that never pass that time.
+// Conservative advancement: advances the time in steps until two primitives come within a separation. No step
+// goes beyond the time at which they do.
 #pragma once
 
 #include <algorithm>
@@ -72,12 +72,12 @@ struct NearestPoint {
   }
 };
 
-/// The point nearest to the origin. The candidates are the corners, the nearest point of each edge, and the
-/// origin's projection onto the polygon's plane, if it is in the polygon.
+/// The point of polygon `c` nearest to the origin. The candidates are the corners, the nearest point of each
+/// edge, and the origin's projection onto the polygon's plane, if the projection is in the polygon.
 ///
-/// The direction of an edge's point is made perpendicular to the edge once more, because the direction of a
-/// point near the origin has lost digits by cancellation. For the same reason, the direction of the
-/// projection is the normal.
+/// The direction to a point near the origin has lost digits by cancellation. So the direction to the nearest
+/// point of an edge is made perpendicular to the edge once more, and the normal serves as the direction to
+/// the projection.
 template <Kind kind, class T, std::size_t size>
 [[gnu::always_inline]] inline NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c) {
   NearestPoint<T> nearest;
@@ -138,8 +138,8 @@ inline constexpr int advance_iterations = 1000;
 
 namespace detail {
 
-// Whether a coordinate separates the primitives by more than `distance`, with the same primitive above the
-// other at t = 0 and t = 1.
+// Whether some coordinate of one primitive exceeds that of the other by more than `distance` at t = 0 and at
+// t = 1, with the same primitive above at both times.
 template <Kind kind, class T>
 bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   using Three = Eigen::Array<T, 3, 1>;
@@ -156,8 +156,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// From t until the returned time, all corners stay beyond `distance` along a direction. The returned time is
-// t if a corner is not beyond `distance` at t, and at most t + 2.
+// A time until which, from t on, all corners stay beyond `distance` along a direction. This time is at most t
+// + 2, and it is t if a corner is not beyond `distance` at t.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {
@@ -174,9 +174,9 @@ template <Kind kind, class T, class Corners>
 }  // namespace detail
 
 /// Reports every pair of finite input whose distance is at most h at some t in [0, 1]. The time of a report
-/// is a lower bound: the distance is more than h before it. A pair that is reported without a collision is
-/// within h + `advance_bound` εX, unless the stage is `unknown`: then the advancement made no progress, or
-/// ran out of iterations.
+/// is a lower bound: until this time, the distance is more than h. A pair that is reported without a
+/// collision is within h + `advance_bound` εX, unless the stage is `unknown`: then the advancement made no
+/// progress, or ran out of iterations.
 ///
 /// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than
 /// h. The corners move linearly. So if they are beyond h at t, they stay beyond h until the first of them
@@ -206,7 +206,7 @@ Verdict advance(const Query& query) {
   return Verdict::accepted(Stage::unknown, static_cast<double>(t));
 }
 
-/// The largest distance, minus h, of a pair that `advance` reports without a collision, in the query's unit.
+/// The most by which the distance of a pair that `advance` reports falsely exceeds h, in the query's unit.
 template <Kind kind, class T>
 T advance_distance_bound(const Query& query) {
   using std::ldexp;

@@ -1,5 +1,5 @@
-// The closest approach of two vertices, or of a vertex and an edge, in double without any tolerance: the
-// baseline.
+// The baseline for two vertices, and for a vertex and an edge. It computes their closest approach in double,
+// without any tolerance.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace nearmiss {
 
 namespace detail {
 
-/// The zeros in (0, 1) of a polynomial with the coefficients c[0], c[1] and so on, as far as double shows
-/// them. The zeros of the derivative divide (0, 1) into parts in which the polynomial is monotone.
+/// The zeros in (0, 1) of a polynomial with the coefficients c[0], c[1] and so on, up to rounding errors. The
+/// zeros of the derivative divide (0, 1) into parts in which the polynomial is monotone.
 inline std::vector<double> zeros_in_step(const std::vector<double>& c) {
   if (c.size() < 2) return {};
   std::vector<double> derivative;
@@ -60,8 +60,8 @@ inline double squared_edge_distance(const Vector3<double>& vertex, const Vector3
   return (vertex - weight * edge).squaredNorm();
 }
 
-/// A vertex relative to one end of an edge, and the edge: a + t va and e + t ve. For two vertices, e and ve
-/// are 0.
+/// A vertex and an edge: a + t va is the vertex relative to one end of the edge, and e + t ve is the vector
+/// of the edge. For two vertices, e and ve are 0.
 struct Approach {
   using Vector = Vector3<double>;
   Vector a, va, e, ve;
@@ -76,7 +76,8 @@ struct Approach {
     return squared_edge_distance(a + t * va, e + t * ve);
   }
 
-  /// The times at which the distance to an end or to the edge's line may be smallest, and 0 and 1, in order.
+  /// 0, 1 and the times between them at which the distance to an end or to the edge's line may be smallest,
+  /// in order.
   [[nodiscard]] std::vector<double> times() const {
     std::vector<double> found{0, 1};
     const auto add_nearest = [&](const Vector& x, const Vector& v) {

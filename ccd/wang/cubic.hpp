@@ -38,9 +38,9 @@ namespace detail {
 
 // A time with |F| <= μ between lo and hi, found by Newton's method safeguarded by bisection. At lo and hi, F
 // has different signs, and |F| > μ. The iteration ends: bisection replaces a step that leaves the bracket or
-// is more than half as long as the step before it. A bracket that cannot shrink any more, or `next == t`,
-// occurs only if μ is smaller than `solve_cubic` requires. In the first case, the end of the bracket with the
-// smaller residual is returned.
+// is more than half as long as the step before it. Only if μ is smaller than `solve_cubic` requires, the
+// bracket may become unable to shrink, or a step may leave t unchanged (`next == t`). If the bracket cannot
+// shrink, its end with the smaller residual is returned.
 template <class T>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
   using std::abs;

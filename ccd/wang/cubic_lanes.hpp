@@ -9,7 +9,8 @@
 
 namespace nearmiss::detail {
 
-/// Counterpart of add_quotient: the quotient, and whether it is in [0, 1].
+/// In each lane, a quotient and whether it is in [0, 1]; add_quotient() in quadratic.hpp is the scalar
+/// version.
 template <class Real>
 struct Quotient {
   Real value;
@@ -24,7 +25,8 @@ Quotient<Real> quotient(Real numerator, Real denominator) {
           (denominator > Real(0)) & (numerator >= Real(0)) & (numerator <= denominator)};
 }
 
-/// Counterpart of solve_quadratic: both roots, and whether each is in [0, 1].
+/// In each lane, both roots of a quadratic and whether each root is in [0, 1]; solve_quadratic() is the
+/// scalar version.
 template <class Real>
 std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, const Real& c) {
   const auto is_linear = a == Real(0);
@@ -37,8 +39,8 @@ std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, cons
   return roots;
 }
 
-/// Counterpart of find_critical_times: which cubics have a critical point in [0, 1], and which have two; the
-/// points in order, with 1 in place of missing ones.
+/// In each lane, whether a cubic has a critical point in [0, 1], whether it has two, and these points in
+/// ascending order, with 1 in place of a missing point. find_critical_times() is the scalar version.
 template <class Real>
 struct CriticalTimes {
   typename Real::Mask any, two;
@@ -83,7 +85,7 @@ Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exis
   return select(exists, found, is(nothing));
 }
 
-/// The result of refine_root in the active lanes, and 0 in the others.
+/// The result of refine_root in the active lanes, and 0 in the other lanes.
 template <class Real>
 Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typename Real::Mask active) {
   using Mask = typename Real::Mask;

@@ -7,7 +7,8 @@
 
 namespace nearmiss {
 
-/// The tolerances of a rule, with the accepting ones, taken as lengths, multiplied by s: D, √δ, √ψ, S and ∛μ.
+/// The tolerances of a rule, loosened by the factor s. The lengths D, √δ, √ψ, S and ∛μ, which decide whether
+/// a pair is accepted, are multiplied by s.
 template <class Rule>
 struct Loosened {
   Rule tolerances;
@@ -41,7 +42,7 @@ struct Loosened {
 };
 
 /// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) is the answer with
-/// Loosened tolerances. Returns 2^-40 if the answer is true even there, and 2^8 if it is false even there.
+/// Loosened tolerances. Returns 2^-40 if hits(2^-40) is true, and 2^8 if hits(2^8) is false.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   double lo = -40;

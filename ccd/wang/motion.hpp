@@ -130,21 +130,21 @@ void form_vectors(const Points& points, Pair<kind, T>& pair) {
   pair.r = motion(r);
 }
 
-/// The relative excess of B over E + W, in units of ε: B has the excess `bound_margin`, and the proofs need
-/// `bound_needs`.
+/// B is E + W times 1 + `bound_margin` ε. The proofs only need the factor 1 + `bound_needs` ε.
 inline constexpr int bound_margin = 64;
 inline constexpr int bound_needs = 40;
 
 namespace detail {
 
-// B = (E + W)(1 + 64 ε). E bounds the edges at t = 0. W is the extent of the box of all velocities relative
-// to one vertex; the velocities themselves have the same extent. W = 2 V_max with the relative V_max of §4.1,
-// and is never above 2 max ‖v_i‖∞.
+// B = (E + W)(1 + 64 ε). E bounds the edges at t = 0. W is the extent of the bounding box of the vertices'
+// velocities, relative to one vertex's; subtracting that velocity only shifts the box. W = 2 V_max with the
+// relative V_max of §4.1, and W is never above 2 max ‖v_i‖∞.
 //
-// Rounding errors, with exact E* and W* and B* = E* + W*, for a pair that collides (other pairs need no
-// bound): every edge is within B* at both times, and the vertex of VT is within B* of all others. Any two end
-// points of EE are within B* + 2E* <= 3B* of each other at t = 0 (some pair is within B*, and the edges are
-// within E*), and within 4B* at t = 1. So the errors are at most
+// Rounding errors: let E* and W* be the exact values, and B* = E* + W*. Only a pair that collides needs a
+// bound. In such a pair, every edge is within B* at both times, and the vertex of VT is within B* of all
+// others. For EE at t = 0, some end point of one edge is within B* of some end point of the other, and the
+// edges are within E*. So any two end points are within B* + 2E* <= 3B* of each other at t = 0, and within
+// 4B* at t = 1. The errors are at most
 // - u(|start| + |end|) + u|v| <= 8uB* for a velocity,
 // - 17uB* for a sum of two velocities (v30 = v20 + v32),
 // - 34uB* + u for an extent, which is the difference of two such sums,

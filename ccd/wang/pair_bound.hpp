@@ -27,8 +27,9 @@ inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }
 
-/// The largest distance of a false positive of a pair with bound B, computed from the tolerances for B = 1,
-/// where nothing overflows. It is rounded up, so that it does not vanish for a tiny pair.
+/// The largest distance at which a pair with bound B can be a false positive. It is computed from the
+/// tolerances for B = 1, where nothing overflows, and is rounded up, so that it does not vanish for a tiny
+/// pair.
 inline double distance_bound_of(const Tolerances<double>& at_one, double B) {
   return std::nextafter(at_one.distance_bound() * B, std::numeric_limits<double>::infinity());
 }

@@ -34,8 +34,9 @@ template <Kind kind, class Coordinate>
 
 // Whether one primitive lies entirely on one side of the other in the given coordinate at t = 0, and on the
 // same side at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
-// at all times between them. The same holds for every convex combination, so the primitives never meet. The
-// answer is one truth value, or a vector of them if the coordinates are vectors.
+// at all times between them. Every convex combination of these differences has the same sign, so the
+// primitives never meet. The answer is one truth value, or a vector of truth values if the coordinates are
+// vectors.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
   const auto start = extents<kind>(coordinate, 0);

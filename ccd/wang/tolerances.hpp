@@ -69,8 +69,8 @@ Tolerances<T> paper_tolerances(T B) {
   return tol;
 }
 
-/// A rule for tolerances: a function of B, which `wang` uses, and functions of B and R, which `wang_within`
-/// uses. This one gives the paper's tolerances.
+/// The rule that gives the paper's tolerances. A rule is a function of B, which `wang` calls, with functions
+/// of B and R, which `wang_within` calls.
 struct PaperTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {

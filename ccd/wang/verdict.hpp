@@ -12,7 +12,7 @@ namespace nearmiss {
 /// Which test accepted a pair.
 enum class Stage : std::uint8_t {
   none,         ///< no collision was reported
-  proximity,    ///< area, height and barycentric tests of VT or EE; in advance.hpp, the distance
+  proximity,    ///< area, height and barycentric tests of VT or EE; in advance.hpp, the test of the distance
   ve_end,       ///< VE, KKT case 1: t = 0 or t = 1
   ve_minimum,   ///< VE, KKT case 2: minimum of one quadratic piece
   ve_equal,     ///< VE, KKT case 3: two components of the edge have the same magnitude
@@ -20,8 +20,8 @@ enum class Stage : std::uint8_t {
   vv,           ///< VV (KKT case 5)
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< the subject does not say; true of all plug-ins
-  unknown,      ///< no test: the subject cannot tell, which counts as a collision
+  unspecified,  ///< the subject does not say which test accepted the pair; no plug-in says it
+  unknown,      ///< no test: the subject cannot decide the pair, which then counts as a collision
 };
 
 inline constexpr std::size_t stage_count = 11;
@@ -50,7 +50,7 @@ inline constexpr std::size_t rejection_count = 9;
 inline constexpr std::array<std::string_view, rejection_count> rejection_names{
     "untold", "planes", "apart", "no-root", "culled", "tests", "filter", "finer", "exact"};
 
-/// Why a subject gave no answer.
+/// Why a subject gave no answer. In the comments below, "it" is the subject.
 enum class Fault : std::uint8_t {
   none,
   error,         ///< it reported an error, or a bound that is not a distance

@@ -9,8 +9,9 @@
 
 namespace nearmiss {
 
-/// Algorithm 1: the time at which two vertices are closest, if they are then within D. The test is that the
-/// computed squared distance is at most D² + δ, and every pair within D passes it (§4.2). If the vertices do
+/// Algorithm 1: the time at which two vertices are closest, if they are within D at that time. The test is
+/// that the computed squared distance is at most D² + δ, and every pair within D passes it (§4.2). If the
+/// vertices do not move relative to each other (v = 0), the time is 0.
 /// not move relative to each other (v = 0), t is 0.
 template <class T>
 std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol) {

@@ -6,8 +6,8 @@
  * takes separations for two vertices (Algorithm 1), and for a vertex and an edge (Algorithm 2). For the other
  * kinds, every separation must be 0, or the result is NEARMISS_BAD_ARGUMENT.
  *
- * All functions may be called from many threads at once, set the processor's rounding mode if need be and
- * restore it, and neither allocate, print nor throw. */
+ * Many threads may call all functions at once. The functions set the processor's rounding mode if need be,
+ * and restore it. They do not allocate, print or throw. */
 #ifndef NEARMISS_WANG_H
 #define NEARMISS_WANG_H
 
@@ -21,9 +21,10 @@ extern "C" {
  * NEARMISS_NO_ANSWER. */
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers);
 
-/** For each query, the most by which the smallest distance of a reported pair exceeds the separation, in the unit
- * of the coordinates: for contact about 41 B ε^¼, where B is the size of the pair and ε that of double; for a
- * vertex and an edge about 2 h + 28 B ε^¼, and much less for two vertices. NaN if there is no answer. */
+/** For each query, the most by which the smallest distance of a reported pair exceeds the separation, in the
+ * unit of the coordinates. For contact, this is about 41 B ε^¼, where B is the size of the pair and ε the
+ * machine epsilon of double. For a separation h, it is about 2 h + 28 B ε^¼ for a vertex and an edge, and
+ * much less for two vertices. NaN if there is no answer. */
 int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds);
 
 #ifdef __cplusplus

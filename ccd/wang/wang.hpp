@@ -96,8 +96,9 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 }
 
 // Whether |F| provably stays above μ, without knowing the pair's own B. If so, solve_cubic finds no root, and
-// no further test is needed. This is not for a given B: its μ may be larger, and the pair's own B is needed
-// to check that the given one is not smaller. solve_cubic then compares the clearance with the given B's μ.
+// no further test is needed. This function must not be used for a given B, whose μ may be larger. Besides,
+// the pair's own B is then needed to check that the given B is not smaller. For a given B, solve_cubic
+// compares the clearance with the μ of that B.
 //
 // Let s be the sum of all squared components of p, q and r, with the part s_x of the positions and s_v of the
 // velocities. The bounds in motion.hpp satisfy E <= √2 √s_x, since an edge is the difference of at most two
@@ -119,10 +120,10 @@ auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& toler
 
 // Algorithms 3 and 4 for a pair whose vectors are within B.
 //
-// Normals and weights may be computed in a wider scalar, `Wide`. The proofs only need upper bounds of
-// their errors, so they hold for smaller errors, too: a true collision passes the area,
-// height and barycentric tests, or is so near their limits that the vertex-edge tests report it; and a pair that
-// passes them is within the same distance bound. `excludes_collision` has its own bounds for `Wide`.
+// Normals and weights may be computed in a wider scalar, `Wide`. The proofs only need upper bounds of their
+// errors, so they hold for smaller errors, too. A true collision passes the area, height and barycentric
+// tests, or is so near their limits that the vertex-edge tests report it. A pair that passes these tests is
+// within the same distance bound. `excludes_collision` has its own bounds for `Wide`.
 template <Kind kind, class T, WangOptions options, class Wide, class Rule>
 [[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
                                                  const Cubic<T>& F, const Rule& tolerances) {
@@ -141,8 +142,8 @@ template <Kind kind, class T, WangOptions options, class Wide, class Rule>
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
   for (const T& t : roots)
     if (proximity(t, true)) return hit(t);
-  // The algorithms test T ∪ {0, 1}; 0 and 1 count only if their residual is that of a root. Then t = 0 is the
-  // left node of the first interval, hence among the roots; t = 1 need not be.
+  // The algorithms test T ∪ {0, 1}. 0 and 1 count only if |F| <= μ there, as at a root. If so, t = 0 is the
+  // left node of the first interval, and hence among the roots; t = 1 need not be among them.
   using std::abs;
   if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
   if (culled) return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::culled);

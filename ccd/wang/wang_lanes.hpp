@@ -68,7 +68,7 @@ class WangLanes {
     std::size_t size_ = 0;
   };
 
-  /// The coordinates of n queries, one in each lane, accessible like those of one query.
+  /// The coordinates of n queries, one query in each lane, with the access function of a single query.
   struct Points {
     std::array<Real, 24> x;  ///< in the order of Query::x
     const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
@@ -85,8 +85,8 @@ class WangLanes {
     return points;
   }
 
-  /// Calls `visit(lane)` for each lane that has an element, if the lanes hold elements `first`, `first` + 1,
-  /// ... of a list.
+  /// The lanes hold the elements `first`, `first` + 1, ... of a list. Calls `visit(lane)` for each lane that
+  /// has an element.
   template <class Visit>
   static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
     const std::size_t count = std::min<std::size_t>(n, size - first);
@@ -237,8 +237,8 @@ class WangLanes {
     }
   }
 
-  /// Tests all candidates as Algorithms 3 and 4 do. Where a candidate does not pass, checks
-  /// whether its vertex-edge tests can be skipped.
+  /// Tests all candidates as Algorithms 3 and 4 do. If a candidate does not pass, checks whether its
+  /// vertex-edge tests can be skipped.
   void test_candidates() {
     pad(candidate_place_, candidate_count_);
     pad(candidate_time_, candidate_count_);
@@ -264,7 +264,7 @@ class WangLanes {
     }
   }
 
-  /// Counterpart of excludes_collision with VeCulling::per_root.
+  /// In each lane, what excludes_collision() with VeCulling::per_root returns for one query.
   static Mask excludes(const Pair<kind, Real>& pair, const Cubic<Real>& F,
                        const Configuration<kind, Real>& configuration, const Real& t,
                        const Tolerances<Real>& tol) {

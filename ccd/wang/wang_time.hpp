@@ -26,7 +26,7 @@ namespace nearmiss {
 inline constexpr int least_residual = 440;
 
 /// Bound of |computed - exact| / (Bε) for the distance of two vertices along an axis or a diagonal, at any
-/// time until the one that `separated_until` returns.
+/// time up to the result of `separated_until`.
 ///
 /// Let every operation have a relative error of at most u = ε/2. Positions and velocities are within B; only
 /// the p of edges may be within 2B at t = 1.
@@ -85,7 +85,7 @@ T separated_until(const Pair<kind, T>& pair) {
   return latest;
 }
 
-/// A time in interval i. The exact F has no root in the interval before this time.
+/// A time in interval i before which the exact F has no root in this interval.
 ///
 /// By (2) of `solve_cubic`, there is no root between two times at which F has the same sign and |F| exceeds
 /// the residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by
@@ -144,8 +144,8 @@ template <Kind kind, class T>
 
 }  // namespace detail
 
-/// Decides as `wang` does. The time of a collision is a lower bound: the primitives do not touch before it,
-/// whatever test accepts the pair. Neither `given` nor the tolerances change it.
+/// Decides as `wang` does. The time of a collision is a lower bound: the primitives do not touch before this
+/// time, whatever test accepts the pair. It depends neither on `given` nor on the tolerances.
 ///
 /// The bound is the later of two times: until the first, moving planes separate the primitives; from the
 /// first to the second, no root of F can be a contact. If F is nearly 0 for a long time, as for primitives

@@ -75,7 +75,8 @@ struct WithinQuery {
       R = R * (1 + epsilon<T>()) + T(0x1p-149);  // the smallest float
   }
 
-  /// Whether R is so large that the primitives are within R at t = 0: all components are at most B, √3 < 2.
+  /// Whether R is so large that the primitives are within R at t = 0. Components are at most B, so their
+  /// distance is at most √3 B < 2B.
   [[nodiscard]] bool is_always_within() const { return R >= 2 * B; }
 
   /// The tolerances of a rule for these primitives, unless they are always within R.

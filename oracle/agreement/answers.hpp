@@ -25,8 +25,8 @@ class Answers {
   /// and every complete method says whether there is a collision. A complete method may leave the collision
   /// open if another one says that the smallest distance is exactly h > 0.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if they agree. `by_filter` is
-  /// compared, too, if it is given.
+  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if the answers agree. If
+  /// `by_filter` is given, it is compared, too.
   [[nodiscard]] std::string disagreement(const Answer& by_filter = {}) const;
 
   /// Whether there is a collision that root parity cannot detect, because the number of roots is even.

@@ -29,15 +29,15 @@ bool is_proved(const Query& query, const Decision& decision);
 /// Checks the certificates of the narrowest enclosure of the earliest time of a query with a collision or a
 /// tie: the distance is above h before the enclosure, and at most h at some time in it. For h > 0, the
 /// certificates must also show whether the distance falls below h before the double after the enclosure. If
-/// it only touches h there, it is enough to prove that the distance is at most the double above h, and above
-/// the double below h. Returns "" if the checker accepts them, else what is not proved, such as "time (not
-/// proved: before)".
+/// the distance only touches h there, it is enough to prove that the distance is at most the double above h,
+/// and above the double below h. Returns "" if the checker accepts the certificates, else what is not proved,
+/// such as "time (not proved: before)".
 ///
 /// The certificates of bounds of distances are not checked, because they take several times as long.
 std::string time_disagreement(const Query& query, const Decision& decision);
 
-/// How the answers of all methods and the decision contradict each other; if they agree, which part of the
-/// decision or of the earliest time is not proved; "" if everything is proved.
+/// How the answers of all methods and the decision contradict each other. If they agree, the result says
+/// which part of the decision or of the earliest time is not proved, and is "" if everything is proved.
 std::string disagreement(const Query& query, const Decision& decision, const Answers& answers);
 
 }  // namespace nearmiss

@@ -18,7 +18,7 @@ struct Answer {
   std::optional<bool>
       collision{};  ///< whether the primitives meet; for h > 0, whether the distance falls below h
   std::optional<bool> at_most{};      ///< for h > 0: whether the distance is at most h at some time
-  std::optional<bool> on_boundary{};  ///< whether they meet at an end of the step or at a border
+  std::optional<bool> on_boundary{};  ///< whether the primitives meet at an end of the step or at a border
   std::optional<bool> odd{};  ///< whether the number of roots with multiplicity is odd; unset on the boundary
   /// Whether the method knows anything about the query.
   [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
@@ -29,7 +29,7 @@ struct Answer {
 /// The promise of a method.
 enum class Claim {
   complete,  ///< the method knows whether there is a collision, unless the smallest distance is exactly h > 0
-  parity,    ///< it detects collisions on the boundary and odd numbers of roots; it says nothing about h > 0
+  parity,    ///< the method detects collisions on the boundary and odd numbers of roots, and ignores h > 0
 };
 
 /// A decision as the answer of a method.
@@ -47,7 +47,7 @@ std::string_view name(Claim claim);
 /// A method that decides every finite query exactly, within its claim.
 struct Method {
   std::string_view name;
-  std::string_view about;  ///< how it decides, in one line
+  std::string_view about;  ///< how the method decides, in one line
   Claim claim;
   std::function<Answer(const Query&)> ask;
 };

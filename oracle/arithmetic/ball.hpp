@@ -10,10 +10,10 @@ namespace nearmiss::certified {
 /// A number within `error` of x; Real is double or DoubleWord. If anything overflows, the error is
 /// infinite or NaN, and no sign is certain.
 ///
-/// The result of an operation is within U |x| of that of exact operands, and underflow adds at most H to a
-/// product (product_underflow). The magnitude of an upper half and the bound itself, which has at most six
-/// roundings, may be too small by a relative error of 7 · 2^-53, and by three times the smallest double; the
-/// margins in `growth` and `underflow_of_product` cover that.
+/// An operation rounds its result by at most U |x|, and underflow adds at most H to a product
+/// (product_underflow). Two numbers may be too small by a relative error of 7 · 2^-53 and by three times the
+/// smallest double: the magnitude of an upper half, and the bound itself, which has at most six roundings.
+/// The margins in `growth` and `underflow_of_product` cover that.
 template <class Real>
 struct Ball {
   Real x = 0;

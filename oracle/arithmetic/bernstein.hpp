@@ -59,9 +59,9 @@ Half approximate(const DoubleWordOf<Half>& x) {
   return x.hi;
 }
 
-/// The sign, 1 or -1, that all numbers certainly have in spite of an error of at most `error`; 0 if none is
-/// certain, as with a NaN or an infinite error. (The upper half of a double word is within a factor of 1 ±
-/// 2^-53 of it, and `error` has room for that.)
+/// The sign, 1 or -1, that all numbers certainly have in spite of an error of at most `error`; 0 if no sign
+/// is certain, as with a NaN or an infinite error. (The upper half of a double word is the double word times
+/// a factor within 1 ± 2^-53, and `error` has room for that.)
 template <class Real, std::size_t n>
 int common_sign(const std::array<Real, n>& numbers, double error) {
   bool positive = true;
@@ -73,16 +73,16 @@ int common_sign(const std::array<Real, n>& numbers, double error) {
   return positive ? 1 : negative ? -1 : 0;
 }
 
-// Constants of Bernstein::error_near.
+// Constants that Bernstein::error_near() uses.
 inline constexpr double spread_growth = 1.01;
 inline constexpr double slope_errors = 3;
 inline constexpr double end_rounding = 0x1p-54;  ///< half the distance between doubles just below 1
 inline constexpr double upper_halves =
     0x1p-52;  ///< error of a difference of upper halves, relative to `largest`
 
-/// A polynomial of degree n - 1, given by its Bernstein coefficients. Each coefficient is within `error` of
-/// the exact one, and so is every value and every coefficient on a part of [0, 1] that the functions below
-/// compute.
+/// A polynomial of degree n - 1, given by its Bernstein coefficients. `error` bounds the error of each
+/// coefficient. It also bounds the error of each value, and of each coefficient on a part of [0, 1], that the
+/// functions below compute.
 template <class Real, std::size_t n>
 struct Bernstein {
   std::array<Real, n> b;

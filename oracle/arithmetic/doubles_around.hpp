@@ -1,4 +1,4 @@
-// Doubles near a number: the two neighbours of a double word, and the one with the fewest bits in an
+// Doubles near a number: the two neighbours of a double word, and the double with the fewest bits in an
 // interval.
 #pragma once
 
@@ -18,8 +18,8 @@ namespace nearmiss::certified {
 /// itself.
 inline constexpr double to_next = 0x1.2p-53;
 
-/// The largest double that is not above x > 0, and the next one. If x is subnormal, the first may be smaller,
-/// or both may be the same.
+/// The largest double that is not above x > 0, and the next double. If x is subnormal, the first of these may
+/// be too small, or both may be equal.
 template <class Half>
 std::pair<Half, Half> doubles_around(const DoubleWordOf<Half>& x) {
   const Half below = select(x.lo < 0, x.hi - to_next * x.hi, x.hi);

@@ -21,8 +21,8 @@ struct Powers {
   [[nodiscard]] Real curvature(const Real& t) const { return 2 * c[2] + t * (6 * c[3]); }
 };
 
-/// A root near 0 of a cubic that is not zero at 0, by Laguerre's method, which also converges fast to
-/// multiple roots; nothing if an iteration shows that there is no root. The value at the root is at most
+/// A root near 0 of a cubic that is not zero at 0; nothing if an iteration shows that there is no root. The
+/// method is Laguerre's, which also converges fast to multiple roots. The value at the root is at most
 /// `accuracy` times the value at 0.
 inline std::optional<double> root_near_zero(const Powers<double>& F, double accuracy = 1e-9) {
   double t = 0;
@@ -39,7 +39,7 @@ inline std::optional<double> root_near_zero(const Powers<double>& F, double accu
   return t;
 }
 
-/// The extremum nearest to 0; the inflection point if there is none.
+/// The extremum nearest to 0; the inflection point if there is no extremum.
 inline double extremum_near_zero(const Powers<double>& F) {
   const double discriminant = std::max(F.c[2] * F.c[2] - 3 * F.c[1] * F.c[3], 0.0);
   return -F.c[1] / (F.c[2] + std::copysign(std::sqrt(discriminant), F.c[2]));

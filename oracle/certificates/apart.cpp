@@ -1,9 +1,10 @@
 // Planes prove that a pair stays apart. At any time, the direction between the closest points separates the
-// primitives strictly. So does the normal of the closest features, which moves with them: x - y for two
-// vertices, (e·e) p - (p·e) e for a vertex and an edge e, q × r for interiors. A direction that separates at
-// a time also separates for a while, and [from, to] is compact. So a search that cuts [from, to] into parts
-// ends, unless the smallest distance is exactly h. Near a time at which normals change, parts may have to be
-// very short. Cuts approach such a time as fast as root finding does.
+// primitives strictly. The normal of the closest features, which moves with the features, separates the
+// primitives, too. This normal is x - y for two vertices, (e·e) p - (p·e) e for a vertex and an edge e, and q
+// × r for interiors. A direction that separates at a time also separates for a while, and [from, to] is
+// compact. So a search that cuts [from, to] into parts ends, unless the smallest distance is exactly h. Near
+// a time at which normals change, parts may have to be very short. Cuts approach such a time as fast as root
+// finding does.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -41,14 +42,15 @@ constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
 constexpr double width_of_doubles = 0x1p-50;  ///< in wider parts, doubles show which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
-/// The depth from which on cuts approach times of change, and normals are tried exactly, first in the middle.
+/// From this depth on, cuts approach times of change. Only the normals that are not rounded are tried, first
+/// in the middle of a part, then in all of it.
 constexpr int deep = 16;
 
 struct Piece {
   Interval at;
   Normal normal;
   bool may_be_rounded = false;  ///< whether a rounded normal may do, too
-  bool is_extended = false;     ///< whether it extends as far as its normal separates
+  bool is_extended = false;     ///< whether the piece extends as far as its normal separates
 };
 
 /// A part of the step for which a normal is to be found.
@@ -56,8 +58,8 @@ struct Part {
   Interval at;
   int depth = 0;                         ///< how often it was cut
   const Polynomial* obstacle = nullptr;  ///< the polynomial that kept a normal from separating before the cut
-  std::optional<Root> change = {};       ///< a root of it, or of a derivative, in this part
-  bool is_beside_a_change = false;       ///< whether the last cut approached a change of it outside this part
+  std::optional<Root> change = {};       ///< a root of the obstacle, or of a derivative of it, in this part
+  bool is_beside_a_change = false;       ///< whether the last cut approached a change outside this part
 
   [[nodiscard]] bool is_point() const { return at.lo == at.hi; }
 };
@@ -89,8 +91,8 @@ PolynomialVector times(const Polynomial& factor, const PolynomialVector& v) {
 /// Separates the primitives of a query piece by piece.
 class Separator {
  public:
-  /// `reaches_h`: the primitives come within h. A proof then exists only if they do so at a cut, so all cuts
-  /// are in the middle, and few normals are tried.
+  /// `reaches_h` says that the primitives come within h. Then a proof exists only if they come within h at a
+  /// cut, so all cuts are in the middle, and few normals are tried.
   Separator(const Query& query, bool is_strict, bool reaches_h)
       : gaps_(query, is_strict),
         halves_only_(reaches_h),
@@ -187,8 +189,9 @@ class Separator {
     }
   }
 
-  /// What keeps the normal that separates in the middle of a part from separating in all of it; or, if that is
-  /// 0 at an end of the part, what keeps one that separates at this end.
+  /// The obstacle to the normal that separates in the middle of a part: the polynomial that keeps this normal
+  /// from separating in all of the part. If that polynomial is 0 at an end of the part, this is the obstacle
+  /// to a normal that separates at this end.
   const Polynomial* first_obstacle(const Interval& in, bool open) {
     const auto of = [&](Normal* normal) -> const Polynomial* {
       for (std::size_t gap = 0; normal != nullptr && gap < gaps_.size(); ++gap)

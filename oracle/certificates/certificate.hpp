@@ -18,21 +18,23 @@ struct Span {
   bool is_open = false;  ///< whether `to` itself is excluded
 };
 
-/// Proof that the distance is always above the query's separation h in a part of the step; or, unless
-/// `is_strict`, that it is never below h > 0. Nothing if the statement is wrong, or if no proof is found.
-/// `is_known`: the distance is known to be above h in the span; then the query is not decided again.
+/// A proof that the distance is always above the query's separation h in a part of the step. If `is_strict`
+/// is false, the proof may show only that the distance is never below h > 0. Returns nothing if the statement
+/// is wrong, or if no proof is found. `is_known` says that the distance is known to be above h in the span;
+/// then the query is not decided again.
 std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict = true,
                                          bool is_known = false);
 
-/// Proof that the distance is at most the query's separation h at some time in a part of the step; or, if
-/// `is_strict`, that it is below h > 0. If the span is open, the certificate ends before the span's `to`: at
-/// the double before it if possible, otherwise at a fraction. Nothing if the statement is wrong, or if no
-/// proof is found. `known` is what a decision of the query has found.
+/// A proof that the distance is at most the query's separation h at some time in a part of the step. If
+/// `is_strict` is true, the proof shows that the distance is below h > 0 at that time. If the span is open,
+/// the certificate ends before the span's `to`: at the double before it if possible, otherwise at a fraction.
+/// Returns nothing if the statement is wrong, or if no proof is found. `known` is what a decision of the
+/// query has found.
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false,
                                          const KnownTimes& known = {});
 
-/// The certificate of decide(query). If the smallest distance is exactly h > 0, it proves that the distance
-/// is at most h. Nothing if no proof is found.
+/// The certificate of decide(query). If the smallest distance is exactly h > 0, the certificate proves that
+/// the distance is at most h. Nothing if no proof is found.
 std::optional<std::string> certify(const Query& query);
 
 /// The certificate of each statement; nothing for a statement without a proof.

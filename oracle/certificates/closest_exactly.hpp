@@ -15,7 +15,7 @@ using certified::dot;
 using certified::operator-;
 using certified::Vec;
 
-/// The weights of the vertices in a point of each primitive: first those of the first primitive.
+/// For a point of each primitive, the weights of the vertices. The weights of the first primitive come first.
 template <class Real>
 using WeightsOfPoints = std::array<Real, 4>;
 
@@ -36,8 +36,8 @@ Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const Weight
   return dot(d, d);
 }
 
-/// Chooses the closest points among those of all pairs of features. In floating-point arithmetic, the points
-/// are only approximately the closest ones.
+/// Chooses the closest points among the points that all pairs of features give. In floating-point arithmetic,
+/// the chosen points are only approximately the closest ones.
 template <class Real>
 class ClosestWeights {
  public:

@@ -307,8 +307,8 @@ std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   }
 }
 
-/// The proof that the distance is below h right after a time: at the next multiple of 2^-bits, or the one
-/// after it if the next one may be before the time.
+/// The proof that the distance is below h right after a time. It looks at the next multiple of 2^-bits or, if
+/// this multiple may be before the time, at the multiple after it.
 std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
   for (unsigned bits = 4; bits < most_bits; bits *= 2) {
     while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();

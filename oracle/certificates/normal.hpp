@@ -18,9 +18,9 @@ namespace nearmiss::certificates {
 using exact::Polynomial;
 using exact::PolynomialVector;
 
-/// The differences of a vertex of the first primitive and one of the second. A direction separates the
-/// primitives if all differences are longer than h along it; unless `is_strict`, a length of exactly h > 0
-/// suffices. Exact vectors are computed on first use.
+/// The gaps of a query: the difference of each vertex of the first primitive and each vertex of the second. A
+/// direction separates the primitives if all gaps are longer than h along it; unless `is_strict`, a length of
+/// exactly h > 0 suffices. Exact vectors are computed on first use.
 class Gaps {
  public:
   Gaps(const Query& query, bool is_strict);
@@ -69,7 +69,7 @@ class Normal {
   [[nodiscard]] bool separates(const Interval& interval, bool open);
   /// Whether the direction separates the primitives at a time.
   [[nodiscard]] bool separates_at(const Number& t);
-  /// The polynomial with which a gap keeps separates() from being true; null if it does not.
+  /// The polynomial of a gap that keeps separates() from being true; null if this gap does not do so.
   [[nodiscard]] const Polynomial* obstacle(std::size_t gap, const Interval& interval, bool open);
 
   /// Whether the first primitive is behind the second one at t, seen in this direction, judged by their first
@@ -82,7 +82,7 @@ class Normal {
   struct Along {
     AnyPolynomial n_d, excess;
   };
-  /// They are computed on first use.
+  /// The products of the direction with all gaps, computed on first use.
   template <class AnyPolynomial>
   struct Products {
     std::optional<AnyPolynomial> least;  ///< h² n · n

@@ -8,7 +8,7 @@
 namespace nearmiss::certificates {
 
 /// Whether all Bernstein coefficients of p on [lo, hi] are positive. If the interval is open at hi, only the
-/// first one needs to be; the others may be 0.
+/// first coefficient needs to be positive; the others may be 0.
 inline bool is_positive(const exact::Polynomial& p, const exact::Number& lo, const exact::Number& hi,
                         bool is_open = false) {
   if (p.is_zero()) return false;

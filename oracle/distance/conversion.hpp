@@ -41,7 +41,7 @@ class Conversion {
   }
 
  private:
-  /// Applies `next` after each rounding: that of the quotient, and that of an ldexp that underflows.
+  /// Applies `next` after each of two roundings: that of the quotient, and that of an ldexp that underflows.
   template <class Next>
   [[nodiscard]] double divided(double distance, const Next& next) const {
     int exponent = 0;

@@ -8,10 +8,10 @@
 
 namespace nearmiss::certified {
 
-/// Narrows `time`, an interval that contains the first time at which the distance is at most the
-/// separation h > 0, to neighbouring doubles. The distance is above h in the interval up to the first
-/// double, and below h at the second one. Nothing if that cannot be shown, for example because other
-/// features become the closest ones in the interval.
+/// Narrows `time` to neighbouring doubles. `time` must contain the first time at which the distance is at
+/// most the separation h > 0. The distance is above h from the beginning of `time` to the first double, and
+/// below h at the second one. Returns nothing if that cannot be shown, for example because other features
+/// become the closest ones in the interval.
 std::optional<Enclosure> narrow_crossing(const Query& query, const Enclosure& time);
 
 }  // namespace nearmiss::certified

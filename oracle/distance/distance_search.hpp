@@ -58,9 +58,9 @@ class DistanceSearch {
   }
 
  private:
-  /// How far certified bounds around a time reach in one direction, at most `most`.
+  /// The length of the stretch that certified bounds around a time cover in one direction, at most `most`.
   struct Reach {
-    double required = 0;  ///< the distance that is certain up to there
+    double required = 0;  ///< the distance that is certain on that stretch
     double most = 0, value = 0;
   };
 
@@ -243,8 +243,8 @@ class DistanceSearch {
     return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
   }
 
-  /// A time in a gap. It is near the end that covers less, since the distance is small there; its offset from
-  /// that end is a few times the time that the end covers. In a wide gap, it is the middle.
+  /// A time in a gap. In a wide gap, it is the middle. Otherwise it is near the end that covers less, since
+  /// the distance is small there; its offset from that end is a few times the time that the end covers.
   [[nodiscard]] Real inside(const Gap& gap) const {
     const double open = gap.width - gap.covered_before - gap.covered_behind;
     const bool is_before = gap.covered_before <= gap.covered_behind;
@@ -256,8 +256,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds separations to a time; if it has all of them but covers nothing, makes it precise. Returns false if
-  /// nothing is left to do.
+  /// Adds separations to a sampled time. If it already has all separations but covers nothing, looks at it
+  /// precisely. Returns false if nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)
@@ -298,8 +298,9 @@ class DistanceSearch {
   }
 
   /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives
-  /// the next time. Once its step is short, the step is doubled, or made 0.4 of `width` if that is more, so
-  /// that it passes the crossing and encloses it from both sides. Returns false if nothing more can be done.
+  /// the next time. Once Newton's step is short, it is doubled, or made 0.4 of `width` if that is more. So
+  /// the next time lies beyond the crossing, and the crossing is enclosed from both sides. Returns false if
+  /// nothing more can be done.
   bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];

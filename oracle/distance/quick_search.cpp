@@ -41,8 +41,8 @@ Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<d
   return (dot(velocity, difference) / squared_distance) * difference;
 }
 
-/// The time from here until a point that moves from d with velocity v enters the ball of radius r around the
-/// origin, negative if it entered in the past; NaN if it never enters.
+/// The time until a point that is at d and has the velocity v enters the ball of radius r around the origin.
+/// It is negative if the point entered the ball in the past, and NaN if the point never enters it.
 double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   const double a = dot(v, v);
   const double b = dot(d, v);
@@ -52,8 +52,9 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
 }
 
 /// The next time to look at in a gap, as an offset from one of its ends. The gap has the length `open`, and
-/// beyond that end, a bound covers the length `covered`. A bound covers less time where the distance is
-/// smaller. So if it covers little, the primitives are close at that end, and the next time is near it.
+/// beyond that end, a bound covers the length `covered`. The smaller the distance at a time, the shorter the
+/// stretch from there on which a bound certifies the required distance. So if `covered` is small, the
+/// primitives are close at that end, and the next time is near it.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }

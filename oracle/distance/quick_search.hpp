@@ -51,9 +51,9 @@ class QuickSearch {
   bool add(double lo, double hi, double nearest, double guess);
   [[nodiscard]] const Gap& first_gap() const { return gaps_[count_ - 1]; }
 
-  /// Looks at a time in the first gap. If the distance is below `low` there, the gap ends there, and the
-  /// others are dropped. Else the gap is replaced by what the bounds around this time leave of it. Returns
-  /// false if they cover nothing, or leave too many gaps.
+  /// Looks at a time in the first gap. If the distance is below `low` at this time, the gap ends there, and
+  /// the later gaps are dropped. Otherwise, the parts of the gap that the bounds around this time do not
+  /// cover replace the gap. Returns false if the bounds cover nothing, or leave too many gaps.
   bool look_into_first_gap();
   /// Requires that the distance is below `low` at the end of the first gap. Estimates when the distance falls
   /// below `low`. Moves the end to just after that time if the distance is certainly below `low` there. Then

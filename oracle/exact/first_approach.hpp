@@ -11,8 +11,9 @@ namespace nearmiss::exact {
 /// The earliest time at which the distance is at most h, and when it falls below h.
 struct FirstApproach {
   Root time;
-  /// The time at which the distance first falls below h; until then it is at least h. Nothing if the distance
-  /// is never below h in [0, 1]. It differs from `time` if the distance is exactly h before it falls below h.
+  /// The time at which the distance first falls below h. Until then, the distance is at least h. Nothing if
+  /// the distance is never below h in [0, 1]. This time differs from `time` if the distance is exactly h
+  /// before it falls below h.
   std::optional<Root> below;
 };
 

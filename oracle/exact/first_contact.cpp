@@ -42,7 +42,7 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
 /// weight. Proof: the set of colliding times is closed, so it has a least element t*. Suppose that t* is
 /// neither 0 nor a root of one of the polynomials that are not identically zero. Then N_k is not zero and no
 /// polynomial changes its sign in a neighbourhood of t*, so there are collisions before t*, a contradiction.
-/// If N is identically zero, the same holds for the polynomials of the segments. One polynomial is enough for
+/// If N is identically zero, the polynomials of the segments have this property. One polynomial is enough for
 /// several that have the same roots, such as the three components of a vector that stays in one plane.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;

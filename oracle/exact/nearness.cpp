@@ -119,14 +119,15 @@ void Nearness::add_interiors(Interiors&& of) {
       {Features::interiors, F * F - squared_b_ * squared_N, std::move(outside), {squared_N}});
 }
 
-// The smallest distance is that of two features at one of the times below, if their closest points lie in
-// the features then. Proof: Let it be reached at t0, and take a statement about features of the lowest
-// dimension that are at that distance. If t0 is neither 0 nor 1, the closest points of their lines or
-// planes are strictly inside the features, which are not degenerate: otherwise the closest points would lie
-// in features of a lower dimension. So the statement gives a distance near t0, too, and its square, which
-// is a quotient of polynomials, has a minimum at t0 and a derivative of 0. If that is not identically 0, t0
-// is one of its roots. If it is, the distance stays the same until t is 0 or 1, or until the closest points
-// leave the inside of the features; and there, features of a lower dimension are at the same distance.
+// The smallest distance is that of two features at one of the times below, if their closest points lie in the
+// features then. Proof: Let the smallest distance be reached at t0. Among the pairs of features that are at
+// that distance then, take one of the lowest dimension, and the statement about it. If t0 is neither 0 nor 1,
+// the closest points of the lines or planes through these two features are strictly inside the features,
+// which are not degenerate: otherwise the closest points would lie in features of a lower dimension. So the
+// statement gives a distance near t0, too. The square of this distance is a quotient of polynomials, which
+// has a minimum at t0 and a derivative of 0. If the derivative is not identically 0, t0 is one of its roots.
+// If it is, the distance stays the same until t is 0 or 1, or until the closest points leave the inside of
+// the features; at that time, features of a lower dimension are at the same distance.
 SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
   const Interiors of = interiors(query.kind, moving_points(query, unit_));
   const Nearness contact(query, 0);  // b = 0, so that each excess is a numerator

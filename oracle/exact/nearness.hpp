@@ -35,9 +35,10 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The polynomials about the vertex and the plane of the triangle, or about the lines of both edges. Where
-/// squared_N is positive, their distance is |F| / |N|, and the closest points lie in the features iff all
-/// `outside` are at most 0, and strictly inside iff they are negative.
+/// The polynomials about the vertex and the plane of the triangle, or about the lines of both edges. At a
+/// time at which squared_N is positive, the distance of the vertex and the plane, or of the lines, is |F| /
+/// |N|. The closest points then lie in the features iff all `outside` are at most 0, and strictly inside the
+/// features iff all `outside` are negative.
 struct Interiors {
   Polynomial F;
   Polynomial squared_N;

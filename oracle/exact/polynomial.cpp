@@ -158,7 +158,7 @@ Polynomial primitive(const Polynomial& p) {
 
 namespace {
 
-/// The quotient of a polynomial and a linear factor of it, which has no content.
+/// The quotient of a polynomial and one of its linear factors, whose coefficients have no common divisor.
 Polynomial without_factor(const Polynomial& p, const Polynomial& factor) {
   Numbers quotient(p.coefficients().begin() + 1, p.coefficients().end());
   quotient.back() = quotient.back() / factor.leading();

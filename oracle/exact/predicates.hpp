@@ -24,9 +24,10 @@ struct OnSegment {
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, projecting along axis k loses nothing, and the primitives
-///    meet iff every weight's component k is zero or has the sign of N_k. The weights are the barycentric
-///    ones times N = q × r: of x1, x2, x3 for a triangle (their sum is N), from p = w2 q + w3 r; of x1 and x0
-///    on the first edge, of x3 and x2 on the second one (pairwise sum N), from p = α q - β r;
+///    meet iff every weight's component k is zero or has the sign of N_k. Here a weight is a barycentric
+///    weight times N = q × r. A triangle has the weights of x1, x2 and x3, which add up to N, from p = w2 q +
+///    w3 r. Edges have the weights of x1 and x0 on the first edge, and of x3 and x2 on the second; the
+///    weights of each edge add up to N, from p = α q - β r;
 ///  - if N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
 ///    does. Two edges are then parallel or points, and meet iff an end point of one lies on the other.
 class Predicates {

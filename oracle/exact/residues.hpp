@@ -7,9 +7,9 @@
 
 namespace nearmiss::exact {
 
-/// Whether the residues of their coefficients prove that two nonzero polynomials have no common root; false
-/// proves nothing. The test takes far less time than a remainder sequence of polynomials with
-/// long coefficients.
+/// Whether the residues of the coefficients of two nonzero polynomials prove that the polynomials have no
+/// common root; false proves nothing. The test takes far less time than a remainder sequence of polynomials
+/// with long coefficients.
 ///
 /// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest
 /// common divisor over the integers. The leading coefficient of g divides that of p. If the prime does not
@@ -17,15 +17,14 @@ namespace nearmiss::exact {
 /// divides both polynomials. So if the residues have no common factor, g is a constant.
 bool are_coprime_by_residues(const Polynomial& p, const Polynomial& q);
 
-/// The greatest common divisor of a polynomial and its derivative, if that is a linear factor and the
-/// residues show it; otherwise nothing, which proves nothing. This takes far less time than a remainder
-/// sequence.
+/// The greatest common divisor of a polynomial and its derivative, if this divisor is linear and the residues
+/// show that; otherwise nothing, which proves nothing. This takes far less time than a remainder sequence.
 ///
-/// Proof: as above, the divisor has at most the degree that it has modulo the prime, which is 1. The factor
-/// is that of a double root of p, a simple root of p', so Newton's method for p' doubles the number of digits
-/// of the root in base `prime`. The root's denominator divides the leading coefficient L. |L root| is at most
-/// |L| plus the largest coefficient, so L root is known modulo more than twice its size. At last, exact
-/// values of p and p' show that this is a root of both.
+/// Proof: as above, the degree of the divisor is at most its degree modulo the prime, which is 1. The root of
+/// the divisor is a double root of p and a simple root of p', so Newton's method for p' doubles the number of
+/// digits of the root in base `prime`. The root's denominator divides the leading coefficient L. |L root| is
+/// at most |L| plus the largest coefficient, so L root is known modulo more than twice its size. At last,
+/// exact values of p and p' show that this is a root of both.
 std::optional<Polynomial> only_double_factor(const Polynomial& p);
 
 }  // namespace nearmiss::exact

@@ -96,7 +96,8 @@ void shift(Numbers& c, const Multiply& times_shift) {
     for (std::size_t i = 1; i <= last; ++i) c[i] = c[i] + times_shift(c[i - 1]);
 }
 
-/// The coefficients of OnInterval, from those of the powers of t, leading one first.
+/// The coefficients of OnInterval, from the coefficients of the powers of t, of which the leading one comes
+/// first.
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   // Powers of s, the fraction of the interval, counted from the end with fewer bits.
   constexpr std::size_t short_size = 4;  // up to this degree, the difference is small
@@ -250,7 +251,7 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
   const std::ptrdiff_t most_inverse = above_roots(c_.rbegin(), exponents.rbegin());  // of 1 / x
   if (most <= -most_inverse) return NearEnd{0, 0, 0};
   if (std::min(most, most_inverse) >= near) return std::nullopt;
-  // s < x and, for x < 1, s > x / 2. The same holds for 1 - s and 1 / x.
+  // s < x and, for x < 1, s > x / 2. Likewise, 1 - s < 1 / x and, for x > 1, 1 - s > 1 / (2 x).
   const std::ptrdiff_t upper = std::min(most, most_inverse);
   const std::ptrdiff_t lower = -std::max(most, most_inverse);
   const auto power = [](std::ptrdiff_t exponent) { return power_of_half(static_cast<unsigned>(-exponent)); };
@@ -315,9 +316,10 @@ void Root::refine() {
 
 namespace {
 
-/// If q shares the root that p has between two numbers: the polynomial of lowest degree found that has this
-/// root; else nothing. p has at most one root there, a simple one, and the two polynomials are
-/// not both zero at one of the numbers. So a common divisor has the root if and only if its sign changes.
+/// If q shares the root that p has between two numbers, returns the polynomial of the lowest degree that was
+/// found to have this root; otherwise nothing. p has at most one root there, a simple one, and the two
+/// polynomials are not both zero at one of the numbers. So a common divisor has the root if and only if its
+/// sign changes.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
   constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues

@@ -32,7 +32,7 @@ class OnInterval {
 
   /// The polynomial on the part between two fractions of the interval.
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
-  /// Rounds very long coefficients. Parts have the same errors.
+  /// Rounds very long coefficients. Parts inherit the errors.
   void round();
   /// Whether rounding cannot have changed the sign of a coefficient, nor its size by a factor of 2.
   [[nodiscard]] bool is_certain() const;
@@ -57,10 +57,10 @@ class OnInterval {
   /// nothing if the guess is outside or at the lower end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
-  /// Fractions of the interval between which all its roots lie strictly, if they are all near the same end;
-  /// and a fraction between these, whose distance from that end is about the geometric mean of theirs. All
-  /// are 0 if the coefficients show that there is no root. There must be a change of sign, and no root at the
-  /// ends.
+  /// Three fractions of the interval, for the case that all roots are near the same end. All roots lie
+  /// strictly between two of these fractions. The third fraction is between these two; its distance from that
+  /// end is about the geometric mean of their distances. All three are 0 if the coefficients show that there
+  /// is no root. There must be a change of sign, and no root at the ends.
   struct NearEnd {
     Number lower, middle, upper;
   };
@@ -103,7 +103,7 @@ class Root {
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  /// Whether both are the same root; if so, they then share what is known about it.
+  /// Whether this and `other` are the same root. If so, both then share what is known about the root.
   bool is_same(Root& other);
   void cut(const Number& at);
   void take(std::shared_ptr<const Polynomial> p, Number lo, Number hi);

@@ -34,7 +34,7 @@ struct Part {
   bool is_in_cluster = false;  ///< whether clusters() was called, so that coefficients may be long
 
   explicit Part(const Polynomial& p) : lo(0), hi(1), on(p, 0, 1) {}
-  /// The part of a part between two fractions of it.
+  /// The part of `whole` between two fractions of it.
   Part(const Polynomial& p, const Part& whole, const Number& from, const Number& to)
       : lo(whole.at(from)),
         hi(whole.at(to)),
@@ -65,8 +65,8 @@ struct Part {
     for (bool shrunk = false;; shrunk = true) {
       if (const auto near_end = on.roots_near_end())
         return Cuts{near_end->lower, near_end->upper, {near_end->middle}};
-      // Parts shrink quadratically towards a multiple of 2^-bits, until it is no farther from the cluster's
-      // roots than they are from each other.
+      // Parts shrink quadratically towards a multiple of 2^-bits, until this multiple is no farther from the
+      // roots of the cluster than these roots are from each other.
       const auto cluster = on.guess_cluster(bits);
       if (!cluster) break;
       const Number unit = power_of_half(bits);

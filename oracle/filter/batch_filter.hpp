@@ -52,7 +52,7 @@ class BatchFilter {
   class Rows {
    public:
     Rows() = default;
-    /// Selects those of the first `count` rows for which `wanted` holds.
+    /// Selects, among the first `count` rows, the rows for which `wanted` holds.
     template <class Wanted>
     Rows(std::size_t count, const Wanted& wanted) {
       std::size_t size = 0;
@@ -179,10 +179,10 @@ class BatchFilter {
   }
 
   /// Turns vectors so that the component in which the normal is largest at some time comes first. Only the
-  /// other two are kept, because the weights need no more.
+  /// other two components are kept, because the weights need no more.
   class Turn {
    public:
-    /// From vectors at that time, times the same factor.
+    /// Takes the vectors at that time; all may be multiplied by one factor.
     Turn(const Vec<Real>& x21, const Vec<Real>& x31, const Vec<Real>& a) {
       const Vec<Real> x32 = x31 - x21;
       Vec<Real> normal;
@@ -377,7 +377,8 @@ class BatchFilter {
     });
   }
 
-  /// Finds the neighbouring doubles around those first contacts before which nothing is unclear.
+  /// For each first contact before which no part is unclear, finds the neighbouring doubles around the
+  /// contact.
   void find_neighbours(const Rows& rows, KnownTime* times) const {
     const Rows places(rows.size(),
                       [&](std::size_t place) { return first_lo_[place] < unclear_from_[place]; });
@@ -408,7 +409,7 @@ class BatchFilter {
   std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
   PendingParts precise_;                     ///< parts for look_precisely()
   // For each query, the bracket around the first contact that has been found, and the beginning of the first
-  // part that is unclear; 1 if there is none.
+  // unclear part, or 1 if no part is unclear.
   OfBatch first_lo_, first_hi_, unclear_from_;
 };
 

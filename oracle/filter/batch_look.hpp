@@ -56,7 +56,7 @@ struct WeightSigns {
   typename Lanes<n>::Mask agree, opposed;
 };
 
-/// Determines these lanes for some weights; `signs_of` gives the signs of one weight.
+/// The signs of some weights; `signs_of` gives the signs of one weight.
 template <int n, std::size_t count, class SignsOf>
 WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                             const SignsOf& signs_of) {

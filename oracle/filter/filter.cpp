@@ -18,8 +18,8 @@ namespace nearmiss {
 namespace certified {
 namespace {
 
-/// Whether a plane perpendicular to an axis or a diagonal separates the primitives; two directions side by
-/// side.
+/// Whether a plane perpendicular to an axis or a diagonal separates the primitives. Each pass tests two of
+/// these directions, one per lane.
 template <Kind kind>
 bool separated_by_a_plane(const Query& query) {
   using Two = Lanes<2>;
@@ -36,8 +36,9 @@ bool separated_by_a_plane(const Query& query) {
          });
 }
 
-/// The result of a search, and an interval that contains the first contact, if there is one; no interval if
-/// there certainly is none. If the time is not asked for, it is an interval that is unclear, or nothing.
+/// The result of a search, and an interval of time. If the search was asked for a time, the interval contains
+/// the first contact, and is absent if there certainly is no contact. Otherwise, the interval is one that is
+/// unclear, or absent.
 struct Found {
   FilterStage stage;
   std::optional<KnownTime> time;
@@ -59,8 +60,9 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return search(query, F, whole).stage;
 }
 
-/// The neighbouring doubles around the first contact, or a double at which it is, if it is in an interval and
-/// this can be shown. Everything is inlined, so that the compiler drops what this one root does not need.
+/// The neighbouring doubles around the first contact, or the double at which the contact happens; nothing if
+/// neither can be shown. `time` contains the first contact, if there is one. Everything is inlined, so that
+/// the compiler drops what this one root does not need.
 [[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
                                                              const Bernstein<double, 4>& F,
                                                              const Enclosure& time) {

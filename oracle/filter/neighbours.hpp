@@ -24,7 +24,7 @@ struct Neighbours {
 };
 
 /// Looks for the neighbouring doubles around a root of F that lies in [lo, hi]; F is given over the whole
-/// `step`. They hold only if F is monotone in [lo, hi], so that this is its only root there.
+/// `step`. The result is right only if F is monotone in [lo, hi], so that F has no other root there.
 ///
 /// After Newton's method in double, one more step from a time t, with F in double words, gives both doubles.
 /// The mean value theorem gives the signs of F at them: F(d) = F(t) + F'(s) (d - t) for an s between t and d.

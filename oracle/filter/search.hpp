@@ -45,8 +45,8 @@ class ContactSearch {
     return found_ ? FilterStage::sign_change : unclear_ ? FilterStage::undecided : FilterStage::weights;
   }
 
-  /// An interval of the step that contains the time of the first contact in this part, if there is one. If
-  /// the search was not asked for a time, it is the interval that is unclear, or nothing.
+  /// An interval of the step. If the search was asked for a time, it contains the time of the first contact
+  /// in this part, if there is a contact. Otherwise, it is the interval that is unclear, or nothing.
   [[nodiscard]] std::optional<Enclosure> first() const {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
@@ -185,8 +185,8 @@ class ContactSearch {
     return F_.sign_on(interval.lo, near.lo) != 0 && F_.sign_on(near.hi, interval.hi) != 0;
   }
 
-  /// The widest of some intervals around a root in which two weights certainly have opposite signs, as in
-  /// `near`.
+  /// An interval around a root in which two weights certainly have opposite signs. They have in `near`.
+  /// Returns the widest of some intervals that contain `near` and in which they have, too; else `near`.
   Enclosure widest_opposed(const Enclosure& interval, double root, const Enclosure& near,
                            const Weights<Real>& weights) const {
     for (const double part : {0.25, 0x1p-5}) {
@@ -241,7 +241,7 @@ class ContactSearch {
     return stage == FilterStage::undecided ? unclear_in_step(closer.first()) : stage;
   }
 
-  /// Whether this part is the whole step, so that its times are those of the step.
+  /// Whether this part is the whole step. If so, the times of the part are the times of the step.
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
   /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the

@@ -63,7 +63,7 @@ namespace nearmiss::certified {
 inline constexpr double weight_rounding = 10;     ///< rounding of W, in units of U w
 inline constexpr double F_rounding = 20;          ///< rounding of F, in units of U M
 inline constexpr double two_leaves = 2.01;        ///< l in units of U w, if both factors are rounded once
-inline constexpr double three_leaves = 3.02;      ///< L in units of U M, if all three factors are
+inline constexpr double three_leaves = 3.02;      ///< L in units of U M, if three factors are rounded once
 inline constexpr double leaf_growth = 1.01;       ///< factor by which later roundings increase l and L
 inline constexpr double part_rounding = 4;        ///< a vector on a part of the step, in units of U V
 inline constexpr double underflow_products = 32;  ///< underflow, in units of H

@@ -52,12 +52,12 @@ struct CoordinatesAt {
 
 /// A vertex and an edge that stay in a plane perpendicular to axis k.
 struct InPlane {
-  Motion<double> from_start, to_end, along;  ///< from the edge's start to the vertex, on to its end, and both
+  Motion<double> from_start, to_end, along;  ///< start to vertex, vertex to end, and start to end of the edge
   std::size_t k;
 
   /// Whether the vertex certainly crosses the edge near a time at which their area is about 0. Where the area
-  /// changes its sign, the vertex is on the edge's line; if one coordinate is between those of the ends, it
-  /// is on the edge.
+  /// changes its sign, the vertex is on the edge's line. If, in one coordinate, the vertex is also between
+  /// the ends of the edge, it is on the edge.
   [[nodiscard]] bool cross_near(double t, const Bernstein<double, 3>& area) const {
     const double slope = 2 * ((1 - t) * (area.b[1] - area.b[0]) + t * (area.b[2] - area.b[1]));
     const double h = 4 * area.error / std::abs(slope) + 0x1p-50;

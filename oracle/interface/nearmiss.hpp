@@ -165,7 +165,7 @@ inline Status collides(const Queries& queries, std::span<std::int8_t> answers,
 }
 
 /// nearmiss_earliest_time(): the earliest time of each collision. With a `width` of 0, `lo` is the largest
-/// double that is not after it.
+/// double that is not after this time.
 inline Status earliest_times(const Queries& queries, std::span<double> lo, std::span<double> hi = {},
                              double width = 0) noexcept {
   const bool fit = detail::fits(queries, lo) && detail::fits(queries, hi, true);

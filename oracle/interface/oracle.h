@@ -3,13 +3,13 @@
  *
  * The answers are those of exact arithmetic, for all finite coordinates, including huge and subnormal ones
  * and degenerate primitives. Nearly all queries are decided in double arithmetic with certified error bounds,
- * without memory from the heap. Exact arithmetic decides the others, and contact at t = 0 or t = 1 where
- * double cannot. It allocates memory and takes microseconds to milliseconds; the slowest known queries, with
- * coordinates of very different sizes, take seconds. Distances allocate memory, too. A program cannot go on
- * after an allocation that fails inside GMP or CGAL.
+ * without memory from the heap. Exact arithmetic decides the other queries, and contact at t = 0 or t = 1 if
+ * double arithmetic cannot. Exact arithmetic allocates memory and takes microseconds to milliseconds; the
+ * slowest known queries, with coordinates of very different sizes, take seconds. Distances allocate memory,
+ * too. A program cannot go on after an allocation that fails inside GMP or CGAL.
  *
- * All functions may be called from many threads at once; each call works in its own thread. They set the
- * processor's rounding mode if need be and restore it, and neither print nor throw. */
+ * Many threads may call all functions at once; each call works in its own thread. The functions set the
+ * processor's rounding mode if need be, and restore it. They do not print or throw. */
 #ifndef NEARMISS_ORACLE_H
 #define NEARMISS_ORACLE_H
 
@@ -41,7 +41,7 @@ int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t*
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi);
 
 /** The earliest time as a simulation needs it. answers[q] says whether query q is a collision at some t in
- * [0, tmax]. If it is, toi[q] is the largest double that is not after t*; else toi[q] is infinite. If there
+ * [0, tmax]. If so, toi[q] is the largest double that is not after t*; otherwise toi[q] is infinite. If there
  * is no answer, toi[q] is 0, because a simulation must not take that step. tmax must be at most 1. */
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi);
 

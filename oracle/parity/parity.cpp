@@ -186,8 +186,8 @@ Position position(const BilinearPatch& patch) {
   return result;
 }
 
-/// The crossings with a patch that does not contain the origin. Two triangles replace the patch; they have
-/// the same border, and the origin is not between them and the patch.
+/// The crossings with a patch that does not contain the origin. Two triangles replace the patch. They have
+/// the border of the patch, and the origin is not between the triangles and the patch.
 Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
   const auto& [p00, p10, p01, p11] = patch;
   if (position.in_plane) {

@@ -14,10 +14,10 @@ struct RootParity {
   [[nodiscard]] bool collision() const { return on_boundary || odd; }
 };
 
-/// Root parity (Brochu, Edwards and Bridson 2012): f(t, u, v), the difference of the two points, maps the
-/// prism (vertex-triangle) or the cube (edge-edge) to space; its roots are counted modulo 2 by intersecting a
-/// ray from the origin with the image of the boundary. The answer is exact: if the ray meets an edge, other
-/// directions are tried, and finally an infinitesimal perturbation.
+/// Root parity (Brochu, Edwards and Bridson 2012). f(t, u, v), the difference of the two points, maps the
+/// prism (vertex-triangle) or the cube (edge-edge) to space. The roots of f are counted modulo 2: a ray from
+/// the origin is intersected with the image of the boundary. The answer is exact: if the ray meets an edge,
+/// other directions are tried, and finally an infinitesimal perturbation.
 RootParity root_parity(const Query& query);
 
 }  // namespace nearmiss

@@ -31,7 +31,7 @@ struct RoundingErrors {
   Number least_psi;  ///< the least ψ with which VE misses no time (Appendix C)
 };
 
-/// The errors that the paper states (§4.2 to §4.5); those that it omits are 0.
+/// The errors that the paper states (§4.2 to §4.5). Errors that the paper omits are 0.
 template <class Number>
 RoundingErrors<Number> printed_errors(const Number& eps) {
   using std::sqrt;

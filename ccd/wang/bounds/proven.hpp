@@ -13,8 +13,8 @@ namespace nearmiss::proven {
 // (or such a polynomial divided by 1 minus another). Divided by u, the bound grows with u, so it is largest
 // for 11 bits.
 //
-// "far" means vectors that are within 2B: the p of two edges except at t = 0, and the x_0i of edges always.
-// All other vectors are within B. The paper assumes that all vectors are within B.
+// `far` in a name means that some vectors are only within 2B: the p of two edges except at t = 0, and the
+// x_0i of edges always. All other vectors are within B. The paper assumes that all vectors are within B.
 
 // proximity.hpp
 inline constexpr double normal = 10.03;     ///< a component of N
@@ -34,7 +34,7 @@ inline constexpr double inside_ve = 32.09;  ///< a weight compared with ‖x_ji�
 inline constexpr double inside_ve_far = 45.12;
 inline constexpr double F_ve = 40.63;  ///< F_0ij for S <= B
 inline constexpr double F_ve_far = 72.72;
-inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S is this + S/B · F_ve_of_S
+inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S has the bound this + S/B · F_ve_of_S
 inline constexpr double F_ve_of_S = 3.005;
 
 // vertex_vertex.hpp
@@ -46,8 +46,8 @@ inline constexpr double dot = 4.02;    ///< x·v and v·v, for exact vectors
 inline constexpr double time = 11.87;  ///< -x·v / v·v for ‖v‖∞ = B, for exact vectors
 inline constexpr double time_far = 23.75;
 
-/// A bound, including all errors, of two differences: by how much the computed squared distance exceeds the
-/// smallest exact one, and by how much it falls below the exact one at the computed time.
+/// Bounds two differences, with all errors included: how far the computed squared distance lies above the
+/// exact minimum, and how far below the exact squared distance at the computed time.
 ///
 /// Let g be the squared distance of the computed vectors, t the time of its minimum, and d the error of the
 /// quotient. Then g(t̂) - g(t) <= ‖v‖² d²: g is a parabola, and if the quotient is clamped to [0, 1], the

@@ -108,12 +108,12 @@ constexpr double least_size(const Allows& allows) {
 /// Minimises D² subject to `constraints` with `full_errors`.
 ///
 /// D² depends only on R, and grows with it, so R is minimised first. Let g² = R² - r². The constraint on the
-/// short edge allows E up to 2g. The one on the height allows η up to 2g/√3 - error/E, and η is at most B.
-/// The one on the quadrilateral's area allows τ up to 4g²/√3 - error (the one on the triangle's area allows a
-/// larger τ). Each takes the largest value allowed, because
-/// larger values make g0 and r(g), below, smaller. The constraint on the weight requires
-/// g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then rises. S,
-/// ρ = ε and `edge_tolerances` follow.
+/// short edge allows E up to 2g. The constraint on the height allows η up to 2g/√3 - error/E, and η is at
+/// most B. The constraint on the quadrilateral's area allows τ up to 4g²/√3 - error (the constraint on the
+/// triangle's area allows a larger τ). E, η and τ take the largest values allowed, because larger values make
+/// g0 and r(g), below, smaller. The constraint on the weight requires g η (τ - error) >= 2 weight, which
+/// holds for g above some g0, and R² = g² + r(g)² falls and then rises. S, ρ = ε and `edge_tolerances`
+/// follow.
 ///
 /// Computing a value takes a few roundings, with a relative error below 16 ε in total. R, ψ, D² and μ are
 /// increased by this relative error and by 2^-30.
