@@ -18,10 +18,10 @@ namespace nearmiss {
 
 namespace {
 
-/// Starts threads until there are `jobs`, including the calling one, or until the system has no thread left.
-/// Ends these threads and returns their number. If the system had no thread left, returns half their number,
-/// because other processes may start threads before these threads are needed, and the system counts a thread
-/// for a while after its end.
+/// Starts threads until there are `jobs` threads, including the calling thread, or until the system has none
+/// left. Ends these threads and returns their number. If the system had no thread left, returns half their
+/// number, because other processes may start threads before these threads are needed, and the system counts a
+/// thread for a while after its end.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;

@@ -25,7 +25,7 @@ Query placed_apart(Random& random, const Query& query, double separation) {
   return rescaled(random, turned(random, with_separation(query, separation)));
 }
 
-/// A velocity towards the other primitive; in two of three cases with a sideways component.
+/// A velocity towards the other primitive. In two of three cases, it has a sideways component.
 Vector approaching(Random& random) {
   const Vector sideways = random.one_in(3) ? Vector(Vector::Zero()) : vector_in_plane(random);
   return sideways - random.integer(1, 4) * Vector::UnitZ();
@@ -92,8 +92,8 @@ struct Sides {
 };
 
 /// The distance falls below h at a time inside the step. At a time about 2^x earlier, a closest point moves
-/// from an end of a side into its interior, or from the interior to an end. In the first case, the closest
-/// point has weight 2^x when the distance is h. In the second case, the slope of the side is about 2^x.
+/// from an end of a side into its interior, or from the interior to an end. If it moves into the interior, it
+/// has weight 2^x when the distance is h. If it moves to an end, the slope of the side is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);
@@ -133,8 +133,9 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 
 // --- other sizes of h -----------------------------------------------------------------------------------
 
-/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of the pairs come within h. The others pass each
-/// other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at h, 2 h or 0.
+/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of the pairs come within h. The primitives of the
+/// other pairs pass each other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at a distance
+/// of h, 2 h or 0.
 Query sized_separation(Random& random, Kind kind, double x) {
   constexpr double least_that_turns = 0x1p-42;  // so that 53 bits are enough
   const double h = 4 * power_of_ten(x);

@@ -1,5 +1,5 @@
-// Each rule is one template over several number types: intervals decide nearly all queries, exact arithmetic
-// the others.
+// Each rule is one template over several number types. Intervals decide nearly all queries, and exact
+// arithmetic decides the others.
 #include "fuzz/families/classify.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -36,7 +36,7 @@ using exact::Root;
 /// throws.
 using Interval = CGAL::Interval_nt<false>;
 
-/// The answer of interval arithmetic; if intervals do not decide, that of exact arithmetic.
+/// The answer of interval arithmetic. If intervals do not decide, the answer of exact arithmetic.
 template <class InIntervals, class Exactly>
 bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
   try {
@@ -70,7 +70,7 @@ Real largest_component(const Vec<Real>& v) {
   return largest;
 }
 
-/// Lengths of the edges, at t = 0 and t = 1, and of the vertices' motion. The length of a vector is the
+/// Lengths of the edges at t = 0 and t = 1, and of the vertices' displacements. The length of a vector is the
 /// largest magnitude of its components. Two vertices have no edges; the gap between them counts as an edge.
 template <class Real>
 struct Lengths {
@@ -231,7 +231,7 @@ bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
   return at_most(multiple_of_square(squared_inverse * excess(moment.kind), F), first * second * gap);
 }
 
-/// Whether F' almost vanishes at this moment, when F has a root.
+/// Whether F' almost vanishes at this moment. The moment must be a root of F.
 template <class Real, class AtMost>
 bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
   const auto [p, q, r] = spans(moment.kind, moment.x);
@@ -259,7 +259,8 @@ bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost
          !at_most(squared, dot(from_b, ba));
 }
 
-/// Whether the primitives, which touch, do so near an edge of the triangle, or near an end of an edge.
+/// Whether the place of contact is near an edge of the triangle, or near an end of an edge. The primitives
+/// must touch.
 template <class Real, class AtMost>
 bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
   const auto& pairs = topology(moment.kind).vertices_and_edges;

@@ -173,7 +173,7 @@ Query rescaled(Random& random, Query query) {
 }
 
 Query turned(Random& random, Query query) {
-  // In each pair, the rows of the matrix are orthogonal, and the number is their length.
+  // Each pair has a matrix with orthogonal rows of equal length, and that length.
   static const std::array<std::pair<Eigen::Matrix3d, double>, 5> rotations{
       {{Eigen::Matrix3d{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1},
        {Eigen::Matrix3d{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}, 3},
@@ -246,8 +246,8 @@ double extent(const Query& query) {
   return largest;
 }
 
-// Exact comparisons find the last bits. A search for bounds that are neighbouring doubles would take long,
-// and fail: the lower bound is rounded down, and the upper one up.
+// Exact comparisons find the last bits. It would take long to narrow an enclosure down to two neighbouring
+// doubles, and it would fail, because the lower bound is rounded down and the upper bound is rounded up.
 double rounded_distance(const Query& query) {
   const PlainArithmetic guard;
   const auto [lo, hi] = minimum_distance(query, 0x1p-20);

@@ -83,11 +83,11 @@ void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity
 /// velocity below 2^17, meet() turns the result into a query with exact contact.
 Contact integer_contact(Random& random, Kind kind);
 
-/// The sign of α q in x0 - base = β r + sign α q, which holds at a contact.
+/// The sign s in the equation x0 - base = β r + s α q, which holds at a contact.
 constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 
-/// The query with all vertices, or those of the first primitive, moved by one vector at both times, as nearly
-/// as double allows.
+/// Moves all vertices (moved), or the vertices of the first primitive (with_first_moved), by the same vector
+/// at both times. Coordinates are rounded to double.
 Query moved(Query query, const Vector3<double>& by);
 Query with_first_moved(Query query, const Vector3<double>& by);
 

@@ -24,8 +24,8 @@ struct Numbering {
   }
 };
 
-/// A flag for each pair and each triple of values: whether its values occur together. The numbers of the
-/// values give the place of the flag.
+/// A flag for each pair and each triple of values: whether these values occur together. The place of the flag
+/// follows from the numbers of the values.
 struct Occurrences {
   std::size_t size;  ///< number of values
   std::vector<bool> pairs, triples;

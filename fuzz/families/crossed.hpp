@@ -58,7 +58,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels);
 
 /// The combinations of the values of two factors, or of three.
 struct Combinations {
-  std::uint64_t made = 0;  ///< number of those that the family makes
+  std::uint64_t made = 0;  ///< number of combinations that the family makes
   std::uint64_t seen = 0;
   std::vector<std::string> missing;  ///< made but not seen, as "shape=sliver when=at-1"
 };

@@ -1,7 +1,7 @@
 // The family `crossed`. Each query is made from the moment of contact: p = α q + β r + τ w, where p goes from
 // the base to the first primitive's point of contact, q and r are the sides, w is the relative velocity of
-// the points of contact, and τ = t - time. Then F = τ det(w, q(t), r(t)), so the roots follow from how w, q
-// and r are chosen.
+// the points of contact, and τ = t - time. Then F = τ det(w, q(t), r(t)), so the choice of w, q and r
+// determines the roots.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -90,7 +90,7 @@ std::pair<Vector, Vector> plane(Random& random, const Draft& draft) {
   return {first, small(random)};
 }
 
-/// The rate at which sides shrink so that little of them is left at t = 1. It is a multiple of 1/16.
+/// The rate at which sides must shrink so that they are short at t = 1. It is a multiple of 1/16.
 double shrinking(double time) {
   const double left = 1 - time;
   return left < 1.0 / 16 ? 16 : (std::ceil(16 / left) - 1) / 16;
@@ -270,8 +270,8 @@ Frame frame_of(Random& random, std::size_t offset) {
   return {place, random.one_in(2) ? small(random) : Vector(Vector::Zero())};
 }
 
-/// The number of binary places that the time may have if coordinates are to be exact. Every coordinate is a
-/// sum of products of a vector's component, a time and a weight; a weight has four binary places.
+/// The number of binary places that the time may have, so that coordinates are exact. Every coordinate is a
+/// sum of products of a vector's component, a time and a weight. A weight has four binary places.
 int bits_for_time(const Draft& draft, const Frame& frame) {
   int lowest = 0;
   double sum = 0;
@@ -313,8 +313,8 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
   constexpr int fewest_bits = 5;
   for (;;) {
     const Frame frame = frame_of(random, levels.offset());
-    // The draft depends on the time, and the bits of the time on the draft. So the draft is made for a nearby
-    // time with few bits.
+    // The draft depends on the time, and the number of bits that the time may have depends on the draft. So
+    // the draft is made for a nearby time with few bits.
     const double near = time_of(random, levels.when(), fewest_bits);
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());

@@ -28,8 +28,8 @@ Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path
   return query;
 }
 
-/// The query with a separation from (1 - 2^x) d to (1 + 2^x) d, where d is its smallest distance; the
-/// separation is 2^x if d is 0.
+/// Let d be the query's smallest distance. The query gets a separation from (1 - 2^x) d to (1 + 2^x) d; if d
+/// is 0, the separation is 2^x.
 Query with_separation_beside(Random& random, const Query& query, double x) {
   const double off = random.uniform(-1, 1) * exp2_of(x);
   const double d = rounded_distance(query);
@@ -42,8 +42,8 @@ struct Motion {
 };
 
 constexpr double rounded_to = 1e-6;
-/// Motions found by random search. Only the minimum of a piece is within h of the edge, if h is at most 1.09
-/// times the smallest distance (1.22 times for the first four motions).
+/// Motions found by random search. If h is at most 1.09 times the smallest distance (1.22 times for the first
+/// four motions), the vertex is within h of the edge at no candidate time except the minimum of a piece.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -69,7 +69,7 @@ const std::array<Motion, 5> at_minima{{
 
 /// A vertex comes within h of an edge only near the minimum of a piece of G (vertex_edge.hpp); no other
 /// candidate time of Algorithm 2 detects this. Axes change places and directions, and time may run backwards.
-/// h differs from the smallest distance by up to 2^x of it.
+/// The difference of h and the smallest distance is at most 2^x times the smallest distance.
 Query at_minimum(Random& random, Kind kind, double x) {
   const Motion& motion = one_of(random, at_minima);
   const int turn = random.integer(0, 2);
@@ -131,8 +131,8 @@ Query along_the_line(Random& random, Kind kind, double x) {
   return rescaled(random, with_separation_beside(random, query, x));
 }
 
-/// At some time, the edge shrinks to a point, and the vertex is nearest to it. The vertex moves at right
-/// angles to the edge and to the shortest line from the vertex to the edge.
+/// At some time, the edge shrinks to a point, and the vertex is then at its smallest distance from the edge.
+/// The vertex moves at right angles to the edge and to the shortest line from the vertex to the edge.
 Query shrinking(Random& random, Kind kind, double x) {
   const double t = random.integer(1, 15) / 16.0;
   const Vector direction = random.vector(8);

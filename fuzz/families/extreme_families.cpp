@@ -141,7 +141,7 @@ Query near_parallel(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, contact.velocity(kind) + w));
 }
 
-/// Rotates by the angle 2 atan(size / 2), which is about `size` if that is small.
+/// Rotates by the angle 2 atan(size / 2). If `size` is small, this angle is about `size`.
 Eigen::Matrix3d rotation(const Vector& axis, double size) {
   const double length = axis.norm();
   const Vector part = (length == 0 ? 0 : size / 2 / length) * axis;

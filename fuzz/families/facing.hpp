@@ -33,9 +33,10 @@ bool is_closest(Kind kind, Closest closest, bool is_side_q);
 /// and 0 as the weight of any other side. In half of the contacts, sides keep their length and direction.
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level = 1);
 
-/// The query in which, at the time of contact, the first point of contact is (0, 0, gap) from the second one,
-/// and moves with velocity w relative to it. At that time, the distance of the primitives is the gap; at any
-/// time t, it is at least gap + (t - time) w[2]. If the numbers have few bits, all of this is exact.
+/// At the time of contact, the first point of contact is at (0, 0, gap) relative to the second point of
+/// contact, and moves with velocity w relative to that point. At that time, the distance of the primitives is
+/// the gap; at any time t, it is at least gap + (t - time) w[2]. If the numbers have few bits, all of this is
+/// exact.
 Query facing(Kind kind, const Contact& contact, const Vector3<double>& w, double gap);
 
 }  // namespace nearmiss

@@ -77,7 +77,7 @@ Family at_value(const Family& family, double value) {
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
   const auto make = [parameter, value](Random& random, Kind kind) {
-    draw(random, parameter);  // so that later draws are those of the family without a fixed value
+    draw(random, parameter);  // so that later draws are as in the family without a fixed value
     return parameter.make(random, kind, value);
   };
   Family fixed = family;

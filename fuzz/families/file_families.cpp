@@ -50,8 +50,8 @@ Query decimals(Random& random, Kind kind, double x) {
     for (std::size_t i = 0; i < 12; ++i) query.x[i] = random.integer(-unit, unit);
     for (std::size_t i = 12; i < 24; ++i) query.x[i] = query.x[i - 12] + random.integer(-unit / 2, unit / 2);
   } else {
-    // Sides and velocities are multiples of 100 / 10^x, and weights and times of 1/10, so places have x
-    // digits.
+    // Sides and velocities are multiples of 100 / 10^x, and weights and times are multiples of 1/10. So the
+    // coordinates of places have x digits.
     const int most = std::max(unit / 100, 1);
     const auto hundreds = [&]() -> Vector { return 100 * random.integer_vector(most); };
     const auto path = [&]() {

@@ -134,7 +134,7 @@ Query planted(Random& random, const Query& query) {
   return joined_somehow(random, query, random_place(random, query.kind));
 }
 
-/// Moves a position so that the primitives touch where they nearly do.
+/// Moves a position so that the primitives touch at the place at which they nearly touch.
 Query restored(Random& random, const Query& query) {
   return joined_somehow(random, query, own_place(random, query));
 }
@@ -219,7 +219,7 @@ Query velocity_aligned(Random& random, const Query& query) {
   return result;
 }
 
-/// Moves a vertex onto another vertex at the start, at the end, or at both.
+/// Moves a vertex onto another vertex at t = 0, at t = 1, or at both times.
 Query vertex_copied(Random& random, const Query& query) {
   const int from = random.integer(0, 3);
   const int to = (from + random.integer(1, 3)) % 4;

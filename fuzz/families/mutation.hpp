@@ -14,7 +14,7 @@ namespace nearmiss {
 Query mutated(Random& random, const Query& query);
 
 /// Takes some vertices, axes, times or single coordinates from one query, and the rest from the other. The
-/// separation is that of one of them.
+/// separation is that of one of the two queries.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

@@ -15,8 +15,8 @@ namespace {
 
 using certified::DoubleWord;
 
-/// The shares of the eight positions: the vector between the two points of a place is the sum of all
-/// positions, each times its share.
+/// The shares of the eight positions. The vector between the two points of a place is the sum of all
+/// positions, each multiplied by its share.
 std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   const DoubleWord one = 1;
   const DoubleWord alpha = place.alpha;
@@ -32,7 +32,7 @@ std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   return shares;
 }
 
-/// A number in [0, 1]: an end, a number next to an end, one of few bits, or an arbitrary one.
+/// A number in [0, 1]: an end, a number next to an end, a number of few bits, or an arbitrary number.
 double random_fraction(Random& random) {
   const double tiny = random.log_uniform(0x1p-53, 0x1p-4);
   switch (random.integer(0, 5)) {

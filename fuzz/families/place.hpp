@@ -21,11 +21,12 @@ struct Place {
 /// finite.
 Query joined(const Query& query, const Place& place, int point);
 
-/// The positions that joined() moves by at most 64 times the distance of the place's two points; at least
-/// one.
+/// The positions that joined() moves by at most 64 times the distance between the place's two points. There
+/// is at least one such position.
 std::vector<int> movable_points(Kind kind, const Place& place);
 
-/// A random place: inside both primitives, at vertices, on edges, at t = 0 or t = 1, or next to these.
+/// A random place. Its points may be inside the primitives, at vertices, on edges, or next to a vertex or an
+/// edge; its time may be at or near an end of the step.
 Place random_place(Random& random, Kind kind);
 
 /// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F, or

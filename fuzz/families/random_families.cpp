@@ -58,8 +58,8 @@ Query grazing(Random& random, Kind kind) {
 
 // --- nearly degenerate contact, in floating point ---------------------------------------------------
 
-/// Unit primitives aimed at each other; in half of the queries the place of contact may be outside the
-/// primitives.
+/// Primitives of size 1 that are aimed at each other. In half of the queries, the place of contact may be
+/// outside the primitives.
 Contact aimed_contact(Random& random, Kind kind) {
   const auto path = [&](double size, double speed) {
     const Vector start = random.vector(size);

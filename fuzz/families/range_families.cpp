@@ -1,9 +1,9 @@
 // Products of coordinates at the ends of the range of double. No coordinate overflows or underflows, but
-// products of two, three, four or six differences of coordinates do, or sums of such products. The weights
-// come from a vector W whose components are sums of products of two differences. F is a sum of products of
-// three differences. The square of W is a sum of products of four differences, and the square of F of six. A
-// query is first made of small numbers; then its vertices and axes are scaled by powers of two, which is
-// exact.
+// products of two, three, four or six differences of coordinates, or sums of such products, overflow or
+// underflow. The weights come from a vector W whose components are sums of products of two differences. F is
+// a sum of products of three differences. The square of W is a sum of products of four differences, and the
+// square of F is a sum of products of six differences. A query is first made of small numbers; then its
+// vertices and axes are scaled by powers of two, which is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,8 +41,8 @@ Draft touching(Random& random, Kind kind) {
   return {meet(kind, contact, w), at_origin};
 }
 
-/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as sizes, so at
-/// the other roots of F, the primitives are apart.
+/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as sizes, so the
+/// primitives are apart at the other roots of F.
 Draft small_touching(Random& random, Kind kind) {
   const auto path = [&] {
     const Vector start = random.integer_vector(2);
@@ -144,9 +144,9 @@ Differences differences(const Query& query) {
 
 constexpr std::size_t none = 3;  ///< stands for no axis
 
-/// The sum of the magnitudes of the products in F, each of three differences, one along each axis. If an axis
-/// is left out, the sum of the magnitudes of the products of two differences in W's component along that
-/// axis.
+/// The sum of the magnitudes of the products in F. Each product has three factors: a difference along each
+/// axis. If an axis is left out, the sum of the magnitudes of the products in W's component along that axis,
+/// each of two differences.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -212,7 +212,8 @@ void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   scale_axis(query, left_out, random.one_in(4) ? x / 2 : x > 0 ? -inward : inward);
 }
 
-/// Half of the queries have coordinates of one size; in the others, vertices or axes have different sizes.
+/// In half of the queries, all coordinates have about the same size. In the other half, the vertices or the
+/// axes have different sizes.
 Query scaled_to(Random& random, const Draft& draft, int x) {
   Query query = shuffled(random, draft.query);
   const bool mixed = random.one_in(2);

@@ -58,7 +58,7 @@ Query even_roots(Random& random, Kind kind, double x) {
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
 /// for a nilpotent J, F(t) is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives touch if M0 maps
 /// the vector (1, -sign α, -β) to 0. It does, because all rows of C except the first are orthogonal to this
-/// vector, and J ignores the first row. Finally, q and r are moved slightly, and the contact with them.
+/// vector, and J ignores the first row. Finally, q and r are moved slightly, and the contact moves with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
   ContactSampler sampler(random);

@@ -1,5 +1,5 @@
-// Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch, a
-// contact that is easily missed before another one that is not, and slow motion. Contact is exact.
+// Contact whose time is hard to find: roots of F that are close together, a root at which the primitives only
+// touch, an easily missed contact that precedes an obvious contact, and slow motion. Contact is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,8 +94,8 @@ Weights outside(Random& random, Kind kind) {
   }
 }
 
-/// Weights of a point on an edge of the triangle, or of an end of one edge on the other edge. In one of three
-/// cases, the point is a vertex of each primitive.
+/// Weights of a point on the border: on an edge of the triangle, or at an end of one of the two edges. In one
+/// of three cases, the point is a vertex of each primitive.
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
@@ -196,7 +196,7 @@ Query return_later(Random& random, Kind kind, double x) {
 // --- touching at one time -------------------------------------------------------------------------------
 
 /// Tangential contact. If the first primitive is moved by δ `inward`, the primitives meet at two times near
-/// the contact; if it is moved the other way, they never meet.
+/// the contact; if the first primitive is moved the opposite way, they never meet.
 struct Graze {
   Contact contact;
   Vector w;  ///< velocity of the first point of contact relative to the second
@@ -252,8 +252,8 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
 }
 
-/// In half of the queries, the primitives touch at one time. In the others, the first primitive is moved by
-/// 2^x towards the second primitive, or away from it.
+/// In half of the queries, the primitives touch at one time. In the other half, the first primitive is moved
+/// by 2^x from this position, towards the second primitive or away from it.
 Query touch_once(Random& random, Kind kind, double x) {
   const double time = sixteenths(random, 1, 15);
   auto [contact, w, inward] =

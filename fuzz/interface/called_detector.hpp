@@ -1,4 +1,4 @@
-// A subject that calls a detector of the caller's program.
+// A subject that calls a detector that the caller's program provides.
 #pragma once
 
 #include <cstdint>

@@ -50,8 +50,8 @@ bool is_identifier(std::string_view text) {
          std::ranges::all_of(text, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
-/// A C++ condition that holds if the answer to the finding's query is right. `arguments` are those of
-/// nearmiss::ask.
+/// A C++ condition that holds if the answer to the finding's query is right. `arguments` are the arguments
+/// for nearmiss::ask.
 std::string expectation(const Finding& finding, const std::string& arguments) {
   const std::string answer = "nearmiss::ask" + arguments;
   auto earliest = earliest_time(finding.shrunk);

@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// What the text says about how the trial was held.
+/// Facts about the trial that the text mentions.
 struct TrialSetting {
   std::string subject;     ///< the detector's name, which also stands for it in the example
   std::string_view check;  ///< the macro that checks the example

@@ -14,7 +14,7 @@ namespace nearmiss::libfuzzer {
 /// The size of an input that asks for contact: a byte for the kind, then the 24 coordinates as in memory.
 inline constexpr std::size_t contact_bytes = 1 + sizeof(Query::x);
 
-/// The size of an input with a separation h > 0, which comes last. No input is larger.
+/// The size of an input that has a separation h > 0 after the coordinates. No input is larger.
 inline constexpr std::size_t query_bytes = contact_bytes + sizeof(Query::separation);
 
 /// The query in an input; nothing if its size is wrong, a number is not finite, or h is negative.

@@ -96,8 +96,8 @@ bool keeps_contract_of_subject(const Query& query) {
   return untraced([&] { return keeps_contract(subject().rounded(query), subject().contract()); });
 }
 
-/// The query in an input, as the target and its subject ask it; nothing if the input is not a query that the
-/// subject decides.
+/// The query in an input, without its separation if the target or the subject takes none. Nothing if the
+/// input is not a query that the subject decides.
 std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   auto query = from_bytes(data, size);
   if (query && !subject().decides(query->kind)) return std::nullopt;

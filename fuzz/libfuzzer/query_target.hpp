@@ -18,10 +18,10 @@ struct Target {
   bool takes_separations = false;
 };
 
-/// The needs of this target; each target defines them.
+/// The needs of this target. Each target's file defines this variable.
 extern const Target target;
 
-/// Tests one query; each target defines it.
+/// Tests one query. Each target's file defines this function.
 void examine(const Query& query);
 
 /// The subject on trial.

@@ -9,7 +9,7 @@
 
 namespace nearmiss::libfuzzer {
 
-/// Reads a whole file; each target defines it.
+/// Reads a whole file. Each target's file defines this function.
 void read(std::istream& in);
 
 /// Aborts with a line on stderr if the condition does not hold.

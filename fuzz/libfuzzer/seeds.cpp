@@ -195,7 +195,7 @@ std::string statements_of(const Campaign& campaign, const fs::path& file) {
   return text;
 }
 
-/// Campaigns for the seeds: a whole one, and some without a part of their results.
+/// Campaigns for the seeds: one with all results, and some that lack a part of their results.
 std::map<std::string, Campaign> campaigns() {
   const Campaign whole = campaign();
   return {{"whole", whole},

@@ -9,7 +9,7 @@
 
 namespace nearmiss::libfuzzer {
 
-/// A target, and what it finds.
+/// A target, and the failures that it finds.
 struct PromiseTarget {
   std::string_view name;
   Finding::What finds;

@@ -19,8 +19,8 @@ class Untraced {
 };
 
 /// Calls `ask` without a trace; use it for the oracle and all other code that is not on trial. Exact
-/// arithmetic has many branches. libFuzzer would follow these instead of the subject's branches, and take
-/// several times longer.
+/// arithmetic has many branches. Without this function, libFuzzer would follow them instead of the subject's
+/// branches, and take several times longer.
 template <class Ask>
 auto untraced(const Ask& ask) {
   const Untraced guard;

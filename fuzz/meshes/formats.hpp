@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// The ending of a file in lower case if read_mesh knows it (.obj, .off, .ply, .stl), else nothing.
+/// The ending of a file in lower case, if read_mesh knows this ending (.obj, .off, .ply, .stl); else nothing.
 std::string mesh_ending(const std::filesystem::path& file);
 
 /// Reads a mesh file; its ending, in upper or lower case, gives the format. Throws Error as the reader of the
@@ -20,9 +20,9 @@ std::string mesh_ending(const std::filesystem::path& file);
 /// primitive. A set of points without primitives is a mesh, too.
 Mesh read_mesh(const std::filesystem::path& file);
 
-/// Reads an OBJ file: vertices, faces and polylines; everything else that the format has is skipped. A line
-/// that ends in a backslash goes on in the next line; a comment ends with its line. The text is the whole
-/// file, and messages call the file `name`. Throws Error, with file and line, for a number that is not
+/// Reads the vertices, faces and polylines of an OBJ file, and skips everything else that the format has. A
+/// line that ends in a backslash continues in the next line; a comment ends with its line. The text is the
+/// whole file, and messages call the file `name`. Throws Error, with file and line, for a number that is not
 /// finite, a primitive with too few vertices or with a vertex that does not exist, and a line that is not in
 /// the format. Throws Error for a file without a point.
 Mesh parse_obj(std::string_view text, const std::string& name);

@@ -21,7 +21,7 @@ class Lines {
   Lines(std::string_view text, std::string_view name, Comments comments,
         Continuation continuation = Continuation::none);
 
-  /// Goes on to the next line; false at the end of the text.
+  /// Goes on to the next line. Returns false at the end of the text.
   bool next();
 
   /// The words of this line, at least one.
@@ -61,7 +61,7 @@ class Lines {
   std::size_t read_ = 0;  ///< number of words that next_word has returned
 };
 
-/// Parses a word as a finite decimal number. Throws Error if it is not one.
+/// Parses a word as a decimal number. Throws Error if the word is not a finite decimal number.
 double parse_decimal(std::string_view word, const Lines& lines);
 
 std::string lower_case(std::string_view word);

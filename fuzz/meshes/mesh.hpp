@@ -23,7 +23,7 @@ struct Mesh {
 /// Adds the triangles of a polygon: a fan around its first vertex. Vertices count from 0.
 void add_polygon(Mesh& mesh, std::span<const long> polygon);
 
-/// Throws Error if a file has no point, or more than an int can count.
+/// Throws Error if the file `name` has no points, or more points than an int can count.
 void expect_points(std::size_t points, std::string_view name);
 
 /// Throws Error if the two meshes differ in the number of points or in a primitive. The message calls the

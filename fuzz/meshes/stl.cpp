@@ -15,7 +15,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Builds a mesh of triangles that are given by three points each. Equal points become one.
+/// Builds a mesh of triangles that are given by three points each. Equal points become one point.
 class TriangleSoup {
  public:
   using Corner = std::array<double, 3>;
@@ -72,7 +72,7 @@ std::array<TriangleSoup::Corner, 3> read_facet(Lines& lines) {
 Mesh parse_text(std::string_view text, std::string_view name) {
   Lines lines(text, name, Lines::Comments::none);
   TriangleSoup soup;
-  while (lines.next()) {  // several solids become one
+  while (lines.next()) {  // several solids become one mesh
     expect_words(lines, {"solid"});
     lines.skip_line();  // the name of the solid
     std::string_view word = lines.next_word();

@@ -43,7 +43,8 @@ double quotient(double error, double length) {
 }
 
 /// Whether the points with these weights are farther apart than `most`, decided exactly. Coordinates are
-/// taken relative to x0, so that far from the origin, weights whose sum is 1 - 2^-53 do no harm.
+/// taken relative to x0. Otherwise, weights whose sum is 1 - 2^-53 would move a point that is far from the
+/// origin.
 bool are_farther(const Query& query, std::span<const double> weights, double most) {
   using exact::Number;
   Number squared(0);

@@ -27,8 +27,8 @@ Query at_rest(const Query& query);
 /// How a subject's answer compares with the exact distance d of a query at rest.
 struct DistanceError {
   /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A careful
-  /// function stays within this, as long as its products neither overflow nor vanish. Within it, conservative
-  /// advancement is still safe, because it keeps a part of the distance as its margin.
+  /// function stays within this tolerance, as long as its products neither overflow nor vanish. Conservative
+  /// advancement is still safe with such errors, because it keeps a part of the distance as its margin.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
 
   Enclosure exact;   ///< contains d; its relative width is below 2^-44, or as small as doubles allow

@@ -50,8 +50,8 @@ struct QuestionFinding {
 template <class Question>
 struct QuestionResults {
   std::map<std::pair<std::string, Kind>, typename Question::Counts> counts;  ///< by subject
-  /// Answers by factors such as the angle. An answer counts as a collision; an unsafe answer counts as a
-  /// missed one.
+  /// Answers by factors such as the angle. Every answer counts as a collision; an unsafe answer counts as a
+  /// missed collision.
   FactorTable factors;
   std::vector<QuestionFinding> findings;  ///< one of each signature and class, ordinary ones first
 

@@ -28,8 +28,8 @@ Query to_positions(const Query& query, const std::array<double, 12>& y) {
   return step;
 }
 
-/// How far `step` goes along `whole`, as a part of `whole`; rounded. Motions are first divided by the largest
-/// component, so that nothing overflows or vanishes.
+/// The part of the motion of `whole` that the motion of `step` covers, rounded. Motions are first divided by
+/// the largest component, so that nothing overflows or vanishes.
 double part_of(const Query& step, const Query& whole) {
   double largest = 0;
   const auto motion = [](const Query& query, std::size_t i) { return query.x[12 + i] / 2 - query.x[i] / 2; };

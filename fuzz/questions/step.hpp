@@ -1,4 +1,4 @@
-// The question which part of a step is safe, and how the answers of filters of steps are judged.
+// The question which part of a step is safe. Filters of steps answer it; this file says how they are judged.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +27,11 @@ struct StepQuestion {
     StepAnswer answer;
     // The following members are set if there is no fault.
     Query step = {};  ///< the filtered step; the clearance is its separation
-    /// In the filtered step, the primitives come nearer than the clearance; if the clearance is 0, they
-    /// touch.
+    /// Whether, in the filtered step, the primitives come nearer than the clearance, or touch if the
+    /// clearance is 0.
     bool touches = false;
-    /// The part of the safe motion that the filter keeps: how far the filtered step goes along the original
-    /// one, divided by the earliest time of contact; without contact, divided by 1. From 0 to 1, rounded.
+    /// The part of the safe motion that the filter keeps, from 0 to 1, rounded: the part of the original step
+    /// that the filtered step covers, divided by the earliest time of contact (by 1 if there is no contact).
     double kept = 0;
     bool cuts_free = false;  ///< the filter changes the original step although it has no contact
     bool objects = false;    ///< the subject would change the filtered step again
@@ -76,12 +76,13 @@ struct StepQuestion {
   /// Asks about a query's step. Returns nothing if the primitives touch at t = 0, or the query breaks the
   /// subject's contract.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
-  /// If the filtered step makes contact, the features of the first contact; if it only comes too near, those
-  /// of the first approach to the clearance; if the subject failed, its fault.
+  /// If the filtered step makes contact, the features of the first contact. If the primitives only come
+  /// nearer than the clearance, the features with which they first reach it. If the subject failed, its
+  /// fault.
   static std::string signature(const Subject& subject, const Judged& judged);
-  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the one whose filtered step
-  /// comes nearest to contact, or to the clearance, relative to the query's size. An unsafe step or a fault
-  /// ends a search.
+  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the result of a search for the
+  /// filtered step that comes nearest to contact, or to the clearance, relative to the size of the
+  /// primitives. An unsafe step or a fault ends a search.
   static std::vector<Family> searches(const Subject& subject, const Stop& stop);
 };
 

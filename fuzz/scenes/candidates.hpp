@@ -42,10 +42,10 @@ using IsOver = std::function<bool()>;
 inline const IsOver never_over = [] { return false; };
 
 /// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
-/// axis (oracle/filter/box.hpp; closed boxes: touching counts). Pairs come in the order of rows (pair_rows
-/// below), and within a row in the order of its partners: all triangles, or the edges after the row's edge. A
-/// part consists of consecutive rows; only the number of rows decides which. Any thread may search any part
-/// at any time.
+/// axis (oracle/filter/box.hpp). Boxes that only touch also meet. Pairs come in the order of rows (pair_rows
+/// below). Within a row, they come in the order of the second primitive: a triangle, or an edge after the
+/// row's edge. A part consists of consecutive rows; the division into parts depends only on the number of
+/// rows. Any thread may search any part at any time.
 class CandidateFinder {
  public:
   /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` returns
@@ -53,15 +53,15 @@ class CandidateFinder {
   CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
   CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh. Finds the same pairs as a new CandidateFinder, which
+  /// Replaces the mesh by another step of the same mesh. A new CandidateFinder would find the same pairs, but
   /// takes longer to make. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes each pair of a part to `sink` once, but leaves out pairs of primitives with a common vertex, and
-  /// returns how many it left out. Stores no pairs, so a scene of any size can be streamed. Calls `is_over` now
-  /// and then; if it returns true, returns early or throws Stopped.
+  /// Passes each pair of a part to `sink` once, except pairs of primitives with a common vertex, and returns
+  /// the number of these excepted pairs. Stores no pairs, so a scene of any size can be streamed. Calls
+  /// `is_over` now and then; if `is_over` returns true, returns early or throws Stopped.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
@@ -84,8 +84,8 @@ void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const Is
 /// the pairs of one vertex with all triangles, or of one edge with all later edges.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
-/// Passes each pair of a row to `sink`, except pairs of primitives with a common vertex; returns the number
-/// of these.
+/// Passes each pair of a row to `sink`, except pairs of primitives with a common vertex. Returns the number
+/// of these excepted pairs.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const IsOver& is_over);
 

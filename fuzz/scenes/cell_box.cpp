@@ -59,7 +59,7 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // Twice this margin exceeds every distance that boxes_meet, which rounds, accepts as within the separation.
+  // boxes_meet() rounds. Even so, twice this margin exceeds every distance that it accepts.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;

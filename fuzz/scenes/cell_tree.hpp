@@ -73,13 +73,14 @@ class CellBoxGroup {
 /// move the boxes and keep the groups, until the groups' bounds have become much larger.
 class CellTree {
  public:
-  /// Throws Stopped when `is_over` says so.
+  /// Throws Stopped when `is_over` returns true.
   CellTree(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
   /// Turns this into the tree of another step of the same mesh. Throws Stopped when `is_over` returns true.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// The median size of the bounds of the lowest level's groups; if there are many, of a sample of them.
+  /// The median size of the bounds of the lowest level's groups. If there are many groups, the median over a
+  /// sample of them.
   [[nodiscard]] std::int64_t typical_group() const;
 
   /// Calls visit(number) for each box that meets the given one and has the number `least` or a larger one.

@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_primitives = 8000;  // at most this many with a mark, and as many without
+constexpr std::size_t most_primitives = 8000;  // limit for primitives with a mark, and for those without
 constexpr std::uint32_t collides = 1, tangled = 2;
 constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
@@ -146,11 +146,12 @@ struct Marks::Primitives {
   void add(const Vertices& vertices, Mark mark) { (mark != 0 ? marked : others).push_back({vertices, mark}); }
 };
 
-/// Adds the triangles, each with its own marks and those of its edges, then the edges that are in no
+/// Adds the triangles, each with its own marks and the marks of its edges. Then adds the edges that are in no
 /// triangle.
 void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
   const auto size = mesh.start.size() + 1;
-  // Most primitives have no mark, which their vertices show faster than a search.
+  // Most primitives have no mark. A search for the mark is necessary only if all vertices of a primitive
+  // belong to marked primitives.
   std::vector<bool> is_marked(size);
   const auto mark_vertices = [&](const auto& marks) {
     for (const auto& [primitive, unused] : marks)

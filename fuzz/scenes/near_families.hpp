@@ -1,4 +1,4 @@
-// Families of queries near those of files, and near a sample of the pairs of moving meshes.
+// Families of queries near the queries of files, or near a sample of the pairs of moving meshes.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@ namespace nearmiss {
 /// Queries by kind, without entries for kinds that have none.
 using QueriesByKind = std::map<Kind, std::vector<Query>>;
 
-/// A random query of a kind; all have the same probability.
+/// A random query of a kind. All queries of this kind have the same probability.
 const Query& drawn(Random& random, const QueriesByKind& queries, Kind kind);
 
-/// A random sample of pairs: keeps the pairs of each kind with the smallest random numbers. A pair's number
-/// depends only on its vertices and the number of its motion, so the sample does not depend on the order of
-/// the pairs.
+/// A random sample of pairs. Each pair gets a random number, and the pairs of each kind with the smallest
+/// numbers are kept. The random number depends only on the pair's vertices and on the number of its motion,
+/// so the sample does not depend on the order of the pairs.
 class PairSample {
  public:
   /// Keeps at most `most` pairs of each kind.
@@ -45,15 +45,16 @@ class PairSample {
   std::map<Kind, std::vector<Kept>> kept_;  ///< heaps
 };
 
-/// Families that draw the given queries, and leave each unchanged, perturb it, move it by ulps, or move one
-/// primitive so that the two touch at a random time, as nearly as double allows. `near` has the vt and ee
-/// queries for contact, `near-within` those with separations; v-near and v-near-within have the vv and ve
-/// queries. A family without queries is left out.
+/// Families that draw from the given queries. A drawn query stays unchanged, is perturbed, is moved by ulps,
+/// or gets contact: one primitive is moved so that the primitives touch at a random time, up to rounding.
+/// `near` has the vt and ee queries that ask for contact, and `near-within` has the vt and ee queries with
+/// separations. v-near and v-near-within have the vv and ve queries. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 
-/// The family `mesh`, made in the same ways from the pairs of all steps whose swept boxes meet. At most
-/// `most` pairs of each kind are kept; the choice only depends on the scene. If all are of one kind, only that kind is
-/// asked. Throws Error if there is no pair, and Stopped if the stop is due before all pairs are known.
+/// The family `mesh`, made like near_families() from the pairs of all steps whose swept boxes meet. At most
+/// `most` pairs of each kind are kept; the choice depends only on the scene. If all pairs are of one kind,
+/// only queries of that kind are asked. Throws Error if there is no pair, and Stopped if the stop is due
+/// before all pairs are known.
 Family mesh_family(const Scene& scene, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
 
 }  // namespace nearmiss

@@ -22,7 +22,7 @@ std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 
-/// Receives the pairs of one part, and decides their fates in batches.
+/// Receives the pairs of one part, and decides in batches what to do with each pair (PairFate).
 class FateTeller {
  public:
   FateTeller(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,
@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The time spent on deciding fates and in `ask`.
+  /// The time spent on these decisions and in `ask`.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();

@@ -16,13 +16,13 @@ namespace nearmiss {
 enum class LeaveOut : std::uint8_t {
   nothing,  ///< subjects are asked about all pairs without a common vertex
   boxes,    ///< pairs whose swept boxes do not meet
-  all,      ///< also pairs at relative rest or in relative translation, if the question is contact
+  all,      ///< like `boxes`; for contact, also pairs at relative rest or in relative translation
 };
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// The fate under LeaveOut::all of a pair whose swept boxes meet (or are at most the separation apart), and
-/// whether the pair collides if no subject is asked about it.
+/// What the plan does under LeaveOut::all with a pair whose swept boxes meet, or are at most the separation
+/// apart: see PairFate. If no subject is asked about the pair, the second value says whether it collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Pairs of one kind about which subjects are asked.
@@ -47,20 +47,21 @@ class Plan {
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh. The plan is that of a new object, which takes longer
-  /// to make. After an exception, the object must not be used any more.
+  /// Replaces the mesh by another step of the same mesh. Making a new Plan would give the same result, but
+  /// takes longer. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 
-  /// Passes on the pairs of a part: to `ask` those that a subject must decide, at most 1,000 at a time, and
-  /// to `decided`, if given, those that the plan decides itself. Stores no pairs. Pairs whose boxes do not
-  /// meet are in no part. Calls `is_over` now and then; if it returns true, returns early or throws Stopped.
+  /// Passes on the pairs of a part. `ask` receives the pairs that a subject must decide, at most 1,000 at a
+  /// time. `decided`, if given, receives the pairs that the plan decides itself. Stores no pairs. Pairs whose
+  /// boxes do not meet are in no part. Calls `is_over` now and then; if it returns true, returns early or
+  /// throws Stopped.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                  const IsOver& is_over) const;
 
-  /// The funnels of the pairs that are in no part, because their boxes do not meet, with the time to make the
-  /// parts. `parts` is the sum of the funnels of all parts.
+  /// The funnels of the pairs that are in no part, because their boxes do not meet. Their time is the time to
+  /// make the parts. `parts` is the sum of the funnels of all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:

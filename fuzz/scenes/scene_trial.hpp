@@ -30,8 +30,8 @@ class SceneTrial {
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
-  /// The pictures of up to five steps, in their order: those with the most missed primitives so far, then
-  /// those with the most marked primitives. Steps without any have no picture.
+  /// The pictures of up to five steps, in their order: the steps with the most missed primitives first, then
+  /// those with the most marked primitives. A step without marked primitives has no picture.
   [[nodiscard]] std::vector<ScenePicture> pictures() const;
 
  private:
@@ -55,7 +55,7 @@ class SceneTrial {
   [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask,
                                      const IsAsked& is_asked) const;
 
-  /// Keeps the picture of a step if it ranks among the highest.
+  /// Keeps the picture of a step if its rank is among the highest so far.
   void add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks);
 
   /// Makes the plan of a step. Throws Stopped when the trial's stop is due.

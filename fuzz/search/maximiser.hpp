@@ -1,4 +1,4 @@
-// Derivative-free optimisation among the points of directed search.
+// Derivative-free optimisation in the search space of directed search (search_point.hpp).
 #pragma once
 
 #include <cmath>
@@ -40,8 +40,8 @@ class Maximiser {
  private:
   [[nodiscard]] bool over() const;
   double show(const SearchPoint& point);
-  /// Optimises from the best point so far, or with `beside` from a point near it, with steps of a random
-  /// size.
+  /// Optimises from the best point so far, with steps of a random size. With `beside`, starts from a point
+  /// near the best point.
   void optimise(bool beside);
   /// Moves vertices of the best point so far. A step that improves the point is repeated, each time twice as
   /// long. The size of steps grows after an improvement, and shrinks after a step without one.
@@ -49,9 +49,9 @@ class Maximiser {
   /// Draws one displacement along some axes, and applies it to one or several of the eight positions (four
   /// vertices, at t = 0 and t = 1).
   Displacements draw_step(double size);
-  /// Whether this step improves the best point; if so, takes it.
+  /// Takes this step if it improves the best point. Returns whether it does.
   bool gains(const Displacements& step);
-  /// The objective as an optimiser sees it.
+  /// The objective in the form that the optimiser's library expects.
   double value_at(const std::vector<double>& x);
   [[nodiscard]] SearchPoint point_at(const std::vector<double>& x) const;
 

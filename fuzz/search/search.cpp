@@ -62,15 +62,16 @@ class Searched {
 
 // --- misses and far false positives ---------------------------------------------------------------------
 
-/// The largest distance of a subject's false positives: the bound that the subject claims, or wang's if it
-/// claims none.
+/// The largest possible distance of a subject's false positives: the bound that the subject claims, or wang's
+/// bound if the subject claims none.
 double reach(const Subject& subject, const Query& query) {
   const double claimed = subject.distance_bound(query);
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives. It is smaller than usual if the subject has a small reach, but not for vv
-/// and ve: their reach, the distance less h, is small for other reasons.
+/// The smallest size of primitives. It is smaller than usual if the subject has a small reach. This rule does
+/// not apply to vv and ve queries, because their reach is a distance less the separation h, and may therefore
+/// be small.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
@@ -106,7 +107,8 @@ struct Mixture {
   }
 };
 
-/// A point whose primitives meet: exactly, on a grid, or up to rounding errors, within h.
+/// A point whose primitives meet. With `exactly`, the point is on a grid, and the primitives touch exactly.
+/// Otherwise, they come within h, up to rounding errors.
 SearchPoint meeting(const SearchPoint& point, bool exactly, double h) {
   return exactly ? on_grid(point) : with_gap_within(point, h);
 }

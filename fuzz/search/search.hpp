@@ -39,10 +39,11 @@ enum class SearchFor {
 /// does not have this function, the search maximises a random mixture of properties that make a contact
 /// hard: a grazing motion, a small angle between the primitives, a small barycentric weight, unequal edges,
 /// a time near 0 or 1. The search for far false positives also moves vertices, besides contacts and gaps:
-/// plane culling compares the vertices' coordinates, and after nearly any change of the contact, some plane
-/// separates a far pair. A search starts at random points and continues from the best point so far. A query
-/// over the subject's time limit ends the search; after a few such searches, the subject is not asked any
-/// more. Making a query throws Stopped when `stop` is due. The subject and `stop` must outlive the family.
+/// plane culling compares the vertices' coordinates, and nearly any change of a contact or gap alone leaves a
+/// far pair separated by some plane. A search starts at random points and continues from the best point so
+/// far. A query over the subject's time limit ends the search; after a few such searches, the subject is not
+/// asked any more. Making a query throws Stopped when `stop` is due. The subject and `stop` must outlive the
+/// family.
 ///
 /// With a separation (parse_family_separation), the name ends with ~SEPARATION. Each search has one
 /// separation h > 0. It moves among queries in which two points of the primitives come within h; a smallest

@@ -1,4 +1,4 @@
-// The points among which directed search looks for queries.
+// The search space of directed search: contacts with a gap and displacements, from which queries are made.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ Contact contact_of(Kind kind, const SearchPoint& point);
 /// The query of a point, for a separation h.
 Query query_of(Kind kind, const SearchPoint& point, double h);
 
-/// log2 of six ratios. The smaller a ratio is, the harder is the contact.
+/// log2 of six ratios. The smaller a ratio, the harder the contact.
 std::array<double, 6> hardness(Kind kind, const SearchPoint& point);
 
 }  // namespace nearmiss

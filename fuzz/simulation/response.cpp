@@ -20,7 +20,7 @@ std::size_t index(int point) { return static_cast<std::size_t>(point); }
 struct Response::Touch {
   std::array<double, 4> weights{};  ///< as in closest_weights
   Vector3<double> normal{0, 0, 0};  ///< of length 1, from the second primitive to the first; or 0
-  double distance = 0;              ///< along the normal, at the start of the step
+  double distance = 0;              ///< of the primitives along the normal, at the start of the step
   Vector3<double> motion{0, 0, 0};  ///< of the first primitive relative to the second, in the step
 };
 
@@ -42,8 +42,8 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
   const auto& edges = topology(pair.kind).pqr;  // q and r, whose cross product is the normal
   const Vector3<double> u = x[edges[1].to] - x[edges[1].from];
   const Vector3<double> v = x[edges[2].to] - x[edges[2].from];
-  // Primitives that collide after t = 0 give the normal, unless they are nearly parallel; otherwise, the
-  // closest points do.
+  // If the primitives collide after t = 0, and q and r are not nearly parallel, the normal is that of q and
+  // r. Otherwise, it is the direction between the closest points.
   const Vector3<double> cross = u.cross(v);
   constexpr double parallel = 1e-6;
   touch.normal = time > 0 && length(cross) > parallel * length(u) * length(v) ? cross : from;

@@ -13,7 +13,7 @@ namespace {
 constexpr double most_picojoules = 1e17;
 
 constexpr int impulse_rounds = 10;  ///< rounds of impulses, before those of impact zones
-constexpr int zone_rounds = 20;     ///< rounds of impact zones; one more round only asks
+constexpr int zone_rounds = 20;     ///< rounds of impact zones; a last round only asks the CCD
 
 /// The groups of points that the lines of a mesh join.
 std::vector<std::vector<int>> groups(const Mesh& joined) {
@@ -49,8 +49,8 @@ std::size_t Simulation::steps() const {
   return scene_.scene.steps() * static_cast<std::size_t>(steps_per_frame_);
 }
 
-/// The positions of held points after a step: interpolated between two frames; from the last frame on, those
-/// of the last frame.
+/// The positions of held points after a step, interpolated between two frames. After the last frame, held
+/// points stay at their positions in that frame.
 PointVectors Simulation::held_positions(std::size_t step) const {
   const auto count = static_cast<std::size_t>(steps_per_frame_);
   const std::size_t frame = std::min((step + 1) / count, scene_.scene.steps());

@@ -21,9 +21,9 @@ namespace nearmiss {
 using AskCcd = std::function<std::vector<ReportedPair>(const MovingMesh& motion,
                                                        const std::function<bool(const Candidate&)>& asked)>;
 
-/// Moves a scene step by step: by implicit integration, by repulsion of near primitives, then in rounds that
-/// ask a CCD and stop the reported pairs, first by impulses, then by rigid impact zones. The result depends
-/// only on the arguments and the CCD's answers.
+/// Moves a scene step by step. A step integrates implicitly, and makes near primitives repel each other. Then
+/// it repeatedly asks a CCD and stops the reported pairs, first by impulses, later by rigid impact zones. The
+/// result depends only on the arguments and the CCD's answers.
 class Simulation {
  public:
   /// Each frame of the scene takes `steps_per_frame` steps of `step` seconds.

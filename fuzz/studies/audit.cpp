@@ -33,7 +33,7 @@ constexpr std::string_view inside = "weight_error, ccd/wang/ve_culling.hpp";
 constexpr std::string_view spread = "spread_error, ccd/wang/ve_culling.hpp";
 constexpr std::string_view culling = "weight_error + spread_error, ccd/wang/ve_culling.hpp";
 
-// Rounding errors of the barycentric tests in units of ε, by Theorem 4.1 of the paper.
+// Rounding errors of the barycentric tests in units of ε, as Theorem 4.1 of the paper bounds them.
 constexpr double inside_vt = 564;
 constexpr double inside_ee = 360;
 constexpr double inside_ee_far = 540;  // p within 2B
@@ -94,9 +94,9 @@ std::vector<RoundingConstant> rounding_bounds() {
 }
 
 std::vector<RoundingConstant> rounding_consequences() {
-  // The squared distance at the computed time t̂ exceeds the one at the exact time t by at most 2 ‖x‖ ‖v‖ |t̂
-  // - t|, with ‖x‖ <= √3 B (√3 2B for edges), ‖v‖ <= √3 b, and |t̂ - t| <= (error of x.v + error of v.v + 1)
-  // ε / b.
+  // Let t̂ be the computed time, and t the exact time. The squared distance at t̂ exceeds the squared
+  // distance at t by at most 2 ‖x‖ ‖v‖ |t̂ - t|. Here, ‖x‖ <= √3 B (√3 2B for edges), ‖v‖ <= √3 b, and |t̂ -
+  // t| <= (error of x.v + error of v.v + 1) ε / b.
   const double moved = 2 * 3 * (9 + 9 + 1);
   const double moved_far = 2 * 3 * 2 * (2 * 9 + 9 + 1);
   const double squared_distance = 3 * 7;
@@ -128,8 +128,8 @@ std::vector<RoundingConstant> rounding_consequences() {
       {"EE: distance of a false positive, far p", "4.5.1", line, 1448, 4 * inside_ee_far,
        4 * proven::inside_ee_far, beyond},
       {"distance bound", "4.4.1", "B eps^1/4", 41, std::sqrt(34.0 * 34 + 522)},
-      // A weight is linear in p, so it moves by at most ‖N‖ ‖edge‖ √3 B h, with ‖N‖ <= 3B² and ‖edge‖ <= √3
-      // B.
+      // A weight is linear in p, so it changes by at most ‖N‖ ‖edge‖ √3 B h. Here, ‖N‖ <= 3B² and ‖edge‖ <=
+      // √3 B.
       {"VE culling: spread of a weight", "5", "B^4 h", 9, 3 * 3},
       {"critical points", "node_error, ccd/wang/ve_culling.hpp", b3, node_error, 3 * 18, none,
        "derived in ccd/wang/cubic.hpp"},

@@ -1,5 +1,5 @@
-// The rounding constants of the paper and of ccd/, each with its quoted value, the value by the paper's
-// Theorem 4.1, and the proven value.
+// The rounding constants of the paper and of ccd/. Each has its quoted value, the value that follows from the
+// paper's Theorem 4.1, and the proven value.
 #pragma once
 
 #include <limits>
@@ -18,8 +18,8 @@ struct RoundingConstant {
   std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
   std::string_view unit;
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
-  /// The first-order bound by Theorem 4.1 for the operations in ccd/, applied to exact vectors; for a
-  /// consequence, the value that follows from other rows.
+  /// For a bound: the first-order bound that Theorem 4.1 gives for the operations in ccd/ on exact vectors.
+  /// For a consequence (rounding_consequences): the value that follows from other rows.
   double derived = none;
   /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors
   /// (ccd/wang/bounds/proven.hpp).

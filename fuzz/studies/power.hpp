@@ -19,9 +19,9 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// The families to ask a subject: those of contact; if the subject takes separations for mesh queries, also
-/// these families with drawn separations; if it takes them for vv and ve queries, also as_asked() of each
-/// family in `of_vertices`.
+/// The families about which to ask a subject: the families in `of_contact`. If the subject takes separations
+/// for mesh queries, also these families with drawn separations. If the subject takes separations for vv and
+/// ve queries, also as_asked() of each family in `of_vertices`.
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
                                  std::span<const Family> of_vertices);
 

@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// A group of tests with which wang accepts queries. `subject` measures the group: it is wang without the
-/// tests that accept pairs farther apart than this group does.
+/// A group of tests with which wang accepts queries. `subject` measures the group: `subject` is wang without
+/// the tests that accept pairs farther apart than this group accepts.
 struct Tests {
   std::string_view name, subject;
 };
@@ -79,8 +79,8 @@ Gauge tests_gauge(const Tests& tests, bool among, const Stop& stop) {
           std::move(search), read};
 }
 
-/// Whether only queries with four vertices use this tolerance or group of tests, since Algorithms 1 and 2 do
-/// not.
+/// Whether only queries with four vertices use this tolerance or group of tests, because Algorithms 1 and 2
+/// do not use it.
 bool needs_four_vertices(std::string_view name) {
   constexpr std::array<std::string_view, 4> all{"eta", "mu", "tau", "proximity"};
   return std::ranges::find(all, name) != all.end();

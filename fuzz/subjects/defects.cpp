@@ -45,8 +45,8 @@ struct DefectiveTolerances {
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
-  /// These tolerances with the changed one loosened by the factor s. If none is changed, loosens all
-  /// accepting tolerances: lengths by s, squares of lengths by s², and so on.
+  /// These tolerances, with the changed tolerance loosened by the factor s. If no tolerance is changed,
+  /// loosens all accepting tolerances: lengths by s, squares of lengths by s², and so on.
   [[nodiscard]] DefectiveTolerances loosened(double s) const {
     DefectiveTolerances loose = *this;
     if (changed != nullptr) {
@@ -83,7 +83,7 @@ struct DefectiveTolerances {
   }
 };
 
-/// The sound subjects of which defects are made.
+/// The sound subjects from which defects are made.
 enum class Sound : std::uint8_t { wang, wang_time, advance };
 constexpr std::array<std::string_view, 3> sound_names{"wang", "wang-time", "advance"};
 

@@ -18,9 +18,9 @@ struct Defect {
   std::string about;
 };
 
-/// All defects. Those of wang have one tolerance multiplied by 1/2, 1/10, 1/100 or 0 (or by 10 or 100, if it
-/// excludes degenerate primitives), leave out one step, or compute in float instead of double. Those of
-/// wang-time and advance leave out one step, or compute the time in float.
+/// All defects. A defect of wang multiplies one tolerance by 1/2, 1/10, 1/100 or 0 (or by 10 or 100, if the
+/// tolerance excludes degenerate primitives), leaves out one step, or computes in float instead of double. A
+/// defect of wang-time or advance leaves out one step, or computes the time in float.
 std::span<const Defect> defects();
 
 /// The tolerances by name.
@@ -38,9 +38,9 @@ std::string scaled_tolerance(std::string_view tolerance, double factor);
 
 /// Makes a defect from its name; a tolerance may have any factor >= 0. The defect makes the promises of the
 /// sound subject: its distance bound and its sort of time. If the defect changes a tolerance,
-/// needed_tolerance() gives the factor by which this tolerance must be loosened: multiplied, if it is an
-/// accepting tolerance, otherwise divided. Returns null for a name that does not start with "defect:". Throws
-/// Error for an unknown defect.
+/// needed_tolerance() gives the factor by which this tolerance must be multiplied (if larger values accept
+/// more pairs) or divided. Returns null for a name that does not start with "defect:". Throws Error for an
+/// unknown defect.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

@@ -73,8 +73,8 @@ class ExactSubject final : public Subject {
  private:
   static constexpr KnownTime unknown_time{{0, 1}};
 
-  /// The verdict if the filter ended with this stage, and with this time. A distance of exactly h is
-  /// reported.
+  /// The verdict if the filter ended with this stage and this time. If the smallest distance is exactly h,
+  /// the pair is reported.
   [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage, const KnownTime& time) const {
     if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(name_);
     const bool filtered = stage != FilterStage::undecided;

@@ -17,9 +17,9 @@ namespace nearmiss {
 /// `exact-decision` gives no time. All three claim to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
 
-/// The kinds that a campaign asks by default: those that at least one subject other than the exact ones can
-/// be asked; without such a subject, vt and ee. A kind whose queries have separations needs a subject that
-/// takes them.
+/// The kinds of queries that a campaign asks by default: the kinds that at least one subject can decide, not
+/// counting the exact subjects. If all subjects are exact, vt and ee. If the queries of a kind have
+/// separations, only subjects that take separations can decide them.
 std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
                                const std::function<bool(Kind)>& has_separations);
 
@@ -28,10 +28,10 @@ inline constexpr SubjectInfo parity_info{
     "the root parity of Brochu, Edwards and Bridson, in rational numbers; its contract is one root"};
 
 /// Makes the exact subject with the given name, or `parity`; null for any other name. `parity` asks the
-/// oracle's method of this name (oracle/parity/parity.hpp), which is exact, but takes an even number of
-/// roots for none. Therefore its contract excludes queries with several roots or a double root, and queries
-/// whose vertices are always coplanar. It does not decide vv and ve queries. Within the contract it has no
-/// misses and no false positives, so its distance bound is 0.
+/// oracle's method of this name (oracle/parity/parity.hpp). This method is exact, but cannot distinguish an
+/// even number of roots from no root. Therefore its contract excludes queries with several roots or a double
+/// root, and queries whose vertices are always coplanar. It does not decide vv and ve queries. Within the
+/// contract it has no misses and no false positives, so its distance bound is 0.
 std::unique_ptr<Subject> try_make_exact(std::string_view name);
 
 }  // namespace nearmiss

@@ -26,7 +26,7 @@ struct SubjectText {
 /// "new:KEY=VALUE", "new@0.5". If `name` is "", the subject is returned unchanged.
 std::unique_ptr<Subject> named(std::unique_ptr<Subject> subject, const std::string& name, bool is_plugin);
 
-/// The name that named() gave to a subject; "" if there is none.
+/// The name that named() gave to a subject; "" if the subject was not renamed.
 std::string given_name(const Subject& subject);
 
 }  // namespace nearmiss

@@ -51,7 +51,7 @@ double part_of(double time, double tmax) {
   return std::fma(part, tmax, -time) > 0 ? std::nextafter(part, 0.0) : part;
 }
 
-/// The answer of a record in the form in which it can be judged; nothing if it cannot.
+/// The answer of a record in the form in which it can be judged; nothing if it cannot be judged.
 std::optional<RecordedAnswer> judgeable(const std::filesystem::path& file, const Recorded& each) {
   const bool has_time = each.answer == NEARMISS_COLLISION && !std::isnan(each.time);
   RecordedAnswer judged{

@@ -34,10 +34,10 @@ struct LeftOut {
 
 /// Passes on the records that can be judged, in order. If tmax is 1, or if tmax < 1 and the answer is a
 /// collision with a time, the answer is judged on the recorded query: a time is late in the whole step
-/// exactly if it is late in the part (but a collision after tmax counts as found). Any other answer is judged
-/// on the query that ends at tmax; if doubles cannot represent this query, then on the rounded query,
-/// provided that tmax < 1 and rounding does not change the decision. Throws Error as the reader of recordings
-/// does.
+/// exactly if it is late in the part up to tmax (but a collision after tmax counts as found). Any other
+/// answer is judged on the query that ends at tmax. If doubles cannot represent this query, the answer is
+/// judged on the rounded query, provided that tmax < 1 and that rounding does not change the decision. Throws
+/// Error as the reader of recordings does.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
 /// Some answers, with at most one answer per query, and a subject that gives these answers under the name
@@ -47,8 +47,8 @@ struct RecordedPass {
   std::vector<RecordedAnswer> answers;
 };
 
-/// Divides all answers into as few passes as possible. Several are needed if a simulation asked the same
-/// query twice, and got different answers.
+/// Divides all answers into as few passes as possible. Several passes are needed if a simulation asked about
+/// the same query twice and got different answers.
 std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers);
 
 }  // namespace nearmiss

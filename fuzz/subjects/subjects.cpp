@@ -65,8 +65,8 @@ std::string name_of_file(const Subject& subject) {
   return "";
 }
 
-/// Whether a plug-in or a renamed subject has the name of another, built-in subject or published CCD, so that
-/// a merge would add up the results of both.
+/// Whether a plug-in or a renamed subject has the name of a built-in subject or of another published CCD. A
+/// merge would then add up the results of both.
 bool takes_built_in_name(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   const bool is_renamed = !given_name(subject).empty();

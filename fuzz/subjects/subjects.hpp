@@ -15,8 +15,8 @@
 namespace nearmiss {
 
 /// The plug-in in a subject's text [NAME=]SUBJECT. A path or a command is a plug-in itself; the name of a
-/// published CCD stands for the plug-in that was built from its code (peers.hpp). Nothing for other subjects.
-/// Throws Error if the CCD is not built.
+/// published CCD stands for the plug-in that was built from its code (peers.hpp). Returns nothing for other
+/// subjects. Throws Error if the published CCD is not built.
 std::optional<std::string> plugin_named(std::string_view text);
 
 /// Makes the subject of a text [NAME=]SUBJECT, and gives it the NAME if there is one. The subject is a

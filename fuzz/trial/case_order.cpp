@@ -17,7 +17,7 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
 }
 
 /// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 units
-/// and so on, until a round has `largest()`; all later rounds have as many.
+/// and so on, until a round has `largest()` units. All later rounds have this many units.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {

@@ -19,8 +19,8 @@
 
 namespace nearmiss {
 
-/// Cases [first, last) of a family. Its cases are the queries of the kinds that are asked (`kinds_asked`), in
-/// their order.
+/// Cases [first, last) of a family. The cases of a family are its queries of the kinds that are asked
+/// (`kinds_asked`), in the order of their indices.
 struct CaseBlock {
   const Family* family;
   std::uint64_t first, last;

@@ -9,8 +9,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Replaces the end of the query by the positions at a time, computed in this scalar. Returns whether all
-/// coordinates are finite.
+/// Replaces the query's positions at t = 1 by its positions at a time, computed in `Scalar`. Returns whether
+/// all coordinates are finite.
 template <class Scalar>
 bool move_end(Query& query, double time) {
   const auto t = static_cast<Scalar>(time);

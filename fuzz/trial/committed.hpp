@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The query, with the motion from x0 to x0 + time (x1 - x0); each operation on a coordinate is rounded to
-/// double, or to float if `in_float`. Nothing if a coordinate overflows.
+/// The query with its motion replaced by the motion from x0 to x0 + time (x1 - x0). Each operation on a
+/// coordinate is rounded to double, or to float if `in_float`. Nothing if a coordinate overflows.
 std::optional<Query> committed_step(const Query& query, double time, bool in_float);
 
 /// What happens in a step. `touches`: contact before its end; for h > 0, a distance below h before its end.

@@ -18,8 +18,7 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 namespace {
 
 /// The difference time - t*. Its magnitude is an upper bound that falls into the right bin of a Histogram.
-/// Unless that is the first bin, it has a relative accuracy of 1/1000. The sign is 0 if the time certainly is
-/// t*.
+/// Outside the first bin, it has a relative accuracy of 1/1000. The sign is 0 if the time certainly is t*.
 struct TimeDifference {
   double magnitude;
   int sign;

@@ -35,25 +35,25 @@ class Judge {
   /// Compares an answer with the truth about the query, after the subject's rounding. If the smallest
   /// distance is exactly the separation h > 0, any answer is right, and a reported pair counts as a
   /// collision. A subject that claims bounds must give a number >= 0 for a false positive; anything else is a
-  /// fault. The answer "cannot tell" claims nothing about the distance. The ratio of a false positive is that
-  /// of `Truth::distance`, accurate to 1/1000 if a finding stores it or if it is at least `least_kept`
-  /// (Counts). The ratio is 0 if the unit is infinite, since no distance is larger.
-  /// `known` is the answer of ask_unit(), if it is known already.
+  /// fault. The answer "cannot tell" claims nothing about the distance. The ratio of a false positive is
+  /// Truth::Distance::ratio. It is accurate to 1/1000 if a finding stores it, or if it is at least
+  /// `least_kept` (Known). The ratio is 0 if the unit is infinite, since no distance is larger. `known` is
+  /// the answer of ask_unit(), if the caller has it already.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 
   /// Whether judge() needs the unit: the answer is a false positive, but not "cannot tell".
   [[nodiscard]] static bool needs_unit(const Verdict& verdict, const Decision& decision);
 
-  /// Asks the subject. Returns how it fails on a query; nothing if it does not. Throws Error as the subject
-  /// does.
+  /// Asks the subject about a query. Returns how the subject fails, or nothing if it does not fail. Throws
+  /// Error as the subject does.
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
   /// How the subject fails on a query with this answer.
   [[nodiscard]] std::optional<Failure> failure(const Query& query, const Verdict& verdict) const;
 
  private:
-  /// The outcome of an answer, without the distance of a false positive; and the unit in which to measure
-  /// this distance. It is only measured if needs_unit() holds and the unit is finite.
+  /// The outcome of an answer, without the distance of a false positive, and the unit in which to measure
+  /// this distance. The distance needs to be measured only if needs_unit() holds and the unit is finite.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(
       const Verdict& verdict, Truth& truth, const std::optional<BoundAnswer>& known = {}) const;
   /// The error of a true positive's time of impact; nothing if the subject gives no time.
@@ -63,8 +63,8 @@ class Judge {
   std::unique_ptr<Subject> wang_;  // gives the unit if the subject claims no bound
 };
 
-/// The failure that an outcome shows (reports/statistics/failure.hpp); nothing if it shows none, or one that
-/// makes no finding.
+/// The failure that an outcome shows (reports/statistics/failure.hpp). Returns nothing if the outcome shows
+/// no failure, or a failure of which no finding is made.
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth);
 
 /// How the oracle's methods disagree about a query; nothing if they agree.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t separation = 24;  // the index of the separation among Numbers
 
-/// The path of a vertex along axis k consists of two coordinates. This is the index of the one at t = 0; the
-/// one at t = 1 has the index plus 12.
+/// The path of a vertex along axis k consists of two coordinates. Returns the index of the coordinate at t =
+/// 0. The index of the coordinate at t = 1 is larger by 12.
 constexpr std::size_t path(std::size_t vertex, std::size_t k) { return 3 * vertex + k; }
 constexpr std::size_t paths = 12;
 constexpr std::array<std::size_t, 2> times{0, paths};
@@ -71,7 +71,7 @@ void round(Numbers& x, int exponent, bool each_axis) {
 }
 
 /// Moves a vertex to the origin, at t = 0 or at all times. Then scales the query by powers of two, and rounds
-/// all coordinates to integers: small ones, or somewhat larger ones.
+/// all coordinates to small or somewhat larger integers.
 Neighbourhood round_all(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (const int exponent : {0, 1, 2, 3, 4, 6})
@@ -87,8 +87,8 @@ Neighbourhood round_all(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Sets all coordinates of an axis to 0, or subtracts from them the coordinate of one point at t = 0, at t =
-/// 1 or at both, or that of a moving point. An exact subtraction keeps every contact.
+/// Sets all coordinates of an axis to 0, or subtracts from them the coordinate of a fixed point (at t = 0, at
+/// t = 1 or at both times) or of a moving point. An exact subtraction keeps every contact.
 Neighbourhood move_axes(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -217,7 +217,8 @@ Alternatives replacements(const Numbers& numbers, Set set) {
   return changes;
 }
 
-/// Simplifies numbers of one magnitude: all of them, those of an axis, those of a path, and single numbers.
+/// Simplifies numbers of one magnitude: all these numbers, the numbers of an axis or of a path, or a single
+/// number.
 Neighbourhood change_numbers(const Numbers& x) {
   Neighbourhood changes;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -235,7 +236,7 @@ Neighbourhood change_numbers(const Numbers& x) {
   return changes;
 }
 
-/// Sets a coordinate to 0, or copies another one or its negative.
+/// Sets a coordinate to 0, or copies another coordinate or its negative.
 Neighbourhood copy_paths(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t to = 0; to < paths; ++to)

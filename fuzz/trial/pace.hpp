@@ -10,8 +10,9 @@
 namespace nearmiss {
 
 /// Chooses the sizes of slices of cases. A slice takes at most about a tenth of a second, because trials look
-/// at their limits only between slices. By default, the cases of a slice, with all that is noted about them,
-/// fit into a processor's caches. Only run times depend on the sizes. Many threads use a Pace at once.
+/// at their limits only between slices. By default, the cases of a slice, with everything that is stored
+/// about each case, fit into a processor's caches. Results do not depend on the sizes; only run times do.
+/// Many threads use a Pace at once.
 class Pace {
  public:
   using Duration = std::chrono::duration<double>;

@@ -55,7 +55,7 @@ class Shrinker {
   }
 
   /// Takes, in their order, the changes that make the query simpler and leave it failing. Asks about many
-  /// changes in a batch, and about more after each batch in which no query fails.
+  /// changes in a batch; if no query of a batch fails, the next batch is larger.
   void explore(const Neighbourhood& changes) {
     constexpr std::size_t largest_batch = 64;
     std::size_t size = 1;
@@ -76,7 +76,7 @@ class Shrinker {
   }
 
   /// At most `size` candidates, from the place (`entry`, `alternative`) on. Moves the place behind the last
-  /// of them.
+  /// of these candidates.
   std::vector<Candidate> candidates(const Neighbourhood& changes, std::size_t& entry,
                                     std::size_t& alternative, std::size_t size) const {
     std::vector<Candidate> batch;
@@ -90,9 +90,9 @@ class Shrinker {
     return batch;
   }
 
-  /// Whether a candidate is a query that is simpler than the best one so far; notes its complexity. If two
-  /// queries are equally complex, the one with smaller coordinates counts as simpler, so that no step undoes
-  /// another.
+  /// Whether a candidate is simpler than the best query so far. Notes the candidate's complexity. If two
+  /// queries are equally complex, the query with smaller coordinates counts as simpler, so that no step
+  /// undoes another step.
   bool is_simpler(Candidate& candidate) const {
     Numbers& x = candidate.numbers;
     for (double& c : x) c += 0.0;  // turns -0 into 0

@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// The index of the first of some queries that fails; nothing if none does.
+/// Returns the index of the first query that fails; nothing if no query fails.
 using FindFailing = std::function<std::optional<std::size_t>(std::span<const Query>)>;
 
 /// Simplifies a failing query step by step, while it still fails. The steps are those of neighbourhoods.hpp:

@@ -19,10 +19,10 @@
 
 namespace nearmiss {
 
-/// Shrinks findings: during the trial on a thread of its own, for at most a tenth of all processors' time,
-/// and the remaining ones at the end. Findings of ordinary queries come first, and the first finding of each
-/// signature before the second. The order does not affect the shrunk queries. Only one thread at a time may
-/// call the functions of this class.
+/// Shrinks findings. During the trial, a separate thread shrinks them, for at most a tenth of all processors'
+/// time. At the end of the trial, all processors shrink the remaining findings. Findings of ordinary queries
+/// come first, and the first finding of each signature before the second. The order does not affect the
+/// shrunk queries. Only one thread at a time may call the functions of this class.
 class Shrinking {
  public:
   /// With `enabled`, shrinks kept findings (FirstFindings). Subjects and `stop` must outlive this object.

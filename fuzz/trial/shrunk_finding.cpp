@@ -44,11 +44,11 @@ bool ends_process(const Verdict& verdict) {
 }
 
 /// Refuses further queries when a limit is reached, and after a query over the subject's time limit. A
-/// subject that has exceeded its time limit once is asked one query at a time, so that the others of a batch
-/// are not asked again and again.
+/// subject that has exceeded its time limit once is asked one query at a time, so that the other queries of a
+/// batch are not asked again and again.
 class Limited final : public ForwardingSubject {
-  /// The subject's answer. Asking for it counts as the work of this many queries. Throws Error if a limit is
-  /// reached.
+  /// Asks the subject, which counts as the work of this many queries, and returns its answer. Throws Error if
+  /// a limit is reached.
   template <class Ask>
   auto asked(std::size_t queries, const Ask& ask) const {
     if (work_ <= 0 || is_slow_) throw Error("the subject has answered as many queries as it may");
@@ -123,10 +123,12 @@ class SameFailure {
   /// From now on, only these queries count as failing.
   void only(const NoMoreExotic& queries) { only_ = queries; }
 
-  /// From now on, only queries that `before` answers rightly count as failing. It must outlive this object.
+  /// From now on, only queries that `before` answers rightly count as failing. `before` must outlive this
+  /// object.
   void only_since(const Subject& before) { before_.emplace(before); }
 
-  /// The first query that fails. All are asked at once, or a few if each may end a process.
+  /// The first query that fails. All queries are asked at once; if each may end a process, only a few at a
+  /// time.
   std::optional<std::size_t> operator()(std::span<const Query> queries) const {
     const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
     for (std::size_t first = 0; first < queries.size(); first += at_once) {
@@ -193,8 +195,8 @@ class FindingShrinker::OfSubject {
   }
 
  private:
-  /// The simplest query that fails as the finding does, and is one of `among` if given. If `before` is not
-  /// null, that version answers the query rightly.
+  /// The simplest query that fails as the finding does. If `among` is given, only queries that it accepts
+  /// count. If `before` is not null, that version answers the query rightly.
   [[nodiscard]] Query shrunk_of(const Finding& finding, const std::optional<NoMoreExotic>& among,
                                 const OfSubject* before, const std::function<void()>& check) const {
     const Limited limited = limited_subject();
@@ -229,8 +231,8 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces what the subject gave for the original query by what it gives for the shrunk one, if it gives
-  /// anything.
+  /// Replaces a number that the subject gave for the original query by its number for the shrunk query, if it
+  /// gives one.
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
   }

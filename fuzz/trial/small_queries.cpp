@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
+constexpr std::size_t paths = 12;  // a path has coordinate i at t = 0 and coordinate i + 12 at t = 1
 constexpr std::array values{0, 1, -1, 2};
 constexpr int most_numbers = 3;  // the list has all queries with at most this many nonzero numbers
 using Integers = std::array<int, 24>;
@@ -208,7 +208,7 @@ SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
   }
 }
 
-/// Asks the subject about some queries, and notes how it fails.
+/// Asks the subject about some queries, and notes how the subject fails.
 void SmallFailures::ask(const Subject& subject, const Judge& judge, std::span<const SmallQuery> asked) {
   std::vector<Query> queries;
   for (const SmallQuery& each : asked) queries.push_back(each.query);

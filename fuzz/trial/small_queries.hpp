@@ -1,5 +1,5 @@
-// Queries over the integers -1, 0, 1 and 2, with or without h, with which the search for a simple example
-// begins.
+// Queries over the integers -1, 0, 1 and 2, with or without a separation h. The search for a simple example
+// begins with them.
 #pragma once
 
 #include <functional>
@@ -26,9 +26,9 @@ struct SmallQuery {
 
 /// All queries of a kind with at most three nonzero numbers (Complexity::numbers) in {-1, 1, 2}, and 4096
 /// random queries with more nonzero numbers; simplest first. Queries that differ only by the order or the
-/// direction of axes, by the numbering of vertices or by the direction of time occur once. With `apart`, it
-/// has each query with h = 1, 2, 1/2 and 1/4, unless the smallest distance is exactly h. The first call makes
-/// the list.
+/// direction of axes, by the numbering of vertices or by the direction of time occur once. With `apart`, the
+/// list has each query with h = 1, 2, 1/2 and 1/4, unless the smallest distance is exactly h. The first call
+/// makes the list.
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart = false);
 
 /// The small queries of a kind on which a subject fails.
@@ -38,8 +38,8 @@ class SmallFailures {
   /// between batches, and throws what `check` throws.
   SmallFailures(const Subject& subject, Kind kind, bool apart, const std::function<void()>& check);
 
-  /// The simplest query that fails in this way, and that `among` accepts if it is given; nothing if no query
-  /// does.
+  /// The simplest query that fails in this way; if `among` is given, the simplest such query that `among`
+  /// accepts. Nothing if there is no such query.
   [[nodiscard]] std::optional<SmallQuery> simplest(const Failure& failure,
                                                    const std::optional<NoMoreExotic>& among = {}) const;
 

@@ -23,7 +23,7 @@ inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fa
 /// What earlier cases show about one subject, for one kind and family.
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries over the time limit
-  /// The least ratio with which a false positive is kept as one of the farthest. The distance of any other
+  /// A false positive with at least this ratio is kept as one of the farthest. The distance of any other
   /// false positive need not be precise.
   double least_kept = 0;
 

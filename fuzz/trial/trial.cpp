@@ -51,8 +51,9 @@ class Judged {
   std::vector<Decision> decisions_;
 };
 
-/// By query: the bound that the subject claims, if its answer is a false positive. All bounds are asked at
-/// once, because a call of a plug-in's process takes longer than an answer. Empty if the subject claims none.
+/// For each query whose answer is a false positive, the bound that the subject claims. All bounds are asked
+/// at once, because a call of a plug-in's process takes longer than an answer. Empty if the subject claims no
+/// bound.
 std::vector<std::optional<BoundAnswer>> bounds_of(const Subject& subject, const Judged& judged,
                                                   const std::vector<Verdict>& answers) {
   if (!subject.claims_bound()) return {};
@@ -82,8 +83,8 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// A hash of some coordinates. Queries of other families and seeds with the same numbers are at the same places
-/// of batches, so a sample must not depend only on the number.
+/// A hash of some coordinates. A sample must not depend only on the numbers of queries, because queries with
+/// the same number are at the same place of a batch in every family and for every seed.
 std::uint64_t hash_of(const Query& query) {
   const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(query.x[i]); };
   return bits(0) ^ std::rotl(bits(13), 32);
@@ -123,9 +124,9 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Asks the subject about a sample once more: fewer queries at once, in another order. If it answers
-/// otherwise this time, that is a fault; if it has a fault this time, that fault counts. Times of impact may
-/// differ, because rounding may depend on the place in a vector.
+/// Asks the subject about a sample once more: fewer queries at once, in another order. If its decision is
+/// different this time, that is a fault; if it has a fault this time, that fault counts. Times of impact may
+/// differ, because rounding may depend on a query's place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again;
   ask(subject, sample.queries, timed, again);

@@ -18,7 +18,7 @@ namespace nearmiss {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// Pointers to the subjects, which must outlive them.
+/// Pointers to the subjects. The subjects must outlive the pointers.
 inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   std::vector<const Subject*> pointers;
   for (const auto& subject : subjects) pointers.push_back(subject.get());
@@ -26,7 +26,8 @@ inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
 }
 
 /// Queries of one kind and family that are decided, timed and counted together. Either all of them have a
-/// separation h > 0, or none has. A subject that takes no separation is asked only batches without.
+/// separation h > 0, or none has. A subject that takes no separation is asked only about batches of contact
+/// (h = 0).
 struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
@@ -40,8 +41,8 @@ struct Batch {
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
   /// Returns the origin of query i of the batch. Called only for kept queries.
   std::function<std::string(std::size_t)> provenance = {};
-  /// If set, returns the place of query i in the order of a campaign. Trials without it pass on their
-  /// findings in order.
+  /// If set, returns the place of query i in the order of a campaign. If not set, findings are passed on in
+  /// the order of the batches.
   std::function<std::uint64_t(std::size_t)> place = {};
   /// If set, returns the values of the factors with which query i was made.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
@@ -91,7 +92,7 @@ struct Comparison {
 
 /// Puts the subjects on trial over a batch: times each over the whole batch, separately from the oracle, and
 /// judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is
-/// also the query that is kept. `known` is empty, or has for each subject what earlier queries showed. A
+/// also the query that is kept. `known` is empty, or has one entry for each subject, from earlier queries. A
 /// subject that is set aside (so_far.hpp) is not asked; if it is set aside within the batch, its later
 /// answers do not count. Throws Error for a coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},

@@ -25,7 +25,7 @@ class TrialStream {
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
-  /// Decides the remaining queries. After a request to stop, they are omitted.
+  /// Decides the remaining queries. After a request to stop, omits them.
   void finish();
 
  private:

@@ -58,7 +58,7 @@ std::size_t largest_slice(const Subjects& subjects, std::size_t usual) {
   return std::ranges::any_of(subjects, is_plugin) ? std::max(usual, 4 * Pace::usual) : usual;
 }
 
-/// The number of queries over the time limit in some counters.
+/// The number of queries over the time limit that the statistics count under this key.
 std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
   const auto found = statistics.counts.find(key);
   return found == statistics.counts.end() ? 0 : found->second.without_answer(Fault::time);
@@ -148,7 +148,7 @@ std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) cons
   return known;
 }
 
-/// Whether a piece of work, if it began now, would ask the subjects about the same queries.
+/// Whether a piece of work would ask the subjects about the same queries if it began again now.
 bool Trials::knew_enough(const OnItsWay& item) const {
   return std::all_of(item.before.begin(), item.before.end(), [&](const auto& each) {
     const auto& [key, before] = each;

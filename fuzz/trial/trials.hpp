@@ -39,8 +39,8 @@ class Trials {
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const Stop& stop() const { return stop_; }
   [[nodiscard]] int jobs() const { return jobs_; }
-  /// The number of queries that a batch should have, so that subjects get as many at once as they want. At
-  /// most 2^16, because each thread judges a batch of its own.
+  /// The number of queries that a batch should have, so that subjects get as many queries at once as they
+  /// want. The number is at most 2^16, because each thread judges a batch of its own.
   [[nodiscard]] std::size_t batch_size() const { return batch_size_; }
   /// How many queries of a family to make at once.
   [[nodiscard]] const Pace& pace() const { return pace_; }
@@ -59,8 +59,8 @@ class Trials {
   /// Passes on the results that have come since the last call.
   void pass_on();
 
-  /// Shrinks the findings that are not shrunk yet, and passes them on. Calls `report` several times a second
-  /// meanwhile.
+  /// Shrinks the findings that are not shrunk yet, and passes them on. Meanwhile, calls `report` several
+  /// times a second.
   void finish(const std::function<void()>& report = [] {});
 
  private:

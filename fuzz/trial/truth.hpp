@@ -30,8 +30,8 @@ class Truth {
   /// Whether t* exists: for a collision, or if the smallest distance is exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement: these answers differ from the decision, or a tie or an earliest time is
-  /// not proved. "" if all agree.
+  /// The signature of a disagreement. The methods disagree if these answers differ from the decision, or if a
+  /// tie or an earliest time is not proved. "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.
@@ -44,8 +44,8 @@ class Truth {
 
   /// The earliest time at which the distance is at most h, for a collision or a tie.
   EarliestTime& time();
-  /// The largest speed of a vertex of one primitive relative to a vertex of the other, in units of the pair's
-  /// bound B per step, up to rounding errors.
+  /// The largest speed of a vertex of one primitive relative to a vertex of the other primitive, divided by
+  /// the pair's distance bound B; rounded.
   [[nodiscard]] double relative_speed() const;
 
   /// The distance of a false positive, less the separation, divided by a unit of length.
@@ -54,7 +54,7 @@ class Truth {
     bool exceeds;  ///< whether the ratio is above 1, decided exactly
   };
   Distance distance(double unit);
-  /// Computes only distance().exceeds, in less time.
+  /// Returns Distance::exceeds for this unit, without computing the ratio.
   [[nodiscard]] bool exceeds(double unit) const;
 
   /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.

@@ -12,8 +12,9 @@
 namespace nearmiss {
 
 /// For each subject, the index of the earlier version: the first subject whose plug-in exports the same name,
-/// if that is another subject. A subject that is asked beyond its contract is compared with another such
-/// subject. `chosen` is empty, or has the names of two subjects: the second is then compared with the first.
+/// if that is another subject. A subject that is asked beyond its contract is compared only with a subject
+/// that is also asked beyond its contract. `chosen` is empty, or has the names of two subjects: the second is
+/// then compared with the first.
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
@@ -47,7 +48,7 @@ class VersionComparison {
 };
 
 /// Whether a subject's contract admits a query, and the subject answers the query rightly. A version of a CCD
-/// breaks a query if it fails on the query, and the version before it answers the query rightly.
+/// breaks a query if this version fails on the query, and the previous version answers it rightly.
 class AnswersRightly {
  public:
   /// The subject must outlive this object.

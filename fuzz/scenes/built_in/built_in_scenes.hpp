@@ -23,7 +23,7 @@ struct BuiltInScene {
   int default_size = 0;
   int smallest = 0, largest = 0;
   /// Makes the scene in a size of this range, without a name. The size is the approximate number of
-  /// triangles, or of lines or points if the scene consists of these.
+  /// triangles; if the scene consists of lines or points, their number.
   std::function<Scene(int size)> make;
   /// The points that follow the frames in a simulation, while physics moves all other points; null if the
   /// scene cannot be simulated.
@@ -33,8 +33,8 @@ struct BuiltInScene {
 /// All built-in scenes, in the order of `nearmiss scene --help`.
 const std::vector<BuiltInScene>& built_in_scenes();
 
-/// The scene in `among` that a text names, as NAME or NAME@SIZE; null if the text names none of them. The
-/// size is not checked.
+/// Finds the scene in `among` that a text names, as NAME or NAME@SIZE. Returns null if no scene has this
+/// name. The size is not checked.
 const BuiltInScene* find_scene(std::string_view text, std::span<const BuiltInScene> among);
 
 /// Makes a scene in its default size (NAME) or another size (NAME@SIZE). The text becomes its name. Throws

@@ -1,6 +1,6 @@
-// The functions that compute built-in scenes. So that every machine and compiler gives the same bits, they
-// use only operations whose rounding IEEE 754 prescribes, in a fixed order; neither a library's sine nor
-// Eigen's dot product qualifies.
+// The functions that compute built-in scenes. Every machine and compiler must give the same bits. So these
+// functions use only operations whose rounding IEEE 754 prescribes, in a fixed order. A library's sine may be
+// rounded in another way, and Eigen's dot product may use another order.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct CosSin {
 };
 
 /// Cosine and sine of an angle of less than 2^40 turns, with errors below 4e-16; the results for multiples of
-/// a quarter turn are exact. Computed with the Taylor series around the nearest quarter turn, at most an
-/// eighth of a turn away, whose remainder is below 5e-17.
+/// a quarter turn are exact. They come from the Taylor series around the nearest quarter turn, which is at
+/// most an eighth of a turn away. The remainder of the series is below 5e-17.
 CosSin cos_sin(double turns);
 
 /// The smoothed maximum of two numbers. If they differ by less than `blend`, the result exceeds the maximum
@@ -31,8 +31,8 @@ double dot(const Vector3<double>& a, const Vector3<double>& b);
 double length(const Vector3<double>& a);
 
 /// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. The product is computed
-/// as a sum of columns. For the rows, x cos - y sin and x sin + y cos, g++ 12 would use fused operations if
-/// the processor has them, even with -ffp-contract=off.
+/// as a sum of columns. It is not computed row by row, as x cos - y sin and x sin + y cos, because g++ 12
+/// would use fused operations for these rows if the processor has them, even with -ffp-contract=off.
 class Rotation {
  public:
   Rotation() = default;

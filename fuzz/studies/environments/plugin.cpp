@@ -1,5 +1,5 @@
-// One of our own CCDs behind the plug-in interface, in one mode of the processor. The macro ROUNDING is the
-// rounding mode; with the macro FLUSH, subnormal results and operands become zero. Each call sets the mode,
+// One of our own CCDs as a plug-in that runs in one mode of the processor. The macro ROUNDING is the rounding
+// mode. If the macro FLUSH is defined, subnormal results and operands become zero. Each call sets the mode,
 // and restores the caller's mode at its end.
 #include <algorithm>
 #include <cfenv>

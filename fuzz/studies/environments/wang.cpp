@@ -1,5 +1,5 @@
-// The failure-proof CCD, used as a header-only library: without the guard of arithmetic that built-in
-// subjects have.
+// The failure-proof CCD `wang`, used as a header-only library. Built-in subjects have a guard that sets the
+// mode of arithmetic; this CCD runs without that guard.
 #include "ccd/wang/wang.hpp"
 
 #include "ccd/subjects/subject.hpp"

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The computing time of the ended children that a process has waited for, and of the children that these
-/// have waited for.
+/// The computing time of the ended children that a process has waited for, and of all ended processes that
+/// these children have waited for.
 Duration time_of_ended_children(pid_t process) {
   const std::string text = text_about_process("/proc/" + std::to_string(process) + "/stat");
   std::istringstream fields(text.substr(text.rfind(')') + 1));  // after the name, which may contain ')'
@@ -43,7 +43,7 @@ void add_children(pid_t process, std::vector<pid_t>& found) {
 
 /// A process and all its descendants.
 std::vector<pid_t> processes_of_tree(pid_t root) {
-  constexpr std::size_t most = 1024;  // a limit, since processes may start faster than this loop finds them
+  constexpr std::size_t most = 1024;  // because processes may start faster than this loop finds them
   std::vector<pid_t> processes{root};
   for (std::size_t i = 0; i < processes.size() && processes.size() < most; ++i)
     add_children(processes[i], processes);

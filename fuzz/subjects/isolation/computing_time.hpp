@@ -16,7 +16,7 @@ Duration computing_time(pid_t process);
 /// Computing times of several processes.
 struct ComputingTime {
   Duration running{};  ///< of processes that exist
-  Duration ended{};    ///< of ended processes whose parents have waited for them; accurate to a clock tick
+  Duration ended{};    ///< of ended processes that their parents have waited for; accurate to a clock tick
 
   [[nodiscard]] Duration sum() const { return running + ended; }
 };
@@ -28,7 +28,8 @@ Duration clock_tick();
 /// file /proc/PID/task/TID/children (proc(5)), as the kernels of distributions do.
 ComputingTime computing_time_of_tree(pid_t root);
 
-/// The largest Memory::data, in bytes, among a process and its descendants, which are found in the same way.
+/// The largest Memory::data, in bytes, of a process and its descendants. Descendants are found as in
+/// computing_time_of_tree().
 std::uint64_t largest_data_of_tree(pid_t root);
 
 }  // namespace nearmiss::isolation

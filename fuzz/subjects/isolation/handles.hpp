@@ -48,7 +48,7 @@ class SharedMemory {
  public:
   SharedMemory() = default;
   /// With `others_may_write`, other processes can write to the memory. Throws NoWorker if the system refuses
-  /// it.
+  /// the memory.
   SharedMemory(const char* name, std::size_t bytes, bool others_may_write)
       : file_(memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING)), bytes_(bytes) {
     check(file_.number() >= 0 && ftruncate(file_.number(), static_cast<off_t>(bytes)) == 0, "memory");
@@ -74,8 +74,8 @@ class SharedMemory {
     return static_cast<Content*>(start_);
   }
 
-  /// Makes the system provide memory for the first `bytes`, so that their use cannot fail later. Returns
-  /// whether the system has enough.
+  /// Makes the system provide memory for the first `bytes` bytes, so that their use cannot fail later.
+  /// Returns whether the system has enough memory.
   [[nodiscard]] bool reserve(std::size_t bytes) const {
     return fallocate(file_.number(), 0, 0, static_cast<off_t>(bytes)) == 0;
   }

@@ -117,8 +117,8 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
  private:
-  /// What a worker has done in its last call: it answered the first `count` queries, and failed on the next
-  /// one if `failure` is set.
+  /// What a worker has done in its last call: it answered the first `count` queries. If `failure` is set, it
+  /// failed on the next query.
   struct Done {
     const WorkerProcess* worker;  ///< null if no worker could be started
     std::size_t first;            ///< index of the call's first query among all queries
@@ -166,8 +166,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch: as many queries of one kind as a worker gets at once, such that the plug-in
-  /// can decide either all or none of them.
+  /// The size of the next batch: the first queries of one kind, at most as many as a worker gets at once. The
+  /// plug-in can decide either all queries of the batch or none.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -199,11 +199,11 @@ class IsolatedPlugin final : public DescribedSubject {
 
   /// Makes a worker perform the request for one batch. If a worker cannot be used any more, a new worker
   /// replaces it and continues after the query that failed. If there are several suspects, they are asked
-  /// again in parts, a failing part in smaller parts, and at last query by query, to find the query that is
-  /// to blame. If a part fails, but none of its own parts does, the last query of the part is to blame,
-  /// since a failure that depends on earlier queries, such as a crash at every 1000th query, is also a
-  /// fault. (If the part was only late, no query is to blame, because the queries together may take that
-  /// long.) `late` counts the queries over the time limit.
+  /// again to find the query that is to blame: first in parts, then a failing part in smaller parts, and at
+  /// last query by query. If a part fails, but none of its own parts fails, the last query of the part is to
+  /// blame. For a failure that depends on earlier queries, such as a crash at every 1000th query, is a fault,
+  /// too. (If the part was only late, no query is to blame, because all queries together may take that long.)
+  /// `late` counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -251,7 +251,7 @@ class IsolatedPlugin final : public DescribedSubject {
     }
   }
 
-  /// Queries that are asked again in parts, because one of them may be to blame for a failure.
+  /// Queries that are asked again in parts, to find the query that is to blame for a failure.
   struct Repeated {
     std::uint32_t end, part;
     std::optional<WorkerFailure> failure;  ///< set until a query is blamed for it
@@ -338,11 +338,11 @@ class IsolatedPlugin final : public DescribedSubject {
   PluginLimits limits_;
   mutable std::atomic<std::uint32_t> in_a_call_ = static_cast<std::uint32_t>(isolation::capacity_for(info()));
   mutable FaultTexts texts_;
-  mutable std::atomic<int> failed_starts_ = 0;  // consecutive ones
+  mutable std::atomic<int> failed_starts_ = 0;  // number of consecutive failed starts
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // at the last failed start
-  /// What the process wrote at the last fault with this code, for each thread that asked. A thread reads it
-  /// right after its fault, so it is not that of another thread's query.
+  /// What the process wrote at the last fault with this code. Each thread has its own entry and reads it
+  /// right after its fault, so it gets the text of its own query.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

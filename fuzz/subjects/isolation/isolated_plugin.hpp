@@ -17,9 +17,9 @@ namespace nearmiss {
 /// exception. The plug-in's output is discarded. Throws Error if the plug-in cannot be loaded, or has several
 /// detectors and the name chooses none.
 ///
-/// All answers come from the same bytes: if a file is changed, calls throw isolation::PluginChanged, and the
-/// answers of the current call are not used. If the system starts no worker for ten seconds, calls throw
-/// isolation::NoWorker.
+/// All answers come from the same bytes: if a file of the plug-in is changed, calls throw
+/// isolation::PluginChanged, and the answers of the current call are not used. If the system starts no worker
+/// for ten seconds, calls throw isolation::NoWorker.
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 
@@ -30,7 +30,7 @@ std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& n
 /// Identifies the code of a plug-in.
 struct PluginIdentity {
   std::string path;      ///< path or command with options, as given, and the detector if the file has several
-  std::string version;   ///< that the plug-in states; "" if it states none
+  std::string version;   ///< the version that the plug-in states; "" if it states none
   std::string sha256;    ///< of the file, in hexadecimal
   std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none
 };

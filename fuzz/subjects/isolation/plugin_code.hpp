@@ -11,7 +11,7 @@
 
 namespace nearmiss::isolation {
 
-/// The files that a command names; that of the program comes first. A command may begin with "cd FOLDER &&
+/// The files that a command names. The program's file comes first. A command may begin with "cd FOLDER &&
 /// exec".
 std::vector<std::string> files_of_program(std::string_view command);
 
@@ -25,7 +25,7 @@ class PluginCode {
 
   /// The plug-in's name on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// The SHA-256 digest of the file, in hexadecimal; if there are several files, that of their digests.
+  /// The SHA-256 digest of the file, in hexadecimal. For several files, the digest of the files' digests.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
   /// The GNU build id of a shared object, in hexadecimal; "" if it has none.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }

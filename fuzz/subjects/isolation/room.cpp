@@ -43,7 +43,7 @@ std::uint64_t memory_left(const std::filesystem::path& root) {
   const std::string version_2 = "0::/";
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with(version_2)) continue;
-    // A group may have a limit of its own, or share the limit of a group around it.
+    // A group may have its own limit, and the limits of the groups that contain it also apply.
     std::filesystem::path within = line.substr(version_2.size());
     for (left = std::min(left, left_in(root / "sys/fs/cgroup")); !within.empty();
          within = within.parent_path())

@@ -15,7 +15,7 @@ inline constexpr int reply_socket = 3;   ///< a `Call` requests something; its n
 inline constexpr int status_socket = 4;  ///< a `Status` for each change
 inline constexpr int answers_memory = 5;
 
-/// The number of queries for which a worker always has memory. Some detectors want more at once.
+/// The number of queries for which a worker always has memory. Some detectors want larger batches.
 inline constexpr std::size_t least_capacity = 2048;
 
 /// The reply to a call if the plug-in breaks the protocol, so that its answers cannot be used.
@@ -43,19 +43,20 @@ struct Call {
 };
 
 /// A message about the plug-in's process. The first one comes from that process before it loads the plug-in,
-/// and its credentials (unix(7)) name the process; the other one comes from the supervisor when the process
-/// has ended.
+/// and its credentials (unix(7)) name the process. The second message comes from the supervisor when the
+/// process has ended.
 struct Status {
-  std::int32_t code = 0;             ///< si_code when it has ended
+  std::int32_t code = 0;             ///< si_code when the process has ended
   std::int32_t status = 0;           ///< si_status
-  std::int32_t is_in_namespace = 0;  ///< in the first message: 1 if it is in a PID namespace of its own
-  /// In the other message: the end of what the process wrote to standard error, up to the first zero.
+  std::int32_t is_in_namespace = 0;  ///< in the first message: 1 if the process has its own PID namespace
+  /// In the second message: the end of what the process wrote to standard error, up to the first zero.
   std::array<char, 2048> errors{};
 };
 
 /// The layout of the questions and answers of a batch of n queries in two blocks of shared memory. The layout
 /// has no gaps, so a small batch uses only the start of blocks that have room for a large one. nearmiss
-/// writes the questions; the worker can only read them. The worker writes the answers; so can the plug-in.
+/// writes the questions, which the worker can only read. The worker writes the answers; the plug-in can write
+/// to them, too.
 struct BatchMemory {
   double* questions;
   std::byte* answers;
@@ -116,7 +117,7 @@ struct SharedAnswers {
   std::atomic<std::uint64_t> threw{0};  ///< the last call that an exception ended, at the query `current`
   // Written after loading, before any request:
   PluginDescription about;
-  std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can
+  std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can be used
 };
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free &&

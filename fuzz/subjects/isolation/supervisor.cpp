@@ -33,8 +33,8 @@ class Spawn {
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
-    // If our parent blocks or ignores a signal, the plug-in would inherit that, and behave differently or
-    // hide how it ended.
+    // If our parent blocks or ignores a signal, the plug-in would inherit this setting. It might then behave
+    // differently, or end in a way that hides the cause.
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);
@@ -51,8 +51,8 @@ class Spawn {
   }
 
   void pass(int descriptor, int number) {
-    // The copies get numbers above all numbers to be given, so that none overwrites a descriptor that is
-    // still needed.
+    // The copies get larger numbers than any number that the program's descriptors will have. So no copy
+    // overwrites a descriptor that is still needed.
     constexpr int above = 16;
     passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
     check(passed_.back().number() >= 0, "descriptor");
@@ -143,7 +143,7 @@ bool Supervisor::learns_process(const Stop& stop) {
   ucred sender{};  // has the number of the process in this process's namespace
   std::memcpy(&sender, CMSG_DATA(attached), sizeof sender);
   process_ = sender.pid;
-  // Otherwise, a plug-in without a namespace could write to the memory of nearmiss through /proc.
+  // Without this call, a plug-in that has no namespace could write to the memory of nearmiss through /proc.
   if (first.is_in_namespace == 0) prctl(PR_SET_DUMPABLE, 0);
   return process_ > 0;
 }

@@ -50,9 +50,9 @@ class Supervisor {
   [[nodiscard]] int socket() const { return status_.number(); }
 
  private:
-  /// Receives the first message, which names the plug-in's process; false if none comes.
+  /// Receives the first message, which names the plug-in's process. Returns false if no message comes.
   [[nodiscard]] bool learns_process(const Stop& stop);
-  /// Waits for the first message; false if none comes.
+  /// Waits for the first message. Returns false if no message comes.
   [[nodiscard]] bool hears_from_worker(const Stop& stop) const;
 
   Descriptor status_;

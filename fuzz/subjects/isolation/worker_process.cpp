@@ -47,9 +47,9 @@ std::string lines_of(const Status& ended) {
   return lines;
 }
 
-// The computing time that the worker itself needs for a timed call, with empty caches on a busy machine: to
-// receive the call, to ask the empty subject twice, and to reply. In 1,500 calls on two busy cores, the
-// median was 20 microseconds and the longest 1,500.
+// The computing time that the worker itself needs for a timed call, with empty caches on a busy machine. The
+// worker receives the call, asks the empty subject twice, and replies. In 1,500 calls on two busy cores, the
+// median was 20 microseconds, and the longest time was 1,500 microseconds.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
 constexpr double most_asked_twice = 2;  // the worker may ask about queries twice: to warm up, and to measure
                                         // the time
@@ -66,8 +66,8 @@ void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
 
-/// The largest number of times that a request calls the plug-in for one query: to warm up, and timed, or
-/// three tries.
+/// The largest number of times that a request calls the plug-in for one query: two for a timed batch (once to
+/// warm up), three for the time of a single query.
 double calls_per_query(Request request) {
   return request == Request::decide_timed ? 2 : request == Request::time_each ? 3 : 1;
 }
@@ -199,7 +199,7 @@ std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervis
 
 void WorkerProcess::load(const std::string& plugin) {
   // This process checks the memory, because the system's limit does not count data that is mapped in place of
-  // something else, as static data is. The worker itself may need a little more than now.
+  // something else, as static data is. The worker itself may also need a little more memory than it has now.
   constexpr std::uint64_t of_worker = 1 << 20;
   most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};

@@ -23,8 +23,8 @@ namespace nearmiss::isolation {
 
 /// The limits of a plug-in.
 struct PluginLimits {
-  /// The limit for a query: computing time of all threads and processes of the plug-in together. Ten times as
-  /// much wall-clock time may pass.
+  /// The limit for a query, on the sum of the computing times of all threads and processes of the plug-in.
+  /// The wall-clock time may be ten times as long.
   Duration time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that loading may take
@@ -39,8 +39,9 @@ struct PluginLimits {
 /// The most queries that a worker gets at once: as many as the detector wants, but at least least_capacity.
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
-/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries, or of as many as
-/// the worker can take at once if these are fewer. Throws a TrialError if they exceed the plug-in's limit.
+/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries; if the worker
+/// takes fewer queries at once, for the largest batch that it takes. Throws a TrialError if this memory
+/// exceeds the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A request about several queries may take this many times the limit of one query.
@@ -56,10 +57,10 @@ struct WorkerFailure {
   std::uint32_t query;  ///< its index in the batch
   Fault fault;
   std::int32_t code = 0;    ///< for a crash: the signal, or the negated exit code
-  std::string text = {};    ///< for an exception: what it says; for a failure to load: why
-  std::string errors = {};  ///< the end of what the process wrote to standard error, if it has ended
-  /// The number of queries, from `query` on, that were asked together, so that any of them may be to blame; 0
-  /// if `query` is to blame.
+  std::string text = {};    ///< for an exception: its message; for a failure to load: the reason
+  std::string errors = {};  ///< if the process has ended: the end of its output to standard error
+  /// 0 if `query` caused the failure. Otherwise, the number of queries, from `query` on, that were asked
+  /// together; any of them may have caused it.
   std::uint32_t suspects = 0;
   bool goes_on = false;  ///< the worker can be used for other queries
 };
@@ -100,10 +101,11 @@ class WorkerProcess {
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
   /// Further numbers of the answer to a question about one query: weights, or positions.
   [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
-  /// Times in ns that the worker measured in the last call: of the whole call, or of query i. They are
-  /// limited to the time that the call took. The time of the call is also at least half of the computing time
-  /// of all threads and processes of the plug-in (less what the worker itself may compute): half, because the
-  /// plug-in may have decided each query twice. The first call has no such lower limit.
+  /// Times in ns that the worker measured in the last call: of the whole call, or of query i. A time that is
+  /// longer than nearmiss's own time for the call is replaced by the latter. The time of the whole call is
+  /// also raised to at least half of the computing time of all threads and processes of the plug-in, less the
+  /// part that the worker itself may compute. It is half because the plug-in may have decided each query
+  /// twice. The first call has no such lower limit.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});
@@ -125,7 +127,7 @@ class WorkerProcess {
   struct Elapsed {
     Duration computing{};
     Duration passed{};   ///< excludes the time in which nearmiss was suspended
-    Duration certain{};  ///< the part of the computing time that certainly belongs to this call
+    Duration certain{};  ///< the part of the computing time that is known to belong to this call
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
     /// The limit for work that may compute for this long, and may also wait for a device or a processor.
     static Elapsed with_waiting(Duration computing);
@@ -142,8 +144,8 @@ class WorkerProcess {
   void give(std::span<const Query> queries);
   /// The computing time of the plug-in's process.
   [[nodiscard]] Duration own_computing() const;
-  /// Updates others_ and others_compute_. This takes longer than a call of a fast plug-in, so it is done
-  /// seldom; if the plug-in has processes that compute, in each call.
+  /// Updates others_ and others_compute_. This takes longer than a call of a fast plug-in. So it is done in
+  /// each call only if the plug-in has processes that compute, and seldom otherwise.
   void look_at_others();
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
@@ -173,7 +175,7 @@ class WorkerProcess {
   std::uint64_t call_ = 0;
   std::uint64_t most_data_ = 0;  ///< limit of data() while the plug-in is loaded, if memory is limited
   bool is_waiting_ = false;      ///< for a call
-  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set when it is dismissed
+  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set by dismiss()
   Elapsed elapsed_;                                                 ///< of the last call
   ComputingTime others_;         ///< of all processes of the worker except the plug-in's
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes

@@ -55,7 +55,7 @@ class DoubleDouble {
   friend DoubleDouble ldexp(const DoubleDouble& a, int exponent) {
     return DoubleDouble(dd_real(std::ldexp(a.value_.x[0], exponent), std::ldexp(a.value_.x[1], exponent)));
   }
-  /// The ilogb of the higher part; it exceeds that of the sum by at most one.
+  /// The ilogb of the larger of the two doubles. It exceeds the ilogb of their sum by at most one.
   friend int ilogb(const DoubleDouble& a) { return std::ilogb(a.value_.x[0]); }
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 

@@ -26,8 +26,8 @@ struct Scalar {
 /// The scalar with this number of bits, such as "p40".
 Scalar bits_scalar(int bits);
 
-/// The scalar "dd-normals": double, with double-double for normals and weights. It is no rung of the ladder,
-/// because its ε is that of double.
+/// The scalar "dd-normals": double, with double-double for normals and weights. It is not among the scalars
+/// that are ordered by precision (named_scalars), because its ε is that of double.
 Scalar double_with_wide_normals();
 
 }  // namespace ladder
@@ -40,7 +40,7 @@ std::vector<ladder::Scalar> named_scalars();
 
 /// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". `given_bound` means the
 /// same as for make_subject. Returns null if both the algorithm and the scalar are unknown. Throws Error if
-/// only one of them is.
+/// only one of the two is unknown.
 std::unique_ptr<Subject> try_make_scaled(std::string_view name, std::optional<double> given_bound);
 
 }  // namespace nearmiss

@@ -2,15 +2,15 @@
 // with Bernstein sign classification", 2014), with the arithmetic of root parity.
 // From github.com/Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, 8db61b2c.
 // Licence: research, no fee (LICENSE.BSC.txt).
-// Question: contact. Contract: none. It throws an exception, so a query has no answer, if the cubic has an
-// inflection point in the time step. The authors say that they do not handle this case exactly.
+// Question: contact. Contract: none. If the cubic has an inflection point in the time step, the code throws
+// an exception, so the query has no answer. The authors say that they do not handle this case exactly.
 // $BSC is the repository, with its code compiled into libbsc.a (g++ needs -frounding-math for it):
 //
 //   tools/subject fuzz/subjects/peers/bsc.cpp -- -I$BSC $BSC/libbsc.a
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
-// This header uses the three above without including them.
+// <bsc.h> uses the three headers above without including them.
 #include <bsc.h>
 
 #include "ccd/nearmiss_functions.hpp"

@@ -4,11 +4,11 @@
 // motions come within the thickness, then calls the CCD with eta = 0.1. The largest step that the CCD allows
 // is the time.
 // From github.com/ipc-sim/Codim-IPC, 9c6cbe3. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its thickness; the time is a lower bound. The code takes
-// displacements, which are rounded; the solver computes the ends from them. The option eta is the share of
-// the distance that remains.
-// Contract: farther apart at t = 0 than the thickness. The solver ensures this, and the code divides by the
-// distance.
+// Question: contact, or a separation, which the code calls thickness. The time is a lower bound. The code
+// takes displacements, which are rounded; the solver computes the ends from them. The option eta is the share
+// of the distance that remains.
+// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, and the
+// code divides by the distance.
 // $CODIM_IPC is the repository, whose headers contain the whole code, and include pybind11:
 //
 //   tools/subject --pkg-config 'eigen3 python3-embed' fuzz/subjects/peers/codim-ipc.cpp --
@@ -16,7 +16,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <vector>
-// This header uses the three above without including them.
+// The header below uses the three headers above without including them.
 #include <Math/Distance/CCD.h>
 
 #include "ccd/nearmiss_functions.hpp"
@@ -35,7 +35,7 @@ constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"eta", &Settings:
 /// A vertex, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Tests the boxes; if they meet, whether the n vertices collide.
+/// Tests whether the boxes meet. If they meet, tests whether the n vertices collide.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

@@ -7,8 +7,8 @@
 // From github.com/evouga/collisiondetection, e5fe5c9. Licence: none stated.
 // Question: a separation, which becomes CTCD's eta. eta is at least the value of the option eta=1e-6, also
 // for contact, as in example/testCTCD.cpp: with an eta of 0, CTCD finds no collision.
-// Contract: farther apart at t = 0 than eta. CTCD's velocity filter refuses a start that is closer
-// (STARTING_STATE_INTERSECTS in VelocityFilter.h).
+// Contract: the primitives are farther apart at t = 0 than eta. CTCD's velocity filter refuses a start that
+// is closer (STARTING_STATE_INTERSECTS in VelocityFilter.h).
 // $CTCD is the repository:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/ctcd.cpp -- -I$CTCD/include $CTCD/src/CTCD.cpp

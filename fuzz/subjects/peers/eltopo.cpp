@@ -5,8 +5,8 @@
 // indices ascend, and the function also finds the place of contact. El Topo gives no time.
 // From github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
 // Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
-// Contract: apart at t = 0, because El Topo starts from a surface without intersections, and keeps it so. For
-// root parity, also at most one root.
+// Contract: the primitives are apart at t = 0, because El Topo starts from a surface without intersections,
+// and keeps it free of them. For root parity, F also has at most one root.
 // $ELTOPO is the repository, with its code compiled into libeltopo.a. Root parity rounds upwards, which the
 // compiler must know (g++ needs -frounding-math). The command for that version also has -o
 // build/release/peers/eltopo-root-parity.so:

@@ -6,17 +6,19 @@
 // reached. It looks for contact until t = 1.1; a time after 1 does not shorten the step, and counts as no
 // collision.
 // From github.com/spiriMirror/libuipc, 619a5412, with github.com/MuGdxy/muda, 6c752f9c. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its thickness; the time is a lower bound. The code takes
-// displacements, which are rounded. The option d-hat=0.01 is the margin of the boxes, with libuipc's default.
-// Contract: farther apart at t = 0 than the thickness. The solver ensures this, and the code divides by the
-// distance.
+// Question: contact, or a separation, which libuipc calls thickness. The time that it gives is a lower bound.
+// The code takes displacements, which are rounded. The option d-hat is the margin of the boxes; its default,
+// 0.01, is libuipc's.
+// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, and the
+// code divides by the distance.
 // $LIBUIPC and $MUDA are the repositories, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/libuipc.cpp -- -std=c++20
 //       -I$LIBUIPC/src/backends/cuda -I$LIBUIPC/include -I$MUDA/src -I$CUDA/include -I$CUDA/include/cccl
 #include <Eigen/Dense>
 #include <algorithm>
-// These headers use the two above without including them, and the second one uses the first.
+// The headers below use <Eigen/Dense> and <algorithm> without including them, and the second header below
+// uses the first.
 #include <utils/distance/distance_flagged.h>
 
 #include <utils/distance/ccd.h>
@@ -38,7 +40,7 @@ constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"d-hat", &Setting
 /// A vertex, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Tests the boxes; if they meet, whether the n vertices collide.
+/// Tests whether the boxes meet. If they meet, tests whether the n vertices collide.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

@@ -1,8 +1,9 @@
 // The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric
 // modeling", 2011, in the implementation of the Tight-Inclusion authors). It looks for the times at which the
-// distance is equal to a separation, and accepts those at which the squared distance is at most h² + h / 10.
-// With h = 0, this leaves no room for rounding, and it finds hardly any collision, so this adapter always
-// passes a separation h > 0. The root finder does not notice if the distance is already below h at t = 0.
+// distance is equal to a separation h, and accepts the times at which the squared distance is at most h² + h
+// / 10. With h = 0, this leaves no room for rounding, and the root finder finds hardly any collision. So this
+// adapter always passes a separation h > 0. The root finder does not notice if the distance is already below
+// h at t = 0.
 // From github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence: MIT.
 // Question: a separation, 1e-8 if asked for contact; the time is an estimate.
 // Contract: more than 1e-8 apart at t = 0.
@@ -18,8 +19,8 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// The separation that stands for contact: the one with which its authors ask for collisions at distance 0 in
-/// their benchmark (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
+/// The separation that stands for contact. The authors of this implementation use it in their benchmark when
+/// they ask for collisions at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
 constexpr double contact = 1e-8;
 
 Answer decide(const Question& q) {

@@ -6,13 +6,14 @@
 // 1.25 is a collision, and so is a pair that comes within a hundredth of the contact gap, where the solver
 // parks pairs.
 // From github.com/st-tech/ppf-contact-solver, f23b356. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its contact offset; the time is a lower bound. The options
-// have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25 (line-search-max-t).
+// Question: contact, or a separation, which the code calls contact offset. The time is a lower bound. The
+// options have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25
+// (line-search-max-t).
 // Contract: farther apart at t = 0 than the separation, and farther than 5e-6. From a closer start, the
 // solver stops with the error OverlappingStart, and accd.hpp argues that the solver keeps a clearance of half
 // the distance at which it parks pairs. No edge or path is longer than 10, because the margin for rounding is
-// given for "a scene of radius 10". (With a separation, primitives would have to be 5e-6 farther apart than
-// it, which a contract cannot say.)
+// given for "a scene of radius 10". (With a separation, the primitives would have to be farther apart than
+// the separation plus 5e-6, which a contract cannot say.)
 // $PPF is the repository, whose header contains the whole code, and $CUDA is the folder of CUDA's headers. No
 // GPU is needed:
 //

@@ -33,8 +33,8 @@ Answer decide(const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// 41 B ε^¼ with ε^¼ = 2^-13: the paper's claim, and half of `gap` in the code, where `gap` is said to be
-/// twice the largest distance of a false positive.
+/// 41 B ε^¼ with ε^¼ = 2^-13, as the paper claims. This is also half of `gap` in the code, which says that
+/// `gap` is twice the largest distance of a false positive.
 double distance_bound(void* /*state*/, int kind, const double* x) {
   const Question q{kind, x, 0};
   return 41 * 0x1p-13 *

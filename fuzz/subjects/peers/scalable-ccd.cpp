@@ -12,8 +12,9 @@
 // queue exceeds 2^24 domains, the answer here is "cannot tell"; the original enlarges its queue and asks
 // again, until the GPU's memory is full.
 // From github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
-// Question: contact, or a separation, which is its min_distance; the time is a lower bound. The options have
-// the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7 (-1: no limit).
+// Question: contact, or a separation, which the code calls min_distance. The time is a lower bound. The
+// options have the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7 (-1: no
+// limit).
 // Contract: none.
 // $SCALABLE_CCD is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed.
 // $EXCERPT is a folder with two files that you make: root_finder_kernels.cuh is an excerpt of
@@ -91,7 +92,8 @@ auto max(A a, B b) {
 }
 
 #include <scalable_ccd/cuda/narrow_phase/interval.cuh>
-// These headers and the excerpt use the header above without including it, and CUDA's names.
+// The headers below and the excerpt (root_finder_kernels.cuh) use CUDA's names, and use interval.cuh without
+// including it.
 #include <scalable_ccd/cuda/narrow_phase/ccd_buffer.cuh>
 #include <scalable_ccd/cuda/narrow_phase/ccd_config.cuh>
 #include <scalable_ccd/cuda/narrow_phase/ccd_data.cuh>
@@ -115,7 +117,7 @@ struct Settings {
 constexpr std::array<nearmiss::Option<Settings>, 2> settings{
     {{"tolerance", &Settings::tolerance, 1e-300, 1e300}, {"iterations", &Settings::iterations, -1, 2e9}}};
 
-/// The number of domains that the queue holds, which is more than 1e7 iterations can add.
+/// The number of domains that the queue can hold. It is larger than the number that 1e7 iterations can add.
 constexpr unsigned capacity = 1U << 24;
 
 /// The memory of the queue: 0.9 GB, of which the system provides only the parts that are used.

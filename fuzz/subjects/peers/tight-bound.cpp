@@ -7,7 +7,7 @@
 //
 //   tools/subject fuzz/subjects/peers/tight-bound.cpp -- -isystem $TIGHT_CCD/src
 #include <cassert>
-// This header uses the one above without including it.
+// The header below uses <cassert> without including it.
 #include <bsc_tightbound.h>
 
 #include "ccd/nearmiss_functions.hpp"

@@ -76,8 +76,8 @@ void handle(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
-/// Writes the functions that led to a crash to standard error, the innermost first, without those of this
-/// program. Ends the process by the signal of the crash, also if the stack cannot be read, or not in time.
+/// Writes the functions that led to a crash to standard error, the innermost first, except the functions of
+/// this program. Ends the process by the signal of the crash, even if the stack cannot be read in time.
 extern "C" void write_stack_and_end(int signal) {
   constexpr itimerval patience{{}, {0, 20'000}};
   constexpr int of_handler = 2;  // functions
@@ -117,8 +117,8 @@ void begin(std::uint32_t i) {
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Notes that queries are answered by a call, or by none (0). Must come after the answers are written,
-/// because the process may end at any moment.
+/// Notes for n queries the number of the call that answered them (0: no call). Must be called after the
+/// answers are written, because the process may end at any moment.
 void note(std::uint64_t* calls, std::uint32_t n, std::uint64_t call) {
   for (std::uint32_t i = 0; i < n; ++i) std::atomic_ref(calls[i]).store(call, std::memory_order_release);
 }
@@ -160,8 +160,8 @@ class Asking {
   }
 
   /// Asks the plug-in's detector about the whole batch, and measures the time of all threads, since a plug-in
-  /// may have threads of its own. First decides some queries to bring the code into the caches, unless the
-  /// first one takes so long that caches make no difference.
+  /// may have threads of its own. Before that, makes the detector decide some queries, to bring its code into
+  /// the caches, unless the first query takes so long that caches make no difference.
   std::uint64_t time_of_warm() {
     constexpr std::uint64_t long_query = 1'000'000;
     const std::uint32_t all = call_.queries;
@@ -290,7 +290,7 @@ bool receive(Call& call, std::uint32_t most, Files* files = nullptr) {
   return true;
 }
 
-/// Maps shared memory, and closes its file. Null if that fails.
+/// Maps shared memory, and closes its file. Returns null if the memory cannot be mapped.
 template <class Memory>
 Memory* map(int file, int protection, std::size_t bytes) {
   void* const memory = mmap(nullptr, bytes, protection, MAP_SHARED, file, 0);

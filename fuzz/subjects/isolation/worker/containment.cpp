@@ -41,8 +41,8 @@ void write_to(const char* path, const std::string& text) {
   close(file);
 }
 
-/// Enters new namespaces. Makes a new user namespace only if this fails otherwise, because root has its
-/// rights to files only in its own user namespace.
+/// Enters new namespaces. First tries without a new user namespace, because root has its rights to files only
+/// in its own user namespace.
 bool enter(int namespaces) {
   if (unshare(namespaces) == 0) return true;
   const auto same = [](unsigned id) { return std::to_string(id) + ' ' + std::to_string(id) + " 1"; };

@@ -12,26 +12,27 @@ void close_files();
 /// Keeps crashes from writing a file "core", which could replace a file of the user.
 void forbid_core_dumps();
 
-/// Makes the system, when it or a cgroup is out of memory, end this process or one of its descendants first.
-/// These processes can undo this only if neither a namespace nor Landlock keeps them from writing to /proc.
+/// Asks the system to end this process or one of its descendants before all other processes when the system
+/// or a cgroup is out of memory. If neither a namespace nor Landlock keeps these processes from writing to
+/// /proc, they can withdraw this request.
 void be_ended_first_for_want_of_memory();
 
-/// Limits the processes and threads of the user to `more` above their present number. The limit binds this
-/// process and its descendants; the system does not apply it to root.
+/// Limits the number of the user's processes and threads to the present number plus `more`. The limit binds
+/// this process and its descendants; the system does not apply it to root.
 void limit_processes(unsigned long more);
 
 /// Makes the first child of this process become process 1 of a new PID namespace. When process 1 ends, the
 /// system ends every process of its namespace. The child also gets a network namespace, a mount namespace,
-/// and an IPC namespace; with the IPC namespace, the system removes the System V shared memory in it. Returns
+/// and an IPC namespace. When the IPC namespace ends, the system removes its System V shared memory. Returns
 /// false if the system refuses namespaces to this user. Must be called before any thread starts.
 bool enter_namespaces();
 
 /// Leaves the network, if the system allows it to this user. Must be called before any thread starts.
 void leave_network();
 
-/// Gives process 1 and its descendants a read-only /proc that shows only their own namespace, a /dev/shm of
-/// their own for POSIX shared memory, of this size (0: half of the machine's memory), and terminals of their
-/// own. If the system refuses this, as in some containers, these folders stay as they are.
+/// Gives process 1 and its descendants folders of their own: a read-only /proc that shows only their
+/// namespace, a /dev/shm of `bytes` bytes for POSIX shared memory (0: half of the machine's memory), and
+/// terminals. If the system refuses this, as in some containers, these folders stay as they are.
 void mount_own_folders(std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

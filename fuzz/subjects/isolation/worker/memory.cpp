@@ -78,8 +78,8 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The folder in /proc of this process, or of its only child, a program. Does not rely on the number of the
-/// process, because /proc may show another PID namespace, where processes have other numbers.
+/// The folder in /proc of this process, or of its only child, which is a program. Does not rely on the number
+/// of the process, because /proc may show another PID namespace, in which processes have other numbers.
 std::string folder_of(pid_t process) {
   if (process == getpid()) return "/proc/self";
   std::ifstream("/proc/thread-self/children") >> process;

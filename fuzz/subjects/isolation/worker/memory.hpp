@@ -14,14 +14,14 @@ void note_refusals_in(std::atomic<std::uint32_t>& flag);
 /// Notes that the system refused memory to another function.
 void note_refusal();
 
-/// Limits the memory that loading the plug-in may take in addition to what this process has: to twice `more`,
-/// where `more` is the limit for a query; 0 is no limit. Processes that this process starts inherit the
-/// limit. The address space is not limited yet, because drivers of devices reserve much of it. A file, on a
-/// disk or in memory, cannot become larger than `more`; writing beyond is an error.
+/// Limits the memory that loading the plug-in may take. The limit is twice `more`, in addition to the memory
+/// that this process has; `more` is the limit for a query. 0 is no limit. Processes that this process starts
+/// inherit the limit. The address space is not limited yet, because drivers of devices reserve much of it. A
+/// file, on a disk or in memory, cannot become larger than `more` bytes; writing more is an error.
 void limit_memory_of_loading(std::uint64_t more);
 
-/// Limits the memory that a process, this one or its only child, may use in addition to what it has after
-/// loading.
+/// Limits the memory that this process or its only child may use, in addition to the memory that it has after
+/// loading the plug-in.
 void limit_memory(pid_t process, std::uint64_t more);
 
 }  // namespace nearmiss::isolation

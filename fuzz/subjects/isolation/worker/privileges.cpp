@@ -123,8 +123,8 @@ void drop_privileges() {
 void keep_out_of_keyrings_and_terminals() {
   Filter filter;
   for (const int call : {SYS_add_key, SYS_request_key, SYS_keyctl}) filter.forbid(call);
-  // TCSETS2; TCSETSW2 and TCSETSF2 follow it. The value is that of x86-64 and AArch64; the header that names
-  // it cannot be included together with others.
+  // The value of TCSETS2 on x86-64 and AArch64; TCSETSW2 and TCSETSF2 have the next two values. The header
+  // that defines them conflicts with other headers.
   constexpr int set_other_speeds = 0x402c542b;
   for (const int command : {TCXONC, TCSETS, TCSETSW, TCSETSF, TCSETA, TCSETAW, TCSETAF, TIOCSTI,
                             set_other_speeds, set_other_speeds + 1, set_other_speeds + 2})

@@ -4,8 +4,8 @@
 namespace nearmiss::isolation {
 
 /// Gives up every privilege (capabilities(7)) except those of root on files, for this process and all
-/// processes that it starts. It can then neither trace a process that has more privileges, such as its
-/// supervisor, nor read its memory.
+/// processes that it starts. Afterwards, this process can neither trace a process that has more privileges,
+/// such as its supervisor, nor read the memory of such a process.
 void drop_privileges();
 
 /// Keeps this process, and all processes that it starts, from the keyrings of the user (keyrings(7)) and from
@@ -21,10 +21,10 @@ void keep_out_of_keyrings_and_terminals();
 /// system calls, or on machines other than x86-64 and AArch64.
 void confine_to_itself();
 
-/// Keeps this process, and all processes that it starts, from the memory, environment and open files of every
-/// other process, which /proc shows to processes of the same user, and from writing to /proc. New files
-/// directly in / cannot be written to, either. Call drop_privileges() first. Does nothing if the kernel has
-/// no Landlock.
+/// Limits this process and all processes that it starts. They can no longer read the memory, environment and
+/// open files of any other process, although /proc shows these to processes of the same user. They can write
+/// neither to /proc nor to new files directly in /. Call drop_privileges() first. Does nothing if the kernel
+/// has no Landlock.
 void keep_out_of_other_processes();
 
 }  // namespace nearmiss::isolation

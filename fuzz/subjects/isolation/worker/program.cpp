@@ -44,8 +44,8 @@ struct Pipe {
   dup2(errors.write, STDERR_FILENO);
   closefrom(STDERR_FILENO + 1);
   std::signal(SIGPIPE, SIG_DFL);
-  // `exec` replaces the shell by the program, so that limits apply to the program. A command that first
-  // changes the folder has its own `exec`.
+  // `exec` replaces the shell by the program, so that limits apply to the program. A command that begins with
+  // `cd FOLDER &&` already has an `exec`.
   execl("/bin/sh", "sh", "-c", ((command.starts_with("cd ") ? "" : "exec ") + command).c_str(), nullptr);
   _exit(127);
 }

@@ -16,10 +16,11 @@ namespace nearmiss::isolation {
 struct UnaskedBytes {};
 
 /// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this
-/// process. If it ends, so does this process, in the same way, and writes what the program wrote to standard error.
+/// process. If the command ends, this process ends in the same way, after writing to standard error what the
+/// command wrote there.
 class Program {
  public:
-  /// Starts the command, and reads its description. Throws Error if it has none, or an invalid one.
+  /// Starts the command, and reads its description. Throws Error if the description is missing or invalid.
   explicit Program(const std::string& command);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -51,7 +52,8 @@ class Program {
   /// follow.
   template <class Take>
   void read_answers(std::size_t n, const Take& take);
-  /// Asks about one query, and returns the program's number. Throws UnaskedBytes as both functions above do.
+  /// Asks about one query, and returns the number in the program's answer. Throws UnaskedBytes as the two
+  /// functions above do.
   double number(Question question, int kind, const double* x, double h);
   /// Reads the seconds, if the program gives them. Throws UnaskedBytes if anything else follows.
   void read_end();
@@ -69,7 +71,7 @@ class Program {
   std::string command_;
   pid_t process_ = -1;
   int in_ = -1, out_ = -1,
-      errors_ = -1;          ///< pipes to its standard input, and from its standard output and error
+      errors_ = -1;          ///< pipes to the program's stdin, and from its stdout and stderr
   std::string last_errors_;  ///< the end of what the program wrote to standard error
   ProgramDescription description_;
   double seconds_ = -1;  ///< that the last answer took without copies, if the program gives them

@@ -1,8 +1,8 @@
-// nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
-// never runs the plug-in's code. CODE is a digest of the code that the worker shares with nearmiss; a worker
-// with another digest refuses to work. The supervisor reads the standard error of the plug-in's process, and
-// tells nearmiss how the process ended, and what it wrote last. When the plug-in's process or nearmiss ends,
-// the supervisor ends all that the plug-in has started, and itself.
+// nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor
+// that never runs the plug-in's code. CODE is a digest of the code that the worker shares with nearmiss; a
+// worker with another digest refuses to work. The supervisor reads the standard error of the plug-in's
+// process, and tells nearmiss how the process ended, and what it wrote last. When the plug-in's process or
+// nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
 // other process can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also
@@ -57,8 +57,8 @@ sigset_t end_of_child() {
   return signals;
 }
 
-/// Reaps all children that have ended, including adopted orphans. If `process` is among them, returns how it
-/// ended, and also ends its process group.
+/// Reaps all children that have ended, including adopted orphans. If `process` is one of these children,
+/// returns how it ended, and also ends its process group.
 std::optional<siginfo_t> end_of(pid_t process) {
   std::optional<siginfo_t> end;
   siginfo_t how{};
