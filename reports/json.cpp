@@ -43,8 +43,8 @@ ordered_json extreme_json(const Extreme& extreme) {
   return json;
 }
 
-/// The command that repeats the results of a run. Nothing if a time limit ended several shards, because no
-/// command can repeat that, or if the text in the store is not a single command that stores a run.
+/// The command that repeats the results of a run. Nothing in two cases: a time limit ended several shards,
+/// which no command can repeat; or the text in the store is not a single command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");
   constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "simulate ", "tightness "};

@@ -66,7 +66,8 @@ std::string suite_xml(const std::string& name, const std::vector<Test>& tests) {
       escaped(name), tests.size(), failed, rows);
 }
 
-/// "missed 3 of 50 collisions"; only the verb for a failure without a count, such as "was asked nothing"
+/// "missed 3 of 50 collisions". For a failure without a count, the message is only the verb: "was asked
+/// nothing".
 std::string message_of(const FailureInfo& failure, const Counts& counts) {
   if (failure.one.empty()) return std::string(failure.verb);
   return fmt::format("{} {} of {}", failure.verb, with_separators(failure.count(counts)),
@@ -107,8 +108,8 @@ std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) 
   return lines;
 }
 
-/// Queries for a test that failed: those of the test's class or, if none is of this class, those that
-/// families of the class made.
+/// Queries for a test that failed: the queries of the test's class or, if no query is of this class, the
+/// queries that families of this class made.
 std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings) {
   const auto is_own = [&](const Finding& each) {
     return each.subject == key.subject && each.query.kind == key.kind;

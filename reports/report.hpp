@@ -73,7 +73,7 @@ using ReportPaths = std::set<std::string>;
 /// names.
 ReportPaths files_of(const nlohmann::ordered_json& report);
 
-/// The files in a folder that belong to an earlier report, even if its writing was interrupted; none if the
+/// The files in a folder that belong to an earlier report, complete or interrupted. The set is empty if the
 /// folder is empty or does not exist. Throws Error if the folder is not that of a report.
 ReportPaths own_files(const std::filesystem::path& folder);
 

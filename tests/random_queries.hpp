@@ -20,7 +20,7 @@ inline std::string repeat(std::size_t index, const Query& query) {
   return line.str();
 }
 
-/// Both kinds in turn.
+/// The kind of a random case: vt and ee in turn.
 inline Kind kind_of_case(std::size_t index) { return kinds_of_meshes[index % kinds_of_meshes.size()]; }
 
 /// A query whose coordinates are integers in [-largest, largest].

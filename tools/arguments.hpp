@@ -55,14 +55,14 @@ void add_comparison_options(CLI::App& command, Comparison& comparison);
 struct SeparationOption {
   std::string text;
 
-  /// Adds the option. If `can_be_drawn`, its value may be "drawn", which gives each query a random
-  /// separation.
+  /// Adds the option. If `can_be_drawn` is true, the value "drawn" is allowed, which gives each query a
+  /// random separation.
   CLI::Option* add_to(CLI::App& command, bool can_be_drawn = false);
   [[nodiscard]] bool is_given() const { return !text.empty(); }
   /// The separation for families that have none of their own: "drawn" or a positive number; "" for contact.
   /// Throws Error if the option's value is neither "drawn" nor a separation.
   [[nodiscard]] std::string of_families() const;
-  /// The query, with the option's separation if the option is given. Throws Error if its value is no
+  /// The query, with the option's separation if the option is given. Throws Error if the value is not a
   /// separation.
   [[nodiscard]] Query apply(const Query& query) const;
 };
@@ -79,7 +79,7 @@ void expect_separation(const Subject& subject, std::span<const Kind> of = kinds_
 /// separations for none of them.
 void expect_separations(const Subjects& subjects, std::span<const Kind> of = kinds_of_meshes);
 
-/// --bound B: one bound B for all pairs, in place of each pair's own.
+/// --bound B: one bound B for all pairs, in place of the bound of each pair.
 void add_bound_option(CLI::App& command, std::string& bound);
 
 /// --query-time T and --query-memory BYTES: the limits of a plug-in.
@@ -98,7 +98,8 @@ struct QueryInput {
   SeparationOption separation;
 
   void add_to(CLI::App& command);
-  /// Passes every query to `sink`, in order. Throws Error if the file cannot be read or has other content.
+  /// Passes every query to `sink`, in order. Throws Error if the file cannot be read, or if a line is not a
+  /// query.
   void read(const std::function<void(const Query&)>& sink) const;
 };
 

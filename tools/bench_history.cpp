@@ -94,8 +94,8 @@ struct Change {
 Change change_of(std::vector<double> ratios) {
   std::sort(ratios.begin(), ratios.end());
   // The true median lies between the order statistics k and n + 1 - k, unless fewer than k ratios are below
-  // it, or fewer than k above it. The loop finds the largest k for which each of these has a probability of
-  // at most 2.5 %.
+  // the median, or fewer than k are above it. The loop finds the largest k for which each of these two events
+  // has a probability of at most 2.5 %.
   const boost::math::binomial below(static_cast<double>(ratios.size()), 0.5);
   std::size_t k = 1;
   while (k < ratios.size() / 2 && boost::math::cdf(below, static_cast<double>(k)) <= 0.025) ++k;

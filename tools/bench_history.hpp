@@ -14,8 +14,8 @@
 
 namespace nearmiss::tools {
 
-/// The median of the numbers that are not NaN; for an even number of them, the upper of the two in the
-/// middle. NaN if there are none.
+/// The median of the numbers that are not NaN. If their count is even, this is the larger of the two middle
+/// numbers; if it is zero, NaN.
 inline double median(std::vector<double> numbers) {
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (numbers.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -43,7 +43,7 @@ struct BenchRun {
 /// has other content.
 std::vector<BenchRun> read_history(const std::filesystem::path& file);
 
-/// Appends a run to such a file, or makes the file. Throws Error if that is impossible, and then leaves the
+/// Appends a run to such a file, or makes the file. If the run cannot be written, throws Error and leaves the
 /// file as it was.
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 

@@ -34,7 +34,7 @@ namespace {
 /// The time limit of a campaign.
 using TimeLimit = std::optional<std::chrono::duration<double>>;
 
-/// The finished fraction of the campaign's cases or that of its time, whichever is larger.
+/// The finished fraction of the campaign: of its cases or of its time, whichever fraction is larger.
 std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
@@ -63,7 +63,7 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
   return show_duration(std::max(left, {})) + " left, " + line;
 }
 
-/// The kinds chosen with --kind; without --kind, those that a subject decides.
+/// The kinds chosen with --kind; without --kind, all kinds that at least one subject decides.
 std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& subjects) {
   if (options.kinds.empty()) {
     const bool of_meshes = !options.separation.of_families().empty();

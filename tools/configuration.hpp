@@ -9,7 +9,7 @@
 
 namespace nearmiss::tools {
 
-/// A TOML file of options: those outside of tables belong to the subcommand that runs.
+/// A TOML file of options. Options outside of tables belong to the subcommand that runs.
 class ConfigurationFile final : public CLI::ConfigTOML {
  public:
   explicit ConfigurationFile(std::string command);

@@ -64,7 +64,7 @@ std::string answer(const SubjectVerdict& verdict, const Counts& counts, const Fi
   return counts.collisions > 0 ? reported(counts) : "reports no collision";
 }
 
-/// "first contact at t* = 0.5", or that there is none, and how close the primitives come.
+/// "first contact at t* = 0.5", or a text that there is no contact and how close the primitives come.
 std::string exact_answer(const Query& query) {
   const double h = query.separation;
   const Decision decision = decide(query);

@@ -1,4 +1,4 @@
-// What a replay of a single case shows.
+// Text that a replay of a single case prints.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // Where a command writes its results: --json FILE, and for systems of continuous integration --junit FILE and
-// --github. And --fail-on A,B: further failures for which a command exits with code 1.
+// --github. Also the option --fail-on A,B: further failures for which a command exits with code 1.
 #pragma once
 
 #include <CLI/CLI.hpp>

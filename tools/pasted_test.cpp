@@ -60,8 +60,8 @@ std::string what_is_true(const Query& query) {
                      to_hex(hi));
 }
 
-/// The largest double that is not a late time. Throws Error if the distance reaches h without falling below
-/// it at first: some later times are then no failure.
+/// The largest double that is not a late time. Throws Error if the distance reaches h without falling below h
+/// right after that, because some later times are then not late.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;

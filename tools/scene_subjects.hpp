@@ -1,4 +1,4 @@
-// The subjects that are asked about a scene, each with the bound that it is to use.
+// The subjects that are asked about a scene, each with the bound B that it uses.
 #pragma once
 
 #include <cstdio>
@@ -21,7 +21,7 @@ struct SceneSubjects {
   std::optional<double> bound = {};  ///< the scene's bound, if a subject needs it
 };
 
-/// Makes the subjects once with each of the bounds, which are "pair", "scene" or a number B. A subject's
+/// Makes every subject once with each of the bounds, which are "pair", "scene" or a number B. A subject's
 /// name is NAME if it uses each pair's own bound, NAME@scene if it uses the largest bound of the scene's
 /// pairs, and NAME@B if it uses the number. Throws Error for an unknown subject or bound.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,

@@ -24,7 +24,7 @@ std::atomic<bool> stop{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-/// Ends the program, unless the signal only repeats the signal that set the flag.
+/// Ends the program, unless this signal merely repeats the one that has just set the flag.
 extern "C" void end_on_signal(int /*signal*/) {
   constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
   if (std::time(nullptr) - first_signal < patience) return;

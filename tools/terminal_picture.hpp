@@ -12,8 +12,9 @@ namespace nearmiss::tools {
 /// vertices.
 std::string terminal_picture(const Query& query, double time);
 
-/// A line for each vertex, "  x0 (0, 0, 0) -> (0, 0, 1)": its coordinates at t = 0, and at t = 1 if it moves. They
-/// are exact, unless the line would then be longer than `widest`; "~" marks rounded ones, and 100 columns suffice.
+/// A line for each vertex, "  x0 (0, 0, 0) -> (0, 0, 1)": its coordinates at t = 0, and at t = 1 if it moves.
+/// The coordinates are exact, unless the line would then be longer than `widest`; "~" marks rounded
+/// coordinates. Lines with rounded coordinates have at most 100 columns.
 std::string vertex_lines(const Query& query, std::size_t widest = std::string::npos);
 
 }  // namespace nearmiss::tools

@@ -24,7 +24,7 @@ namespace nearmiss {
 namespace {
 
 /// Sorts the findings of all shards into the order in which a single machine would have found them, and drops
-/// those that a single machine would not have kept.
+/// the findings that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
   // The sort is stable because all findings of a case come from one shard, which has them in order.
   std::stable_sort(findings.begin(), findings.end(),
@@ -41,7 +41,7 @@ std::string describe(const RunInfo& info) {
   return text;
 }
 
-/// The facts that a run had before its store was salvaged: without those that a salvage adds.
+/// The facts that a run had before its store was salvaged, without the facts that a salvage adds.
 RunInfo original_of(RunInfo info) {
   info.erase(salvaged_fact);
   info.erase(origin_fact);
@@ -193,7 +193,7 @@ class RunMerger {
 };
 
 /// Whether a fact lists a name that fulfils a condition; true if the run does not have the fact. Commas
-/// divide the list, and a blank ends a name: what follows it is a comment.
+/// divide the list, and a blank ends a name; the text after the blank is a comment.
 template <class Condition>
 bool any_name(const RunInfo& info, const std::string& of, const Condition& condition) {
   const std::string text = fact(info, of);
@@ -248,16 +248,16 @@ bool is_of_files(std::string_view root) { return root == "mesh" || root == "near
 /// queries, or the same step of a simulation.
 class AskedQueries {
  public:
-  /// Adds a campaign; `name` is that of its store. Throws Error if two runs of different campaigns have the
-  /// same seed and ask the same subject queries of the same family, or have the same step of a simulation.
-  /// Shards of one run do not count as two runs, because they ask different queries.
+  /// Adds a campaign; `name` is the name of its store. Throws Error if two runs of different campaigns have
+  /// the same seed and ask the same subject queries of the same family, or have the same step of a
+  /// simulation. Shards of one run do not count as two runs, because they ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:
   /// The queries that the runs of one task asked.
   struct Asked {
     RunInfo task;
-    std::string files;  ///< those of the families "mesh" and "near", if they were asked
+    std::string files;  ///< files of the families "mesh" and "near", if they were asked
     std::string name;
     std::set<CountsKey> keys;
   };
@@ -339,7 +339,7 @@ std::string how_far(const Run& run) {
 
 std::string missing_shards(const Run& run) {
   constexpr std::size_t most_named = 20;  // a damaged store may claim any number of shards
-  std::vector<std::uint64_t> missing;     ///< the first of them
+  std::vector<std::uint64_t> missing;     ///< the first missing shards
   std::vector<std::uint64_t> unfinished;
   std::vector<std::string> asked;  ///< number of cases of each unfinished shard
   const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;

@@ -16,8 +16,8 @@
 
 namespace nearmiss {
 
-/// A key by which findings are sorted for display: the least exotic class comes first, and within a class the
-/// shrunk findings.
+/// A key by which findings are sorted for display: the least exotic class comes first; within a class, shrunk
+/// findings come first.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }

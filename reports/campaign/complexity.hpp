@@ -12,12 +12,12 @@ namespace nearmiss {
 
 /// The complexity of a query. Two complexities are compared member by member, in the order of declaration.
 struct Complexity {
-  /// How hard the distinct magnitudes are to draw: the sum of 0 for each integer of one digit, 1 for each
-  /// other multiple of 1/4 below 100, and 2 for each remaining magnitude.
+  /// How hard the query is to draw. Each distinct magnitude adds 0 if it is an integer of one digit, 1 if it
+  /// is another multiple of 1/4 below 100, and 2 otherwise.
   int awkward = 0;
-  int numbers = 0;    ///< nonzero coordinates, each once if at rest; plus 1 with a separation
-  int moving = 0;     ///< coordinates that are not at rest
-  int distinct = 0;   ///< magnitudes other than 0, of the coordinates and the separation
+  int numbers = 0;    ///< number of nonzero coordinates (one at rest counts once), plus 1 with a separation
+  int moving = 0;     ///< number of coordinates that are not at rest
+  int distinct = 0;   ///< number of distinct magnitudes other than 0, including the separation
   int bits = 0;       ///< sum of the significant bits of these magnitudes
   int exponents = 0;  ///< sum of the absolute values of their exponents
   int negative = 0;   ///< coordinates with a minus sign, -0 included

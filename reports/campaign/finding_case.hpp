@@ -10,11 +10,11 @@
 
 namespace nearmiss {
 
-/// The finding with its shrunk query in place of the original query, and without the ratio, which was that
-/// of the original query.
+/// The finding, with its shrunk query in place of the original query. Its ratio is removed, because the ratio
+/// belongs to the original query.
 Finding of_shrunk(const Finding& finding);
 
-/// The case of a finding. It has the truth if the finding implies the truth.
+/// The case of a finding. The case records the truth if the finding implies it.
 Case to_case(const Finding& finding);
 
 /// A name for the file of a finding's case: what failed, the subject, and `id`. Subjects with similar names,

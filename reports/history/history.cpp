@@ -20,8 +20,8 @@ using nlohmann::ordered_json;
 namespace {
 
 /// The changes told so far, so that nothing is told twice. Each sort of change in one topic is told once,
-/// until the subject's code changes or the opposite is told. If a rate or a way to fail becomes significant
-/// only in a later night, it is evidence of the same change.
+/// until the subject's code changes or the opposite change is told. A rate or a way to fail that becomes
+/// significant only in a later night is further evidence of a change that was already told, not a new change.
 class Told {
  public:
   /// Whether a change is news.
@@ -77,8 +77,8 @@ class Told {
 class Slowed {
  public:
   /// Adds an event for each subject that is fast again after it became slower: its time is nearer to the time
-  /// that was expected then than to the slow one. The report itself does not say so once the slow nights are
-  /// part of its baseline.
+  /// that was expected when it slowed down than to the slow time. The report itself does not show this once
+  /// the slow nights are part of its baseline.
   void add_events(Night& night, Told& told) {
     for (const auto& [name, subject] : night.report.subjects) {
       const double time = subject.ns_per_query.value_or(0);
@@ -124,7 +124,7 @@ const Sort& sort_of(std::string_view what) {
   return *std::find_if(sorts.begin(), sorts.end(), [&](const Sort& each) { return each.what == what; });
 }
 
-/// Adds what a night's report tells that is new, one event for each subject and sort of change. Its example
+/// Adds the news in a night's report: one event for each subject and sort of change. The example in an event
 /// is the first change, or the way to fail that was seen most often.
 void add_changes(Told& told, Night& night) {
   struct Sum {

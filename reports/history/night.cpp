@@ -16,14 +16,14 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// A list of an object; empty if there is none.
+/// The list that an object has under a name; an empty list if the object has none.
 const ordered_json& list_in(const ordered_json& json, const char* name) {
   static const ordered_json none = ordered_json::array();
   const auto found = json.find(name);
   return found == json.end() ? none : *found;
 }
 
-/// A number of an object; nothing if there is none.
+/// The number that an object has under a name; nothing if the object has none.
 std::optional<double> number_in(const ordered_json& json, const char* name) {
   const auto found = json.find(name);
   if (found == json.end() || !found->is_number()) return std::nullopt;
@@ -157,7 +157,7 @@ bool has_store(const fs::path& folder) {
                      [](const auto& each) { return each.path().extension() == ".db"; });
 }
 
-/// The night in a folder; nothing if the folder is not that of a night.
+/// The night in a folder; nothing if the folder is not a night's.
 std::optional<NightReport> read_night(const fs::path& folder) {
   NightReport night;
   const std::string name = folder.filename().string();
@@ -186,7 +186,7 @@ std::optional<NightReport> read_night(const fs::path& folder) {
   return night;
 }
 
-/// Sorts nights by their dates, but puts each after the nights that are its baseline.
+/// Sorts nights by their dates, but puts each night after the nights of its baseline.
 std::vector<NightReport> in_order(std::vector<NightReport> nights) {
   std::stable_sort(nights.begin(), nights.end(),
                    [](const NightReport& a, const NightReport& b) { return a.started < b.started; });

@@ -39,7 +39,7 @@ const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKin
   Object.entries(ofKind).flatMap(([kind, counts]) =>
     Object.entries(counts.classes).map(([name, each]) => ({ subject, kind, family: "", class: name, ...each }))));
 
-/** Whether a subject is not on the ladder, whose rungs are one algorithm over many scalars. */
+/** Whether a subject is not on the precision ladder, which has one algorithm over many scalars. */
 const isNoRung = ({ subject, algorithm }) => subject === algorithm;
 
 /**

@@ -18,8 +18,8 @@ const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
 /**
- * Chooses as many subjects as there are colours: first those on Pareto fronts, then others without failures,
- * then those with failures.
+ * Chooses as many subjects as there are colours: first the subjects on Pareto fronts, then other subjects
+ * without failures, then subjects with failures.
  */
 function firstChoice() {
   const { front_by_distance, front_by_rate, front_by_earliness, ladder } = report.error_against_time;

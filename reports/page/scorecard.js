@@ -115,8 +115,8 @@ function subjectCell({ subject, finding }) {
 }
 
 /**
- * Sorts subjects. Failed ones come first, by their rates of misses, ordinary misses first; then the others,
- * by their run times; last, those that are asked beyond their contracts.
+ * Sorts subjects. Failed subjects come first, by their rates of misses, ordinary misses first. Then come
+ * subjects without failures, by their run times, and last the subjects that are asked beyond their contracts.
  */
 function inOrder(verdicts) {
   const rates = ({ classes }) => ["ordinary", "degenerate", "extreme", "unclassified"].map((name) => -(classes[name]?.false_negative_rate ?? 0));
@@ -131,8 +131,9 @@ function inOrder(verdicts) {
 const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
 
 /**
- * The rows of clean subjects to fold into one row: if there are many, those on the ladder; if too many rows
- * still remain, also the others.
+ * The rows of clean subjects to fold into one row. These are the clean subjects on the precision ladder or,
+ * if too many other clean subjects would remain, all clean subjects. Nothing is folded if there are few clean
+ * subjects.
  */
 function foldedRows(rows) {
   const good = rows.filter(isGood);

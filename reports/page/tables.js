@@ -133,7 +133,7 @@ const command = (content) => made("div", [made("code", content), copyButton(cont
 
 /**
  * A button that copies a query as a line that nearmiss oracle and verdict read: its coordinates, then the
- * separation if it has one.
+ * separation if the query has one.
  */
 const copyQuery = (x) => copyButton(x.join(" "));
 

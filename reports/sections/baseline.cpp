@@ -90,7 +90,7 @@ std::string sighting_text(const std::string& date, const SubjectCode& code) {
 }
 
 /// ", first seen 2026-01-02T22:00:00Z (version 1), last seen 2026-01-09T22:00:00Z (version 2)"; "" if the
-/// baseline does not have it.
+/// baseline does not have the signature.
 std::string sightings_text(const Changes& changes, const Signature& signature) {
   const auto known = changes.sightings.find(signature);
   if (known == changes.sightings.end() || known->second.first.empty()) return "";

@@ -20,7 +20,8 @@ namespace nearmiss {
 /// Which code of a subject ran. If runs had different code, their values are joined with " | ".
 struct SubjectCode {
   std::string
-      version;  ///< the plug-in's; for a built-in subject and the oracle, nearmiss's; "" if there is none
+      version;  ///< version of the plug-in or, for a built-in subject and the oracle, of nearmiss; "" without
+                ///< a version
   std::string build;  ///< "sha256 0123456789ab" for a plug-in, "commit 0123456" for a built-in subject
 
   /// "version 2", or the build if there is no version; "" if neither is known.
@@ -32,9 +33,9 @@ struct SubjectCode {
 SubjectCode code_of(const Campaign& campaign, const std::string& subject);
 
 /// When the baseline saw a signature: the dates of the first and the last campaign that saw it, the subject's
-/// code in these two campaigns, and the number of campaigns that saw it. Also the subject's code in the first
-/// later campaign of the baseline that had other code and did not show the signature; empty without such a
-/// campaign.
+/// code in these two campaigns, and the number of campaigns that saw it. `next_code` is the subject's code in
+/// the first later campaign that had other code and did not show the signature; it is empty if the baseline
+/// has no such campaign.
 struct Sightings {
   std::string first, last;
   std::size_t campaigns = 0;
@@ -68,16 +69,16 @@ struct ChangedSignatures {
 ///
 /// If a subject has no failure of a sort in the baseline, each failure of that sort is new. A failure of the
 /// oracle that the baseline does not have is always new. A subject that already fails in the baseline shows a
-/// few unseen signatures in every campaign. Therefore its signature is new only if Fisher's exact test finds
-/// it more frequent among the subject's queries than chance explains. A signature that is no longer seen is
-/// gone if the same test finds it less frequent, or if the subject has no failure of that sort any more and
-/// the test finds all failures of the sort together less frequent.
+/// few unseen signatures in every campaign. Therefore a signature of such a subject is new only if Fisher's
+/// exact test finds it more frequent among the subject's queries than chance explains. A signature that is no
+/// longer seen is gone if the same test finds it less frequent, or if the subject has no failure of that sort
+/// any more and the test finds all failures of the sort together less frequent.
 ///
-/// The comparison leaves out campaigns of the baseline in which a signature was rarer than in the last
-/// campaign by more than chance explains. A new signature must also be more frequent than in the rest of the
-/// baseline. Therefore campaigns in which a fault was absent do not make the fault new again.
+/// The comparison leaves out campaigns of the baseline in which a signature was rarer, by more than chance
+/// explains, than in the last campaign of the baseline. A new signature must also be more frequent than in
+/// the rest of the baseline. Therefore campaigns in which a fault was absent do not make the fault new again.
 ///
-/// The steps of a sweep share their random draws, so the queries of a campaign with sweeps are no
+/// The steps of a sweep share their random draws, so the queries of a campaign with sweeps are not
 /// independent samples. Therefore the test counts draws: the smallest number of draws that could have made
 /// the queries.
 ///
@@ -88,9 +89,9 @@ struct ChangedSignatures {
 /// a signature is gone, because those cases and meshes may not have been asked again.
 ///
 /// @param before the sum of the baseline's statistics
-/// @param risk the probability of calling some signature new although none is new, and likewise of calling
-/// some
-///             signature gone; each comparison has an equal part of this risk (Bonferroni)
+/// @param risk the probability of calling some signature new although none is new. The probability of calling
+/// some signature gone although none is gone is the same. Each comparison has an equal part of this risk
+/// (Bonferroni).
 ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
                                      const Statistics& before, double risk);
 
@@ -111,17 +112,16 @@ struct ComparedRates {
   std::size_t compared = 0;
 };
 
-/// Compares the rates of all families that a campaign and its baseline have, by Fisher's exact test. The
-/// earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
+/// Compares, by Fisher's exact test, the rates of all families that both a campaign and its baseline have.
+/// The earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
 /// differs from the last one's by no more than chance explains. Therefore campaigns in which a fault was
 /// absent do not make the fault new again. For each subject, the function also compares the sum over all
 /// families and kinds with few failures in both campaigns, to notice a new way to fail that is spread over
 /// many families. The steps of a sweep share their random draws, so the sum includes only the step of each
 /// sweep with the most failures. Cases and meshes are left out, because they are no random samples.
 ///
-/// @param risk the probability of calling some rate changed although none has changed; each comparison has
-/// an equal
-///             part of this risk (Bonferroni)
+/// @param risk the probability of calling some rate changed although none has changed; each comparison has an
+/// equal part of this risk (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
 
 /// A run time per query that differs by more than the run times of equal campaigns do.
@@ -163,9 +163,8 @@ struct ComparedTimes {
 /// have not changed. If there are several earlier campaigns, the variance is at least the variance between
 /// them.
 ///
-/// @param risk the probability of calling some time changed although none has changed; each comparison has
-/// an equal
-///             part of this risk (Bonferroni)
+/// @param risk the probability of calling some time changed although none has changed; each comparison has an
+/// equal part of this risk (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
 /// A fact that differs between the campaigns' runs; `before` and `now` join all of its values with " | ".

@@ -28,8 +28,8 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// The sum of the last proportion and of all earlier ones that differ from the last by no more than chance
-/// explains.
+/// The sum of the last proportion and of all earlier proportions that differ from the last one by no more
+/// than chance explains.
 Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   Proportion sum;
   for (const Proportion& each : all)
@@ -60,8 +60,8 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// The largest numbers of failures that count as few. All three thresholds are tried, because larger
-/// campaigns have more failures.
+/// The largest numbers of failures that count as few. rates_where_few() tries all three thresholds, because
+/// larger campaigns have more failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
@@ -74,9 +74,9 @@ struct FewFailures {
 };
 
 /// The pairs of family and kind with 1 to `few` failures in both campaigns together, by the rate's name. The
-/// steps of a sweep share their draws, so they are no independent samples: only the step with the most
-/// failures is included. The sum of both counts selects the pairs. This favours neither campaign, so the
-/// later test stays valid.
+/// steps of a sweep share their draws, so they are not independent samples: only the step with the most
+/// failures is included. Pairs are selected by the sum of both counts. This selection favours neither
+/// campaign, so the later test stays valid.
 std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
   std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;

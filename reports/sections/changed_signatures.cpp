@@ -87,7 +87,7 @@ std::uint64_t unasked(const Counts& counts) {
 }
 
 /// The number of queries that could have shown this sort of failure: all asked queries for a fault, all
-/// answered ones for any other sort.
+/// answered queries for any other sort.
 std::uint64_t chances(const Counts& counts, What what) {
   return counts.queries - (what == What::fault ? unasked(counts) : counts.faults_total());
 }
@@ -141,7 +141,7 @@ Chances chances_of(const Sort& sort, const Statistics& now, const Statistics& be
   return sum;
 }
 
-/// The number of failures of a sort in queries that are no random samples: cases and meshes.
+/// The number of failures of a sort in queries that are not random samples: cases and meshes.
 std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   std::uint64_t sum = 0;
   for (const auto& [key, counts] : statistics.counts)

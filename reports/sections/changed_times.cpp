@@ -23,10 +23,10 @@ using Logs = std::map<CountsKey, double>;
 /// A subject's families are compared with each other if there are at least this many pairs of family and
 /// kind.
 constexpr std::size_t fewest_families = 8;
-/// Assumed standard deviations of log(time now / time before) if nothing has changed; the spread of a
-/// family's batches is added to them. The first is the least value for a family, which is compared with the
-/// subject's other families. The second is for a subject, which is compared with other subjects. The third
-/// is for a time without any other to compare.
+/// Assumed standard deviations of log(time now / time before) if nothing has changed; the variance from the
+/// spread among batches is added to their squares. The first is the least value for a family, which is
+/// compared with the subject's other families. The second is for a subject, which is compared with other
+/// subjects. The third is for a time that can be compared with no other time.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
@@ -132,7 +132,7 @@ LogTimes log_times(const Statistics& statistics) {
 /// parts.
 struct Ratios {
   std::vector<double> common = {};  ///< the part shared with other times, as on a busy machine
-  std::vector<double> own = {};     ///< the rest
+  std::vector<double> own = {};     ///< the part of this time alone
   Variance sampling = {};           ///< sum of the variances of the earlier times
 
   [[nodiscard]] double change() const { return mean(own); }
@@ -203,7 +203,7 @@ class Times {
     place.sampling += variance;
   }
 
-  /// The variance of a change that the spread among batches explains.
+  /// The part of a change's variance that comes from the spread among batches.
   [[nodiscard]] Variance sampling(const CountsKey& key) const {
     Variance sum;
     if (is_whole(key)) {

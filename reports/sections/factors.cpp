@@ -59,9 +59,9 @@ struct Row {
 
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
-/// The range of a factor that all kinds have in common; nothing if their ranges differ or if no kind has
-/// one. Two kinds that are right at every value they were asked about do not differ. A kind with too few
-/// queries is left out, unless all kinds have too few.
+/// The range of a factor that all kinds have in common; nothing if their ranges differ or if no kind has a
+/// range. Ranges do not count as different if both kinds are right at every value that they were asked about.
+/// A kind with too few queries is left out, unless all kinds have too few.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   const bool has_enough = std::ranges::any_of(
@@ -81,7 +81,7 @@ std::optional<RightRange> common(const Ranges& ranges, const std::string& factor
   return all;
 }
 
-/// The range of a factor for a kind; nothing if the kind has none.
+/// The range of a factor for a kind; nothing if the kind has no range for this factor.
 std::optional<RightRange> of_kind(const Ranges& ranges, const std::string& factor, Kind kind) {
   const auto found = ranges.find({factor, kind});
   return found == ranges.end() ? std::nullopt : std::optional(found->second);
@@ -121,8 +121,8 @@ std::string values_of(const RightRange& range) {
                          : "no range";
 }
 
-/// What is wrong at the values outside the range, such as "misses 58 of 310, reports 90 % of the rest"; ""
-/// if nothing is.
+/// What is wrong at the values outside the range, such as "misses 58 of 310, reports 90 % of the rest"; "" if
+/// nothing is wrong there.
 std::string wrong_elsewhere(const RightRange& range) {
   const FactorCounts& counts = range.elsewhere;
   std::string wrong;

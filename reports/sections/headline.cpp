@@ -173,7 +173,7 @@ ordered_json names_of(const Failures& failures) {
 }
 
 /// The index of a subject's failure with the least exotic query; if several are equally exotic, the index of
-/// the gravest failure. A failure that counts comes before any that does not.
+/// the gravest failure. A failure that counts comes before any failure that does not count.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings,
                                const Failures& failing) {
   const auto rank = [&](const Finding& finding) {

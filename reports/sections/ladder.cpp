@@ -28,7 +28,7 @@ constexpr int finest = -127;
 constexpr int coarsest = -23;
 constexpr int double_exponent = -52;
 
-/// A subject of the ladder. Distances are in units of B.
+/// A subject of the precision ladder (one algorithm in several scalar types). Distances are in units of B.
 struct Rung : LadderPlace {
   std::string subject;
   CountsSum sum;  ///< over all families and kinds

@@ -223,7 +223,7 @@ void add_counters(ordered_json& json, const Owner& owner) {
   for_each_counter<Owner>([&](const auto& counter) { add_counter(json, owner, counter); });
 }
 
-/// A measure's value as JSON: null if there is none; for a range, an array of both ends.
+/// A measure's value as JSON: null for no value; for a range, an array of both ends.
 struct AsJson {
   ordered_json operator()(std::monostate /*nothing*/) const { return nullptr; }
   ordered_json operator()(const Bin& range) const { return ordered_json::array({range.from, range.to}); }

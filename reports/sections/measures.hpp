@@ -1,7 +1,6 @@
-// The table of measures. A measure is a number that reports compute from a subject's counters; the table has
-// its names in files and tables. A section of a report sums counters by some key (sums_by), and shows some
-// measures of each sum.
-// The same counters and measures as JSON.
+// The table of measures. A measure is a number that reports compute from a subject's counters; the table also
+// gives the measure's names in files and in tables. A section of a report sums counters by some key
+// (sums_by), and shows some measures of each sum. This header also converts counters and measures to JSON.
 #pragma once
 
 #include <cstddef>
@@ -27,9 +26,10 @@ using Value = std::variant<std::monostate, std::uint64_t, double, Bin, std::stri
 /// A measure of a sum of counters, declared once for all files and tables.
 struct Measure {
   std::string_view key;              ///< in report.json
-  Value (*value)(const CountsSum&);  ///< as files show it
+  Value (*value)(const CountsSum&);  ///< computes the value that files show
   std::string_view heading = "";     ///< in tables on the terminal
-  std::string_view csv_after = "";   ///< the counter after which CSV files show it; "" if they do not show it
+  std::string_view csv_after = "";   ///< the counter that it follows in CSV files; "" if it is not in these
+                                     ///< files
   std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the text of the value
 };
 
@@ -37,7 +37,7 @@ struct Measure {
 std::span<const Measure> rate_measures();
 
 /// The measure with this key: one of rate_measures(), or one of the few that report.json shows only in some
-/// places. Throws std::out_of_range if there is none.
+/// places. Throws std::out_of_range if no measure has this key.
 const Measure& measure(std::string_view key);
 
 /// Keys of measures.
@@ -51,7 +51,7 @@ std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKey
                                 const CountsSum& sum);
 
 /// A table on the terminal with a row for each sum. `cells_of` makes the first cells of a row from the sum's
-/// key; `first` are their headings. The first `left_aligned` columns are aligned left.
+/// key; `first` has the headings of these cells. The first `left_aligned` columns are aligned left.
 template <class Key, class CellsOf>
 std::string table(const std::map<Key, CountsSum>& sums, std::vector<std::string> first,
                   const CellsOf& cells_of, const MeasureKeys& measures, std::size_t left_aligned) {
@@ -60,7 +60,7 @@ std::string table(const std::map<Key, CountsSum>& sums, std::vector<std::string>
   return columns(rows, left_aligned);
 }
 
-/// A number, or null if there is none.
+/// The number as JSON; null if `number` is empty.
 nlohmann::ordered_json or_null(const std::optional<double>& number);
 
 /// Adds measures of a sum of counters to an object, under their keys.
@@ -74,7 +74,7 @@ nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);
 
-/// An object with "all", a count for each fate under its name, "touching", and "times".
+/// An object with "all", "touching" and "times", and a count for each PairFate under the name of that fate.
 nlohmann::ordered_json funnel_json(const Funnel& funnel);
 
 /// Adds the oracle's "disagreements" and "mismatches_with_recorded_truth" to an object.

@@ -28,9 +28,10 @@ nlohmann::ordered_json hunts_json(const std::vector<Hunt>& hunts);
 std::vector<Hunt> load_hunts(const std::filesystem::path& file);
 
 /// Reads the table that tools/environments writes: results of CCDs in environments. An environment is a
-/// compiler, its flags, and the processor's mode of arithmetic. Returns the table as JSON with a verdict for
-/// each row on the guarantee that no collision is missed; "gives no answer" means that some queries got no
-/// answer. Returns "" for an empty table. Throws Error if the file cannot be read or has other content.
+/// compiler, its flags, and the processor's mode of arithmetic. Returns the table as JSON. Each row has a
+/// verdict, which says whether the CCD keeps its guarantee to miss no collision; the verdict "gives no
+/// answer" means that some queries got no answer. Returns "" for an empty table. Throws Error if the file
+/// cannot be read or has other content.
 std::string load_environments(const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -18,14 +18,14 @@ namespace nearmiss {
 
 namespace {
 
-/// The first cell of the row for each fate.
+/// The first cell of the row for each PairFate.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
 
 /// The pairs of a scene over all its steps, and what became of them.
 struct ScenePairs {
-  std::array<Funnel, kinds_of_meshes.size()> funnels;  ///< by kind
+  std::array<Funnel, kinds_of_meshes.size()> funnels;  ///< pairs of each kind
   std::size_t steps = 0;
   std::map<std::string, std::array<Counts, kinds_of_meshes.size()>> subjects;
   std::array<OracleCounts, kinds_of_meshes.size()> oracle;

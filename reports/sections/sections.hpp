@@ -40,9 +40,9 @@ std::string version_lines(const Statistics& statistics);
 nlohmann::ordered_json versions_json(const Statistics& statistics);
 
 /// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line
-/// for each fate and a column for each kind.
+/// for each PairFate and a column for each kind.
 std::string funnel_tables(const Statistics& statistics);
-/// An object by step, then by kind, whose values are funnel_json (counts_json.hpp).
+/// An object by step, then by kind, whose values are funnel_json (measures.hpp).
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 /// A table for each simulated scene, with a line for each subject.
@@ -89,13 +89,14 @@ nlohmann::ordered_json ladder_json(const Statistics& statistics);
 ///                         "paper_bound" of double
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
-/// A subject's place on a ladder. For a subject that is not on a ladder, the algorithm is the subject itself.
+/// A subject's place on a precision ladder (one algorithm in several scalar types). For a subject that is not
+/// on a ladder, the algorithm is the subject itself.
 struct LadderPlace {
   std::string algorithm;  ///< with options, and a bound that the user gave: "wang-eps:h=0.001@0.5"
   std::string scalar;
   int epsilon_exponent = 0;
-  /// The bound by which the distances of false positives are divided. The bound is in units of B; nothing if
-  /// it is not known.
+  /// The bound, in units of B, by which the distances of false positives are divided; nothing if the bound is
+  /// not known.
   std::optional<double> unit;
 };
 

@@ -29,7 +29,7 @@ struct ShownFinding {
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
 /// The command that replays a finding from within the report's folder, with the run's limits and bound. If
-/// the subject is a plug-in, its path is the one on the machine that found the finding.
+/// the subject is a plug-in, the command has the path of the plug-in on the machine that found the failure.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
 /// The farthest false positive of one subject, kind and family.

@@ -31,7 +31,7 @@ using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
 /// Two neighbouring values of an option, and the misses among the collisions with each of them.
 struct Cliff {
-  QueryClass of{};  ///< of the families
+  QueryClass of{};  ///< class of the families
   double value = 0, next = 0;
   Proportion missed, missed_next;
 };
@@ -123,7 +123,7 @@ std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   return best;
 }
 
-/// "cliff: at 1000, 30 % of the collisions in ordinary families are missed, at 10000 0 %".
+/// The text "cliff: at 1000, 30 % of the collisions in ordinary families are missed, at 10000 0 %".
 std::string to_text(const Cliff& cliff) {
   const auto share = [](const Proportion& part) {
     return part.count == 0 ? std::string("none") : percent(part.count, part.total);

@@ -26,8 +26,8 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over timed families. Rates come from it, too: only the families of directed searches have no
-  /// meaningful rates, and these are not timed.
+  /// The sum over timed families. Rates are computed from this sum, too: only families of directed searches
+  /// have no meaningful rates, and such families are not timed.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -64,8 +64,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The largest set of subjects that were asked about a common family. If there are several such sets, the one
-/// with the most common families.
+/// The largest set of subjects that were asked about a common family. Among sets of equal size, the set with
+/// the most common families is chosen.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -187,8 +187,9 @@ struct DeciderRow {
   std::string family;  ///< "" for all families; a scene is one family with all its steps
   std::array<std::uint64_t, decider_count> queries{};
   std::optional<double> ns_per_query;       ///< nothing if the subject was not timed
-  std::map<std::string, double> time_over;  ///< time divided by that of another subject, the key, over the
-                                            ///< families and kinds that have both times
+  std::map<std::string, double> time_over;  ///< for each other subject (the key), the time divided by the
+                                            ///< time of that subject, over the families and kinds that have
+                                            ///< both times
 
   [[nodiscard]] std::uint64_t all() const;
 };
@@ -216,7 +217,7 @@ std::string row_family(const std::string& family) {
 }
 
 /// The run time of a subject divided by that of another subject, over the kinds and families for which
-/// `is_shown` is true and both have times; nothing if there are none.
+/// `is_shown` is true and both subjects have times; nothing without such a kind and family.
 template <class IsShown>
 std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
                                 const std::string& other, const IsShown& is_shown) {

@@ -36,7 +36,7 @@ std::string of(std::uint64_t count, std::uint64_t total) {
   return fmt::format("{} of {}", with_separators(count), with_separators(total));
 }
 
-/// How often a subject failed in this way in families of a class, and how often it could have.
+/// How often a subject failed in this way in families of a class, and how often it could have failed.
 std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Counts>& by_kind,
                                                         const FailureInfo& failure) {
   std::uint64_t count = 0;
@@ -49,8 +49,9 @@ std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Cou
 }
 
 /// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way, class by
-/// class, and in the first class kind by kind. Leaves out classes and kinds in which it did not fail, and the name of
-/// the class if all queries are unclassified. If it failed in no ordinary family, "; no ordinary one of 504" follows.
+/// class, and in the first class kind by kind. Leaves out classes and kinds in which the subject did not
+/// fail, and the name of the class if all queries are unclassified. If the subject failed in no ordinary
+/// family, "; no ordinary one of 504" follows.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   std::string no_ordinary_one;
@@ -228,9 +229,9 @@ std::string unjudged_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
-/// How often a subject failed in this way: class by class of the families; or, if the least exotic class of the
-/// queries is another one, first in queries of this class, such as "3 ordinary vt collisions in extreme families; in
-/// all 40 of 5,000 in extreme families".
+/// How often a subject failed in this way, class by class of the families. If the least exotic class of the
+/// failed queries differs from that of their families, the text begins with the queries of that class, such
+/// as "3 ordinary vt collisions in extreme families; in all 40 of 5,000 in extreme families".
 std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
   const auto in_queries = class_of_queries(subject, failure);
   if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)
@@ -266,8 +267,8 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
   return parts;
 }
 
-/// The text of a verdict on a subject that answered. Commas separate the parts of the text; if one of the
-/// parts is a list of classes, which itself has semicolons, semicolons do.
+/// The text of a verdict on a subject that answered. Commas separate the parts of the text. If one of the
+/// parts is a list of classes, which itself has semicolons, then semicolons separate the parts.
 std::string answered_text(const Failures& failures, const OfSubject& subject) {
   const bool has_list = !in_common(failures, {FailureKind::miss, FailureKind::late, FailureKind::unsafe_step,
                                               FailureKind::beyond_bound, FailureKind::fault})

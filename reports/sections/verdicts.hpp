@@ -1,4 +1,4 @@
-// Verdicts on subjects in words, ordinary queries first.
+// Verdicts on subjects, in words. Failures on ordinary queries are named first.
 #pragma once
 
 #include <map>

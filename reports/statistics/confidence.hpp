@@ -42,8 +42,8 @@ struct Proportion {
   }
 };
 
-/// The one-sided p-values of a test whether two proportions, `now` and `before`, have the same rate. If they
-/// do:
+/// The one-sided p-values of a test whether two proportions, `now` and `before`, have the same rate. Both
+/// members are probabilities in the case that the rates are equal.
 struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count
@@ -63,8 +63,9 @@ ExactTest fisher_test(const Proportion& now, const Proportion& before);
 /// An exact test like fisher_test for several pairs {now, before} together, each with a rate of its own.
 /// Given the sum of a pair's counts, now.count is a sum of independent trials with mean probability
 /// now.total / (now.total + before.total). Consider the binomial distribution with the number of trials of
-/// all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), its tails are at least
-/// those of the sum over all pairs, at a distance of more than 1 from the expectation.
+/// all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), at a distance of more than 1
+/// from the expectation, the tails of this distribution are at least as large as those of the sum of
+/// now.count over all pairs.
 ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
 
 }  // namespace nearmiss

@@ -1,7 +1,7 @@
 // Declarations of counters. One declaration has all that a counter needs: its name, its member, and where
-// files show it. Merging (merge_counters), the store (store/values.hpp), report.json
-// (sections/counts_json.hpp) and statistics.csv (csv.hpp) go through the declarations. sections/measures.hpp
-// declares what reports compute from counters.
+// files show it. Merging (merge_counters), the store (store/values.hpp), report.json (sections/measures.hpp)
+// and statistics.csv (csv.hpp) go through the declarations. sections/measures.hpp declares what reports
+// compute from counters.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,8 @@ struct Counter {
   Member Owner::*member;
   std::string_view json_key = name;
   std::string_view json_object =
-      "";  ///< key of the object that contains it in report.json; "" if the owner's object does
+      "";  ///< key of the object in report.json that contains the counter; "" if it is in the object of the
+           ///< owner
 };
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
@@ -37,7 +38,8 @@ struct NamedCounts {
   std::string_view
       json_key;  ///< key of an object with an entry for each name; "" if the entries are in the object of
                  ///< the owner
-  std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv; for members of Counts
+  std::string_view csv_prefix{};  ///< start of the names of the columns PREFIX_NAME in statistics.csv; only
+                                  ///< for members of Counts
   std::size_t first = 0;          ///< index of the first entry that is counted and shown
   bool shows_zeros = false;       ///< whether report.json shows zero entries
 };

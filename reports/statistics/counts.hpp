@@ -48,12 +48,12 @@ struct TimeError {
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below h, before a promised lower bound
-  bool stuck = false;     ///< the time is 0, and t* is not
+  bool stuck = false;     ///< the time is 0, although t* is not 0
   /// The time is promised and not late, but the rounded step to it (fuzz/trial/committed.hpp) has contact,
   /// or a distance below h, before its end.
   bool committed = false;
-  bool unsafe_step = false;     ///< `committed`, although the subject promises that this step is free
-  bool touches_at_end = false;  ///< as `committed`, but the step has contact only at its end
+  bool unsafe_step = false;     ///< `committed` holds, although the subject promises that this step is free
+  bool touches_at_end = false;  ///< the step of `committed` has contact only at its end
 
   bool operator==(const TimeError&) const = default;
 };
@@ -110,8 +110,8 @@ struct Counts {
   Histogram early;                                           ///< t* - time, of times that are not after t*
   Histogram after;                                           ///< time - t*, of times after t*
   Histogram travelled;            ///< TimeError::travelled, of times that are not after t*
-  std::vector<FarCase> earliest;  ///< the times that are the earliest before t*, at most far_cases
-  std::vector<FarCase> latest;    ///< the times that are the latest after t*, at most far_cases
+  std::vector<FarCase> earliest;  ///< times with the largest t* - time, at most far_cases
+  std::vector<FarCase> latest;    ///< times with the largest time - t*, at most far_cases
 
   /// Whether no counter exceeds the counter of which it counts a part.
   [[nodiscard]] bool is_possible() const;
@@ -187,10 +187,11 @@ struct Counts {
     return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
-  /// The largest t* - time, and the largest time - t*; 0 if no time is early, or none is after t*.
+  /// The largest t* - time (0 if no time is early); max_after() is the largest time - t* (0 if no time is
+  /// after t*).
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// The ratio that another case must reach to be kept in a list: 0 until the list is full.
+  /// A list keeps a further case only if its ratio is at least this; 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }

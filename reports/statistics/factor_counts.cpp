@@ -15,8 +15,8 @@ double ratio(std::uint64_t part, std::uint64_t of) {
   return static_cast<double>(part) / static_cast<double>(of);
 }
 
-/// Whether common_factors() prefers a to b: for its larger lift or, if the lifts are equal, by the rules
-/// there.
+/// Whether common_factors() prefers a to b: because a has the larger lift or, if the lifts are equal, by the
+/// rules for ties in factor_counts.hpp.
 bool is_better(const CommonFactors& a, const CommonFactors& b) {
   const auto merit = [](const CommonFactors& each) {
     const bool is_single = each.key.values.find(' ') == std::string::npos;
@@ -113,8 +113,8 @@ FactorCounts sum_of(std::span<const Level> levels) {
 }
 
 /// The answers of five successive values without misses, chosen so that the rate of false positives is
-/// lowest. If fewer than five values have no misses, their answers. (Values with misses do not count: a CCD
-/// that misses everything has no false positives.)
+/// lowest. If fewer than five values have no misses, the answers of these values are used. (Values with
+/// misses do not count: a CCD that misses everything has no false positives.)
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
   std::erase_if(levels, [](const Level& each) { return each.misses; });
@@ -127,8 +127,8 @@ FactorCounts best_answers(std::vector<Level> levels) {
   return best;
 }
 
-/// Whether more than three quarters of the queries that do not collide are reported; or a share that exceeds
-/// the share in `best` by more than a quarter of these queries, and by more than chance explains.
+/// Whether the share of reported queries, among those that do not collide, is above three quarters; or
+/// whether it exceeds the share in `best` by more than a quarter and by more than chance explains.
 bool reports_more(const FactorCounts& counts, const FactorCounts& best) {
   constexpr double more = 0.25, most = 0.75;
   const double rate = false_positive_rate(counts);
@@ -160,9 +160,9 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
   return longest;
 }
 
-/// Whether chance may explain that none of the collisions at some levels is missed, if they have the same
-/// rate of misses as the nearest level outside, or as the nearest two, and so on. `outside` has these levels,
-/// nearest first. If the nearest one has no misses, the answer is no.
+/// Whether chance may explain that no collision at some levels is missed. The assumed rate of misses is that
+/// of the nearest level outside, or of the nearest two levels together, and so on. `outside` has these
+/// levels, nearest first. If the nearest level outside has no misses, the answer is no.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

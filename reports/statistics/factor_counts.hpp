@@ -66,9 +66,10 @@ struct CommonFactors {
   [[nodiscard]] double share_of_collisions() const;
 };
 
-/// For each subject, kind and family with misses: the value or pair of values with the largest lift, share()
-/// / share_of_collisions(), among those that at least half of the misses have. Ties go to the value or pair
-/// that more misses have, then to a single value rather than a pair, then to the first in alphabetical order.
+/// For each subject, kind and family with misses, considers the values and pairs of values that at least half
+/// of the misses have. Returns the one with the largest lift, share() / share_of_collisions(). Ties go to the
+/// value or pair that more misses have, then to a single value rather than a pair, then to the first in
+/// alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
 /// The values of a factor "FACTOR=2^x" at which a subject is right. There it misses nothing, and reports at

@@ -10,8 +10,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The number of queries that a subject did not answer because it was slow: those over the time limit, and
-/// those that it was not asked after several of them.
+/// The number of queries that a subject did not answer because it was slow: the queries over the time limit,
+/// and the queries that the subject was not asked after several of these.
 std::uint64_t slow(const Counts& counts) {
   return counts.without_answer(Fault::time) + counts.without_answer(Fault::not_asked);
 }

@@ -80,8 +80,8 @@ inline bool is_beyond_contract(std::string_view subject) { return subject.ends_w
 /// are no failure.
 Failures failures_of(const std::string& subject, const Counts& counts);
 
-/// The failures of each subject, also if it has none; and the oracle's failures, under the name "", if it
-/// failed.
+/// The failures of each subject; a subject without failures has an empty set. If the oracle failed, its
+/// failures are listed under the name "".
 std::map<std::string, Failures> failures_by_subject(const Statistics& statistics);
 
 /// Whether the oracle, or a subject within its contract, has one of the failures in `failing`. If so,

@@ -17,16 +17,16 @@ namespace nearmiss {
 /// Whether a family's queries are drawn at random. Cases and scenes are not.
 bool is_random(std::string_view family);
 
-/// The family under which a report shows a family's queries. The directed searches of one sort, which are a
-/// family for each subject, are shown as one: "search-miss", "search-far~drawn" and so on. Other families
-/// keep their names.
+/// The family under which a report shows a family's queries. A directed search has a family for each subject;
+/// all searches of one sort are shown as one family: "search-miss", "search-far~drawn" and so on. Other
+/// families keep their names.
 std::string shown_family(std::string_view family);
 
 /// The origin of queries: "directed search", or their family.
 std::string_view origin(std::string_view family);
 
-/// The name that the steps of a sweep share, because they make the same random draws and differ only in the
-/// value of the parameter. For any other family, its own name.
+/// The name that all steps of a sweep share, because the steps make the same random draws and differ only in
+/// the value of the parameter. For any other family, the family's own name.
 std::string draws_of(std::string_view family);
 
 /// The most queries of a subject and kind that share one random draw: the number of steps of the longest
@@ -36,11 +36,11 @@ std::uint64_t most_repeats(const Statistics& statistics, std::string_view subjec
 /// The statistics with the counters of all families added up that a report shows as one (shown_family).
 Statistics by_shown_family(const Statistics& statistics);
 
-/// The scene of "scene:NAME#STEP": "scene:NAME".
+/// The scene of a step: "scene:NAME" for the step "scene:NAME#STEP".
 std::string scene_of(const std::string& step);
 
-/// The class of a family by its name, NAME or NAME@VALUE. Scenes are ordinary. So are simulations with the
-/// usual options; other simulations are unclassified.
+/// The class of a family by its name, NAME or NAME@VALUE. Scenes, and simulations with the usual options, are
+/// ordinary; other simulations are unclassified.
 QueryClass class_of(std::string_view family);
 
 /// Identifies the counters of a subject and kind over the families of a class.

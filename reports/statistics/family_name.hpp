@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// Prefixes of the families of directed searches. The name of the search's subject follows; if the queries
-/// have a separation, then ~SEPARATION.
+/// Prefixes of the families of directed searches. The prefix is followed by the name of the search's subject
+/// and, if the queries have a separation, by ~SEPARATION.
 inline constexpr std::string_view miss_search_family = "search-miss-";
 inline constexpr std::string_view far_search_family = "search-far-";
 inline constexpr std::string_view late_search_family = "search-late-";

@@ -1,4 +1,4 @@
-// Failures: the sort of failure, and the way in which a query fails.
+// Findings (queries that failed), and signatures (ways to fail).
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Finding {
     fault,
     late,        ///< a time is too late, although the subject promised a lower bound
     committed,   ///< a promised lower bound is sound, but the rounded step to it has contact before its end
-    unsafe_step  ///< likewise, although the subject promises that this step is free
+    unsafe_step  ///< as `committed`, although the subject promises that this step is free
   };
 
   What what{};

@@ -29,7 +29,7 @@ inline constexpr std::array<std::string_view, pair_fate_count> pair_fate_names{
 
 /// Pairs of one kind in one step of a scene.
 struct Funnel {
-  std::array<std::uint64_t, pair_fate_count> pairs{};  ///< number of pairs with each fate
+  std::array<std::uint64_t, pair_fate_count> pairs{};  ///< number of pairs with each PairFate
   std::uint64_t touching = 0;                          ///< pairs at rest or in translation that collide
   std::uint64_t finding_ns = 0;                        ///< time to find the pairs whose boxes meet
   std::uint64_t deciding_ns = 0;  ///< time to determine fates, and to decide pairs at rest or in translation

@@ -15,8 +15,8 @@ double Histogram::border(std::size_t i) {
 
 namespace {
 
-/// The bin of a ratio. Compares the ratio with the borders, because a rounded logarithm could count a ratio
-/// of 1 as one below the bound.
+/// The bin of a ratio. Compares the ratio with the borders, because a rounded logarithm could put a ratio of
+/// 1 into the bin below 1.
 std::size_t bin_of(double ratio) {
   static const auto borders = [] {
     std::array<double, Histogram::bin_count - 1> inner{};

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// The bound by which distances are divided: the bound that the subject claims. If it claims none, wang's
-/// bound for the same pair, which then is only a unit of length.
+/// The bound by which distances are divided: the bound that the subject claims. If the subject claims no
+/// bound, wang's bound for the same pair is used, only as a unit of length.
 enum class DistanceUnit : std::uint8_t {
   claimed_bound,
   wangs_bound,
@@ -71,8 +71,8 @@ struct Histogram {
   static double lower_border(double ratio);
   /// The number of ratios that are at least 1. This number is exact, because 1 is a border.
   [[nodiscard]] std::uint64_t at_least_one() const;
-  /// The bin of a quantile: of the smallest ratio r such that a fraction `part`, in (0, 1], of all ratios
-  /// are at most r. (0, 0) if all bins are empty.
+  /// The bin that holds a quantile: the smallest ratio r such that a fraction `part`, in (0, 1], of all
+  /// ratios is at most r. Returns (0, 0) if all bins are empty.
   [[nodiscard]] Bin quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;

@@ -24,7 +24,7 @@ struct SimulatedStep {
   std::uint64_t unresolved = 0;  ///< pairs that the subject reported in the motion of the last round
   std::uint64_t tangled = 0;     ///< pairs of an edge and a triangle that intersect after the step
   std::uint64_t picojoules = 0;  ///< kinetic energy after the step
-  std::uint64_t solver_ns = 0;   ///< run time of the step without the subject's
+  std::uint64_t solver_ns = 0;   ///< run time of the step without the run time of the subject
 
   static constexpr auto counters() {
     return std::tuple{Counter{"queries", &SimulatedStep::queries},

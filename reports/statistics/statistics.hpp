@@ -31,7 +31,7 @@ struct CountsKey {
   }
 };
 
-/// Identifies the queries of a kind and family that both of two versions of a CCD were asked.
+/// Identifies a pair of versions of a CCD, and a kind and family of queries that both versions were asked.
 struct VersionKey {
   std::string before, after;  ///< names of the subjects
   Kind kind{};

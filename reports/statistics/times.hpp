@@ -79,7 +79,7 @@ struct SubjectTimes {
                                   ///< of similar queries
   std::uint64_t nanoseconds = 0;  ///< total over all timed queries
   TimeHistogram each;             ///< times of a sample of the queries, timed one by one
-  std::vector<SlowCase> slowest;  ///< the slowest of that sample, at most slow_cases, slowest first
+  std::vector<SlowCase> slowest;  ///< the slowest queries of `each`, at most slow_cases, slowest first
 
   static constexpr auto counters() {
     return std::tuple{Counter{"batches", &SubjectTimes::batches},

@@ -38,8 +38,8 @@ class Store {
                  const std::function<void()>& check = {});
   ~Store();
 
-  /// Replaces the statistics and the shard, and adds findings, those since the last save. Throws Error, for
-  /// example StoreIsLocked, if the file cannot be written, and then leaves it unchanged.
+  /// Replaces the statistics and the shard, and adds the findings that are new since the last save. If the
+  /// file cannot be written, throws Error (for example StoreIsLocked) and leaves the file unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 
   /// Replaces all findings. Throws Error if the file cannot be written, and then leaves it unchanged.

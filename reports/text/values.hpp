@@ -7,7 +7,8 @@
 
 namespace nearmiss {
 
-/// Parses a whole number, such as 100000 or 1e5. Throws Error unless it is one from `least` to `most`.
+/// Parses a whole number, such as 100000 or 1e5. Throws Error unless the text is a whole number from `least`
+/// to `most`.
 std::uint64_t parse_count(std::string_view text, std::string_view option, std::uint64_t least,
                           std::uint64_t most);
 

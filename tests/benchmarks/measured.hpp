@@ -1,4 +1,4 @@
-// What the benchmarks share.
+// Functions that several benchmarks use.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -2,7 +2,7 @@
 // meet. The benchmark `decision` only decides the queries. The others also ask two questions about the time
 // that a subject gives for a collision, as a trial does: what encloses the earliest time t*, and is the given
 // time late? The given times are
-//   early   t* - 1e-6, at least 0, as those of a conservative CCD;
+//   early   t* - 1e-6, at least 0, like the times of a conservative CCD;
 //   exact   the largest double that is not after t*, as the subject `exact` gives it, which is the hardest to
 //           judge;
 //   late    t* + 1e-6, at most 1.

@@ -1,4 +1,4 @@
-// VV and VE report every pair within their thresholds, and none farther apart than the bound.
+// The tests VV and VE report every pair within their thresholds, and no pair farther apart than the bound.
 #include "ccd/wang/vertex_edge.hpp"
 
 #include <gtest/gtest.h>

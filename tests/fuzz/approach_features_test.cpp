@@ -1,4 +1,5 @@
-// Compares the features of first approaches at rational times with those that rational arithmetic finds.
+// Compares the features of first approaches at rational times with the features that rational arithmetic
+// finds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -29,7 +30,8 @@ Point position(const Query& query, int vertex, const Rational& t) {
   return x;
 }
 
-/// The simplest features that are at most h apart at a rational time; no features if none are.
+/// The simplest features that are at most h apart at a rational time; no features if the distance is larger
+/// than h.
 Closest closest_features(const Query& query, const Rational& t) {
   const Rational squared_h = Rational(query.separation) * Rational(query.separation);
   const Topology& of = topology(query.kind);

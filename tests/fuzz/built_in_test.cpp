@@ -150,7 +150,7 @@ TEST(Spikes, CandidatesGrowAsTrianglesDo) {
   EXPECT_NEAR(candidates_per_triangle(built_in_scene("spikes@64000")), few, 0.15 * few);
 }
 
-/// The number of pairs with each fate, over all steps.
+/// The number of pairs with each PairFate, over all steps.
 std::map<PairFate, std::uint64_t> fates(const Scene& scene) {
   std::map<PairFate, std::uint64_t> found;
   for (std::size_t step = 0; step < scene.steps(); ++step) {

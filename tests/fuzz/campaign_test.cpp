@@ -33,7 +33,7 @@ CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const 
   return plan;
 }
 
-/// A campaign of wang; for findings, also of basic, which misses collisions.
+/// A campaign of wang and, with `with_basic`, also of basic, which misses collisions and so has findings.
 Ran run(const CampaignPlan& plan, bool with_basic = false, const Stop& stop = Stop::never(),
         std::unique_ptr<Subject> another = nullptr) {
   Subjects subjects;

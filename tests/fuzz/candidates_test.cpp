@@ -43,8 +43,8 @@ std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
 using Points = std::vector<Vector3<double>>;
 using Point = std::function<Vector3<double>(Random&)>;
 
-/// Compares the finder with brute force, without a separation and with each of these. Returns the number of
-/// candidates.
+/// Compares the finder with brute force, without a separation and with each of the given separations. Returns
+/// the number of candidates.
 std::size_t expect_brute_force(MovingMesh mesh, const std::vector<double>& separations = {}) {
   const auto expected = candidates_by_brute_force(mesh);
   EXPECT_TRUE(found_candidates(mesh) == expected);

@@ -44,8 +44,8 @@ TEST(Classify, CoordinatesAreExtremeAbove1e30OrIfAllAreBelow1eMinus30) {
   EXPECT_TRUE(is_degenerate(scaled(query, 0)));
 }
 
-/// An edge of length 1 + 2^-60 above a second edge. The length of the second edge is 1e8 times that of the
-/// first, minus 2^-60 times `change`. Neither length is a double.
+/// An edge of length 1 + 2^-60 above a second edge. The length of the second edge is 1e8 times the length of
+/// the first edge, minus 2^-60 times `change`. Neither length is a double.
 Query long_edge(double change) {
   const double tiny = 0x1p-60;
   const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);

@@ -62,8 +62,8 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
   EXPECT_EQ(end_of(*committed_step(near, 0.375, false)), StepEnd::touches);
 }
 
-/// A subject that reports every collision. Its time is the largest double or float that is not after t*,
-/// minus `early`.
+/// A subject that reports every collision. The subject's time is the largest double or float that is not
+/// after t*, minus `early`.
 std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;

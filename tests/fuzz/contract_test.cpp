@@ -15,7 +15,7 @@ namespace {
 
 using testing::falling_vertex;
 
-/// A subject with this contract that misses everything and records what it is asked.
+/// A subject with this contract. It misses every collision, and records the queries that it is asked.
 std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& asked) {
   const auto note = [&](const Query& query) {
     asked.push_back(query);
@@ -26,7 +26,7 @@ std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& as
 
 constexpr Contract apart{.apart_at_start = true};
 
-/// Collisions. In every third of them, the primitives touch at t = 0.
+/// A batch of collisions. In every third query, the primitives already touch at t = 0.
 Batch batch() {
   std::vector<Query> queries;
   for (int i = 0; i < 30; ++i) queries.push_back(falling_vertex(0.25, 0.25, i % 3, -1));

@@ -84,8 +84,8 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // By `roots`: the number of roots at the contact, counted with multiplicity, and of other, simple roots in
-  // the step.
+  // For each value of `roots`, the first table has the number of roots at the contact, counted with
+  // multiplicity; the second table has the number of other roots in the step, which are simple.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

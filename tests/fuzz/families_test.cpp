@@ -30,7 +30,7 @@ std::uint64_t count_of(const Family& family, std::uint64_t usual) {
   return family.has_separation && family.block_cases < 25 ? usual / 5 : usual;
 }
 
-/// A hash of the first queries, with their separations if they have any.
+/// A hash of the first queries, including the separations of queries that have one.
 std::uint64_t fingerprint(const Family& family) {
   testing::BitHash hash;
   for (std::uint64_t i = 0; i < count_of(family, 1000); ++i) {
@@ -174,8 +174,8 @@ TEST(EveryFamily, IsFiniteAndOfBothKinds) {
       expect_finite_and_of_both_kinds(family);
 }
 
-// Only families of planted collisions may always collide. Any other family is useless if its queries hardly
-// ever or always collide.
+// Only families of planted collisions may always collide. Any other family is useless if its queries always
+// collide, or hardly ever do.
 TEST(EveryFamily, HasCollisionsAndMisses) {
   for (const Family& family : all_families()) {
     if (!is_of_meshes(family.kinds[0]) && !family.has_separation) continue;  // contact is a coincidence

@@ -1,4 +1,4 @@
-// The first queries of a family, and counts of those with a property.
+// The first queries of a family, and how many of them have a property.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ inline std::vector<Query> first_queries(std::string_view name, std::uint64_t cou
   return queries;
 }
 
-/// The primitives at rest at their positions at a time. Positions are rounded except at t = 0 and t = 1.
+/// The primitives at rest, where they are at `time`. Positions are rounded except at t = 0 and t = 1.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {
     const double place = (1 - time) * query.x[i] + time * query.x[12 + i];

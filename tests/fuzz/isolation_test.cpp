@@ -47,8 +47,8 @@ bool is_chosen(const Query& query) {
   return hash % 100 == 0;
 }
 
-/// Limits with little memory. The time limit is short only for plug-ins that are meant to exceed it, because
-/// on a busy machine, others might exceed a short limit, too.
+/// Limits with little memory. The time limit is short only for plug-ins that are meant to exceed it: on a
+/// busy machine, other plug-ins might exceed a short limit, too.
 isolation::PluginLimits limits_for(Fault fault) {
   const auto time = fault == Fault::time ? std::chrono::milliseconds(100) : std::chrono::seconds(60);
   return {.time = time, .bytes = std::uint64_t{64} << 20};
@@ -176,7 +176,7 @@ TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {
   EXPECT_TRUE(subject->decide(one_batch(1).front()).hit);
 }
 
-// A process may die at any moment; all answers that it leaves are the plug-in's.
+// A process may die at any moment; all answers that the process leaves behind are answers of the plug-in.
 TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
   const auto subject = make_isolated_plugin(plugin("aborts_later"));
   const auto queries = one_batch(50);

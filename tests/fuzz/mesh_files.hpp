@@ -96,8 +96,8 @@ class MeshFilesTest : public testing::TemporaryFolder {
     std::string old, by, message;
   };
 
-  /// Makes each change of a good file by itself, and expects that the file is refused with the change's
-  /// message.
+  /// Applies each change on its own to a good file, and expects that the changed file is refused with the
+  /// message for this change.
   void expect_refused_with(const std::string& ending, const std::string& good,
                            std::initializer_list<Change> changes) const {
     for (const auto& [old, by, message] : changes) expect_refused(ending, replaced(good, old, by), message);

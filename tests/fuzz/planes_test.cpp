@@ -1,4 +1,5 @@
-// The plane tests of the oracle and of the subjects, which were written independently, agree on every family.
+// The plane tests of the oracle and of the subjects agree on every family. They were written independently of
+// each other.
 #include <gtest/gtest.h>
 
 #include "ccd/wang/plane_culling.hpp"

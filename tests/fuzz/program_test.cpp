@@ -202,7 +202,7 @@ TEST_F(ProgramTest, ThatTakesTooLongIsLate) {
   expect_fault("while rows[-1][0] == 1: pass", Fault::time);
 }
 
-// Otherwise, later questions would get the answers to earlier questions.
+// If such bytes were accepted, later questions would get the answers to earlier questions.
 TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
   const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";
   for (const std::string& name :

@@ -1,4 +1,4 @@
-// Trials over the pairs of a scene.
+// Tests trials of subjects on the pairs of a scene.
 #include "fuzz/scenes/scene_trial.hpp"
 
 #include <gtest/gtest.h>

@@ -83,8 +83,8 @@ void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   EXPECT_GT(ratio, wanted);
 }
 
-// In float, the bound is 0.76 B, so many planes of the culling nearly separate far false positives. With a
-// fine scalar, the search must make primitives as small as the bound.
+// In float, the bound is 0.76 B. Therefore, many planes of the culling nearly separate the primitives of far
+// false positives. With a fine scalar, the search must make primitives as small as the bound.
 TEST(FarSearch, ComesNearTheBoundPastPlaneCullingAndInFineScalars) {
   expect_far(*make_any_subject("wang:float"), 0.8, 40);
   expect_far(*make_any_subject("wang-tight:p112"), 0.9, 10);

@@ -1,4 +1,5 @@
-// Findings are shrunk while their campaign runs, the most telling ones first, and no query waits for this.
+// Findings are shrunk while their campaign runs, the most telling findings first. No query waits for the
+// shrinking.
 #include "fuzz/trial/shrinking.hpp"
 
 #include <gtest/gtest.h>

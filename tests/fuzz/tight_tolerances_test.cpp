@@ -168,8 +168,8 @@ TEST(ToleranceTable, HasTheseBounds) {
   }
 }
 
-// Among the paper's constraints, the closed forms first violate 64 ε^¾ >= 33492 ε. Below 13 bits, μ is
-// smaller than the solver actually needs.
+// As ε grows, 64 ε^¾ >= 33492 ε is the first of the paper's constraints that the closed forms violate. Below
+// 13 bits, μ is smaller than the solver actually needs.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;

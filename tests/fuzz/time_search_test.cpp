@@ -28,7 +28,8 @@ MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
            .takes_separation = true}};
 }
 
-/// Distance from the collisions at time 0.4 whose last edge has the length 0.77 at t = 0.
+/// How far `time` is from 0.4 and the length of the edge of the last two vertices at t = 0 from 0.77,
+/// combined as a Euclidean norm.
 double off(const Query& query, double time) {
   return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
 }

@@ -70,8 +70,8 @@ TEST_P(TimesOfVertices, AreNeverLateAndTheSubjectsMissNothing) {
     }
 }
 
-/// Expects that wang-time decides the first queries of a family as wang does. Skips queries of vertices, and
-/// with separations.
+/// Expects that wang-time decides the first queries of a family as wang does. Skips queries of the kinds vv
+/// and ve, and queries with separations.
 void expect_same_decisions(const Subject& wang, const Family& family, std::uint64_t count) {
   const auto timed = make_any_subject("wang-time");
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -23,7 +23,8 @@ using testing::one;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A subject that gives the same answer to all queries. With an infinite bound, it claims none.
+/// A subject that gives the same answer to all queries. An infinite `bound` means that the subject claims no
+/// bound.
 std::unique_ptr<Subject> told(std::string name, bool hit, double bound = infinity) {
   const Verdict verdict{hit, hit ? Stage::unspecified : Stage::none, 0};
   return std::make_unique<testing::MadeUpSubject>(
@@ -139,7 +140,7 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
 }
 
 // Queries of another seed have the same numbers, and the same places in batches, so a sample chosen by number
-// would not do.
+// would take the queries of both seeds at the same numbers.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
   const Family family = find_family("uniform-slow");
   for (const std::size_t wrong : {0, 12}) {

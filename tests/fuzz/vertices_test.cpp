@@ -1,4 +1,4 @@
-// wang for vv and ve: it reports everything within h, and nothing beyond its bound.
+// For vv and ve, wang reports every pair that comes within h, and no pair that stays beyond its bound.
 #include <CGAL/Interval_nt.h>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
 /// Encloses a computed number that was divided by a power of B.
 Interval enclosure(double x) { return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)}; }
 
-/// Expects that tolerances that were computed for B satisfy the constraints for vv, or with `of_edge` those
+/// Expects that tolerances computed for B satisfy the constraints for vv or, with `of_edge`, the constraints
 /// for ve.
 void expect_constraints(const Tolerances<double>& computed, double B, bool of_edge) {
   const Interval b(B);
@@ -197,7 +197,7 @@ std::array<bool, 5> cases_that_accept(const Query& query) {
           vertex_vertex(pair.ve.x0i, tol) || vertex_vertex(pair.ve.x0j, tol)};
 }
 
-// Case 3 finds nothing that all other cases miss, as the proof in vertex_edge.hpp says.
+// Case 3 reports no query that all other cases miss, as the proof in vertex_edge.hpp says.
 TEST(TheCasesOfAlgorithm2, FindSomeCollisionsAloneExceptTheThird) {
   std::array<int, 5> alone{};
   for (const Family& each : vertex_families()) {

@@ -64,8 +64,8 @@ Answer answer_of(const Decide& decide) {
   }
 }
 
-/// The answers with a given bound if every pair that no plane separates is treated as a pair that needs
-/// another frame.
+/// The answers with a given bound. Every pair that no plane separates is treated as a pair that needs another
+/// frame.
 std::vector<Answer> careful(std::span<const Query> queries, double given) {
   const auto decide = [&]<Kind kind>(const Query& query) {
     if (separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
@@ -78,8 +78,9 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
   return answers;
 }
 
-/// Bounds to give: the largest of the queries' own bounds, and the bounds of some queries; just smaller ones,
-/// and up to 2^60 times larger ones; and bounds at and beyond both ends of the range that needs no scaling.
+/// Bounds to give: the largest of the queries' own bounds, and the bounds of some queries; bounds that are
+/// slightly smaller, and bounds that are up to 2^60 times larger; and bounds at and beyond both ends of the
+/// range that needs no scaling.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that programs compiled with an earlier minor version keep working: the library must have, unchanged,
-# all functions and types in oracle/interface/nearmiss.abi, and all constants in constants.txt. It may have
-# more of them.
+# all functions and types in oracle/interface/nearmiss.abi, and all constants in constants.txt. The library
+# may have additional ones.
 # Usage: abi_test.sh [--write] LIBRARY, which has debug information
 #   --write  replaces both files after an addition; any other change needs a new major version
 set -euo pipefail
@@ -33,7 +33,7 @@ abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added
 missing=$(comm -23 constants.txt <(constants))
 [[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
 
-# Debian's list of symbols must be complete. It says since which version each function exists.
+# Debian's list of symbols, which gives the first version with each function, must be complete.
 known=$(sed -nE 's/^ (nearmiss_\w+)@NEARMISS_1 .*/\1/p' ../../tools/debian/symbols | sort)
 exported=$(nm -D --defined-only "$library" | sed -nE 's/.* T (\w+)@@NEARMISS_1$/\1/p' | sort)
 [[ $known == "$exported" ]] || fail "tools/debian/symbols has: $known; the library: $exported"

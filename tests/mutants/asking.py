@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from suite import run_tests
 
 KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that were killed at a limit
-BUDGET = 120  # seconds of one core that a mutant's tests may take, by their times without a mutant
+BUDGET = 120  # seconds of one core for a mutant's tests, by their times without a mutant
 
 
 @dataclass

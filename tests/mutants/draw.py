@@ -13,7 +13,8 @@ import equivalents
 from mutation import Mutation
 from sources import ROOT, cpp_files, read, sha
 
-# Each row: the operator's name, what it finds, and what takes its place. One mutant changes one place.
+# Each row has the operator's name, the pattern that the operator finds, and the text that replaces
+# it. A mutant changes one place.
 SUBSTITUTIONS = [
     ('strictness', r'(?<!template) (<|>) ', r' \1= '),
     ('strictness', r' (<|>)= ', r' \1 '),

@@ -17,7 +17,7 @@ class Stopped(Exception):
 
 @dataclass
 class Ended:
-    """How a command ended, and the time that it used, including that of all of its children."""
+    """How a command ended, and the time that the command and all of its children used."""
 
     code: int  # exit code, or minus the number of the signal that ended it
     output: str
@@ -70,10 +70,10 @@ def limits(cpu=None, memory=None):
 
 
 def seal():
-    """Words to put before a command to isolate its processes. They cannot see or kill other
-    processes, and none of them survives the command. The first process in an isolation ignores
-    signals, so the first one is a shell that runs the command. If a signal ends the command, the
-    shell's exit code is 128 plus the number of the signal.
+    """Words to put before a command to isolate its processes. These processes cannot see or kill
+    other processes, and none of them survives the command. The first process in an isolation
+    ignores signals, so the first one is a shell that runs the command. If a signal ends the
+    command, the shell's exit code is 128 plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     shell = ['sh', '-c', '"$@"; exit $?', 'sh']

@@ -18,7 +18,8 @@ using testing::falling_edge;
 using testing::falling_vertex;
 using testing::HostileArithmetic;
 
-/// Queries that the last bit decides, with primitives down to the size of the smallest double.
+/// Queries whose answer depends on the last bit of a number, with primitives down to the size of the smallest
+/// double.
 std::vector<Query> close_calls() {
   std::vector<Query> queries;
   for (const double scale : {1.0, 0x1p-1000, 0x1p-1021, 0x1p-1050, 0x1p-1070})

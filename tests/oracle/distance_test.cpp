@@ -135,7 +135,8 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
-// Decisions look at the times at which the distance is h; comparisons, at those at which it is smallest.
+// Decisions look at the times at which the distance is h; comparisons look at the times at which the distance
+// is smallest.
 TEST(SmallestDistance, IsComparedAsDecisionsAre) {
   int at_most = 0;
   int compared = 0;

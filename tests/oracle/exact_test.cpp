@@ -159,7 +159,7 @@ TEST(EarliestTime, IsTheFirstOfSeveral) {
   EXPECT_EQ(time->rational(), "1/4");
 }
 
-// A vertex rests in the plane of its triangle, so near an edge that only exact arithmetic sees the gap.
+// A vertex rests in the plane of its triangle. It is so near an edge that only exact arithmetic sees the gap.
 TEST(EarliestTime, IsRefusedIfExactArithmeticFindsNoCollision) {
   constexpr double p = 8944394323791464, q = 5527939700884757, r = 3416454622906707;  // p r = q² - 1
   const testing::Points points{{q, r, 0}, {0, 0, 0}, {p, q, 0}, {0, p, 0}};

@@ -1,5 +1,5 @@
-// Tests the filter where products of coordinates, or sums of products, overflow or underflow: for one query,
-// and for many queries with every instruction set of this machine.
+// Tests the filter where products of coordinates, or sums of products, overflow or underflow. Asks the filter
+// about single queries, and about many queries at once with every instruction set of this machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,8 +71,8 @@ Query stretched(Query query, int xy, int z) {
   return query;
 }
 
-/// Collisions with small coordinates. The contact is between t = 0 and t = 1, and a change of F's sign shows
-/// it.
+/// Collisions with small coordinates. The contact is between t = 0 and t = 1, and a change of F's sign proves
+/// the contact.
 std::vector<Named> plain_collisions() {
   return {{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)}, {"falling edge", falling_edge(1, -1)}};
 }

@@ -48,8 +48,8 @@ TEST(Separation, IsReachedWhenThePrimitivesAreHApart) {
   EXPECT_EQ(first_time(falling_edge(1, -1), 2), "0.000000");
 }
 
-// Certified bounds show that the distance is above h up to the double before t = 1. They cannot show that it
-// is h at t = 1.
+// Certified bounds show that the distance is above h up to the double before t = 1. The bounds cannot show
+// that the distance is h at t = 1.
 TEST(Separation, ThatIsReachedAtTheEndOfTheStepIsReachedAtOne) {
   for (const double start : {1e2, 1e6, 1e12}) {
     EXPECT_EQ(first_time(falling_vertex(0.25, 0.25, start, 1), 1), "1.000000") << start;

@@ -1,5 +1,5 @@
-// The checker accepts the certificates that nearmiss_certificate() writes, and each states exactly what was
-// asked.
+// The checker accepts the certificates that nearmiss_certificate() writes, and each certificate states
+// exactly what was asked.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

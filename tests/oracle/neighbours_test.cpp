@@ -1,5 +1,4 @@
-// The neighbouring doubles around the earliest time, which double words find, are those that exact arithmetic
-// finds.
+// Double words find the same neighbouring doubles around the earliest time as exact arithmetic.
 #include "oracle/filter/neighbours.hpp"
 
 #include <gtest/gtest.h>

@@ -207,8 +207,8 @@ TEST(Root, ARationalRootIsFoundInAWideInterval) {
     }
 }
 
-// If the polynomial is far from linear, its chord guesses the root badly; then the interval is cut in the
-// middle.
+// If the polynomial is far from linear, the chord gives a bad guess of the root; the interval is then cut in
+// the middle.
 TEST(Root, RefiningAtLeastHalvesTheInterval) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     Random random(3, 0, i);

@@ -1,4 +1,4 @@
-// The search for contact in a part of the step, for an F with a known error.
+// Tests the search for contact in a part of the step, for a polynomial F with a known error.
 #include "oracle/filter/search.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }
 
-// F is that of the test above, with a small error.
+// F is the polynomial of the test above, with a small error.
 TEST(ContactSearch, FindsAChangeOfSignWhereTheWeightsAgree) {
   Bernstein<double, 4> F = three_roots();
   F.error = 0x1p-30;

@@ -1,4 +1,4 @@
-// Compares the errors of the certified distance bounds with rational arithmetic.
+// Checks, in rational arithmetic, the errors of the certified distance bounds.
 #include "oracle/distance/separation.hpp"
 
 #include <gtest/gtest.h>
@@ -107,8 +107,8 @@ std::vector<Query> all_sorts(std::size_t each) {
   return queries;
 }
 
-/// Expects every coefficient to differ from the exact one by at most its error bound. Returns the largest
-/// quotient of a difference and its error bound.
+/// Expects every coefficient to differ from the exact coefficient by at most its error bound. Returns the
+/// largest quotient of a difference and its error bound.
 double expect_within(const Product& product, const std::array<Rational, 4>& exact) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -1,4 +1,4 @@
-// Compares the decisions for primitives at rest or in translation with those of exact arithmetic.
+// Compares the decisions for primitives at rest or in translation with the decisions of exact arithmetic.
 #include "oracle/translation.hpp"
 
 #include <gtest/gtest.h>

@@ -26,9 +26,9 @@ using testing::make_query;
 
 constexpr std::array of_vertices_and_edges{Kind::vertex_vertex, Kind::vertex_edge};
 
-/// A query with small integers, with which primitives often touch (in half of these queries, one coordinate
-/// is moved by 2^-50); with doubles in [-1, 1]; or with doubles of very different sizes, some of them
-/// subnormal.
+/// A query of one of three sorts. The coordinates are small integers, so that primitives often touch (in half
+/// of these queries, one coordinate is moved by 2^-50); doubles in [-1, 1]; or doubles of very different
+/// sizes, some of them subnormal.
 Query random_query(Random& random, Kind kind) {
   const int sort = random.integer(0, 3);
   Query query{.kind = kind};
@@ -61,8 +61,8 @@ Query with_some_separation(Random& random, const Query& query) {
   }
 }
 
-/// The smallest squared distance of two vertices over [0, 1]: that of their difference from the origin, at
-/// the time at which it is nearest.
+/// The smallest squared distance of two vertices over [0, 1]: the squared length of their difference at the
+/// time at which the difference is shortest.
 Rational least_squared_distance(const Query& vv) {
   std::array<Rational, 3> d, v;
   Rational dv, vv_squared;

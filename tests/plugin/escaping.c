@@ -1,6 +1,6 @@
-/* A subject that reports a query if it may not do what it tries: to act on its supervisor, or on the process
-   that the environment names as NEARMISS_PROCESS. It tries at the first query with x > 0.9, or while it is
-   loaded. */
+/* A subject that tries something forbidden: to act on its supervisor, or on the process that the environment
+ * names as NEARMISS_PROCESS. If the attempt fails, the subject reports the query. It tries at the first query
+ * with x > 0.9, or while it is loaded. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>

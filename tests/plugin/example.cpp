@@ -1,6 +1,6 @@
 // A complete example of a plug-in in C++ with Eigen. It samples the motion, and reports a query if the
-// primitives are within a tolerance of each other at some sample. The time of impact is that of the first
-// such sample. It misses collisions between samples.
+// primitives are within a tolerance of each other at some sample. The time of impact is the time of the first
+// such sample. The plug-in misses collisions between samples.
 //
 //   c++ -std=c++17 -O2 -shared -fPIC -I. -isystem /usr/include/eigen3 tests/plugin/example.cpp -o sampling.so
 //   build/release/nearmiss fuzz --subject ./sampling.so:tolerance=0.01 --cases 100000

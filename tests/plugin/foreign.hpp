@@ -1,7 +1,8 @@
 // A foreign library in miniature: a CCD with each of the signatures that ccd/nearmiss_functions.hpp knows,
 // and with several types of vectors. It compares the axis-aligned boxes of the two primitives, and advances
 // to the earliest time at which the boxes may be as close as the separation. So it misses nothing, and never
-// gives a late time, but also reports pairs of which only the boxes meet, or that need 100 steps.
+// gives a late time, but it also reports pairs whose boxes meet although the primitives do not, and pairs
+// that need 100 steps.
 #pragma once
 
 #include <Eigen/Core>

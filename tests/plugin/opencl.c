@@ -10,8 +10,8 @@
  *
  *     cc -shared -fPIC -I. -o opencl.so tests/plugin/opencl.c -lOpenCL
  *
- * With the option optimise=0, the device compiles the kernel as it stands: LLVM 18, which pocl has on Debian
- * 13, ends the process when it optimises it. */
+ * With the option optimise=0, the device compiles the kernel without optimisation. LLVM 18, which pocl uses
+ * on Debian 13, ends the process when it optimises the kernel. */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <stdio.h>

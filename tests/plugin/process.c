@@ -75,7 +75,7 @@ static int answer(void) {
   return 1;
 }
 #elif defined(AHEAD)
-/* When it is asked a new query, decides all queries that it sees in the worker's memory. */
+/* When this subject is asked a new query, it decides all queries that it sees in the worker's memory. */
 static const double* questions(void) { return shared_memory("nearmiss-questions"); }
 
 static int decided(const double* x) {
@@ -161,8 +161,8 @@ static int answer(void) {
   return loaded != NULL;
 }
 #elif defined(RECOVERS)
-/* Asks for more memory than is allowed, and continues when the system refuses it. Its process crashes at the
- * next query. */
+/* Asks for more memory than is allowed, and continues when the system refuses it. The subject's process
+ * crashes at the next query. */
 #define NAME "recovers"
 static int answer(void) {
   static int calls = 0;

@@ -1,6 +1,6 @@
 /* A program that records queries as a simulation would: recording COUNT [open|kill|wait|float|tmax
- * T|kept|threads|fork|lines]. lines: each line of stdin is a record: kind, separation, tmax, answer, toi,
- * whether in float, coordinates. */
+ * T|kept|threads|fork|lines]. With `lines`, each line of stdin is a record: kind, separation, tmax, answer,
+ * toi, whether the record is in float, coordinates. */
 #include "ccd/nearmiss_record.h"
 
 #include <pthread.h>

@@ -27,7 +27,7 @@ constexpr std::string_view sum = "Gappa, sum of three (proven.hpp)";
 
 // For ε = 1, the printed errors equal their factors of ε.
 const auto printed = printed_errors(1.0);
-// The factors of `full_errors` are largest at the largest ε. Here S = B.
+// The factors of `full_errors` are largest at the largest ε. They are computed for S = B.
 constexpr double largest_eps = 0x1p-10;
 constexpr auto full = full_errors(largest_eps, 1.0, 0.0);
 constexpr double factor(double error) { return error / largest_eps; }

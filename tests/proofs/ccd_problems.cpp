@@ -57,7 +57,8 @@ Traced threshold(Problem& problem, const char* name) {
   return input;
 }
 
-/// Sets both sides of the problem to those of a comparison, left <= right, that a test has made.
+/// Makes both sides of a comparison, left <= right, the two sides of the problem. A test has made this
+/// comparison.
 void choose(Problem& problem, const Branch& comparison) {
   problem.left = Traced(comparison.left);
   problem.right = Traced(comparison.right);
@@ -137,7 +138,7 @@ Problem cubic(CubicPart part) {
 }
 
 /// Coefficients that are inputs, in units of B³. Their bounds also hold for computed coefficients: each bound
-/// exceeds that of the exact coefficient by 1/2, and rounding errors are far smaller.
+/// exceeds the bound of the exact coefficient by 1/2, and rounding errors are far smaller.
 Cubic<Traced> exact_coefficients(Problem& problem) {
   Cubic<Traced> F;
   for (const auto& [coefficient, name, most] :
@@ -309,7 +310,7 @@ Problem vertex_edge(Reach reach, EdgePart part) {
 Problem exact_vertices(Reach reach, VertexPart part) {
   Problem problem = begun();
   const auto ji = exact_vector(*problem.trace, 'x');
-  // These vectors are computed from exact vectors within the bounds, and are longer than those by at most 5u
+  // These vectors are computed from exact vectors within the bounds. Rounding makes them longer by at most 5u
   // <= 2^-8.
   constexpr double longer = 1 + 0x1p-8;
   const double most = (reach == Reach::far ? 2 : 1) * longer;

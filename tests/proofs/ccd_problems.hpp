@@ -24,7 +24,7 @@ enum class CubicPart : std::uint8_t { a, b, c, d, value };
 Problem cubic(Kind kind, CubicPart part);
 /// A coefficient of the cubic, from exact vectors.
 Problem exact_cubic(CubicPart part);
-/// With exact coefficients of the cubic: its value by Horner's rule, and its clearance.
+/// The value of the cubic by Horner's rule and, below, its clearance, both from exact coefficients.
 Problem horner();
 Problem clearance_of_exact();
 

@@ -61,9 +61,9 @@ struct OracleClaim {
 /// The claims about the constants of oracle/. No constant could be halved.
 std::vector<OracleClaim> oracle_claims();
 
-/// Describes the faults of a claim. A claim has none if Gappa proves the bound `proven` in every precision,
-/// with underflow in double; no result overflows; seen <= proven <= claimed; the witness has exactly the
-/// recorded error; and Gappa proves no bound below it.
+/// Describes the faults of a claim. A claim has no faults if all of the following hold: Gappa proves the
+/// bound `proven` in every precision (in double, with underflow); no result overflows; seen <= proven <=
+/// claimed; the witness has exactly the recorded error; and Gappa proves no bound below that error.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
 /// The faults of all claims with their witnesses. Uses two threads.

@@ -46,7 +46,7 @@ auto highest(const ClimbEffort& climb, const Draw& draw, const Change& change, c
   return highest.value();
 }
 
-/// The nearest number in the thread's precision.
+/// x, rounded to the thread's precision.
 inline double snapped(double x) { return static_cast<double>(MpfrFloat(x)); }
 
 /// The roundoff u for a number of bits.

@@ -1,6 +1,6 @@
-// Proves the margins for rounding in two places: heights along diagonals, in the test whether planes separate
-// primitives by more than h; and the ends of gaps, in the search for the first time at which the distance is
-// small.
+// Proves that two margins for rounding suffice. One belongs to the test whether planes separate primitives by
+// more than h: it covers heights along diagonals. The other belongs to the search for the first time at which
+// the distance is small: it covers the ends of gaps.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,10 +12,10 @@
 namespace nearmiss::proofs {
 namespace {
 
-/// A script whose numbers are in units of |A| + |B|, where A and B are the rounded sums: the lowest height of
-/// one primitive and the highest of the other. `eA` to `e3` are the relative errors of the operations: exact
-/// heights are A (1 + eA) and B (1 + eB). The script concludes: if the code finds that the heights differ by
-/// more than √2 h, the exact heights differ by more than √2 h, too.
+/// A script whose numbers are in units of |A| + |B|. A and B are rounded sums: A is the lowest height of one
+/// primitive, and B is the highest height of the other primitive. `eA` to `e3` are the relative errors of the
+/// operations: exact heights are A (1 + eA) and B (1 + eB). The script concludes: if the code finds that the
+/// heights differ by more than √2 h, the exact heights differ by more than √2 h, too.
 std::string heights(double root_of_two, double height_rounding) {
   constexpr const char* rounded = "in [-1b-53, 1b-53]";
   return fmt::format(

@@ -46,7 +46,7 @@ class Prover {
   /// Whether Gappa proves that the error is at most `bound` for B = 1.
   bool proves(const Problem& problem, const Arithmetic& arithmetic, double bound);
 
-  /// The last script of `proves`.
+  /// The last script that `proves` gives to Gappa.
   std::string script(const Problem& problem, const Arithmetic& arithmetic, double bound);
 
   /// Gappa's answer to a script.

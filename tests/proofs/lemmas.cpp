@@ -34,10 +34,10 @@ bool is_extreme(Operation operation) {
          operation == Operation::smallest;
 }
 
-/// Lemmas about a position X = D + t V between D and E. X is a convex combination of its ends; these are
-/// within `reach`, so X is, too. Likewise, k, the part of X's error that comes from the errors of its ends,
-/// is within the bound of these errors. Interval arithmetic derives this from reach - X and reach + X, which
-/// are sums of products of nonnegative numbers.
+/// Lemmas about a position X = D + t V between D and E. X is a convex combination of its ends. The ends are
+/// within `reach`, so X is within `reach`, too. Likewise, k, the part of X's error that comes from the errors
+/// of its ends, is within the bound of these errors. Interval arithmetic derives this from reach - X and
+/// reach + X, which are sums of products of nonnegative numbers.
 std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
   return fmt::format(
       "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"

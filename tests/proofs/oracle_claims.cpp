@@ -31,7 +31,7 @@ double seen_leaves(const Inputs& inputs) {
 }
 
 /// The contribution of the leaves' errors to their product, divided by the term that `cross_bound` has for
-/// it.
+/// this contribution.
 double seen_growth(const Inputs& in) {
   const Rational p(in.at("p"));
   const Rational q(in.at("q"));
@@ -67,7 +67,8 @@ double seen_spread(const Inputs& in) {
   return h < 0 || h > 1 ? 0 : ratio(abs(moved), 2 * h * slope);
 }
 
-/// The amount by which a slope of exact coefficients exceeds that of computed ones, divided by the error.
+/// The amount by which a slope of exact coefficients exceeds the slope of computed coefficients, divided by
+/// the error.
 double seen_slope(const Inputs& in) {
   const Rational e(in.at("e"));
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));
@@ -75,7 +76,8 @@ double seen_slope(const Inputs& in) {
   return ratio(exact - slope, abs(e));
 }
 
-/// The error of the derivative of a cubic at t, for exact coefficients, in units of u times the largest one.
+/// The error of the derivative of a cubic at t, for exact coefficients, in units of u times the largest
+/// coefficient.
 double seen_slope_rounding(const Inputs& in) {
   const double t = in.at("t");
   if (!(t >= 0 && t <= 1)) return 0;
@@ -86,7 +88,8 @@ double seen_slope_rounding(const Inputs& in) {
   return ratio(abs(Rational(derivative(F).at(t)) - exact), Rational(F.largest()) * Rational(u));
 }
 
-/// The error of the derivative at t = 0 that comes from the errors of the coefficients, divided by these.
+/// The error of the derivative at t = 0 that comes from the errors of the coefficients, divided by the error
+/// of a coefficient.
 double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
 
 /// The error of F(t) + S (d - t), in units of u (|F(t)| + |S (d - t)|).

@@ -60,7 +60,7 @@ double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   return most;
 }
 
-/// The seen value of m, divided by its bound for these coefficients.
+/// The largest value of m that occurs for these coefficients, divided by its bound.
 double nodes_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);

@@ -1,4 +1,5 @@
-// Compares the closed forms of ccd/ with all orders of u, on all of [0, 2^-10], in exact arithmetic.
+// Compares the closed forms of ccd/ with the full formulas (all orders of u), for all u in [0, 2^-10], in
+// exact arithmetic.
 #include "tests/proofs/solver_orders.hpp"
 
 #include <gtest/gtest.h>

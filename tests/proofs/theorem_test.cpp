@@ -19,9 +19,10 @@ namespace nearmiss::proofs {
 namespace {
 
 /// The theorem's bounds for a computed value f̂ of f, for B = 1: |f| <= size, and |f̂ - f| <= ((1 + ε)^k - 1)
-/// size, where ε bounds the relative error of an operation. A sum has the sum of both sizes and the larger k,
-/// plus 1. A product has the product of both sizes and the sum of both k, plus 1 unless a factor is a
-/// constant power of two. The theorem has no rule for quotients, so their size is infinite.
+/// size, where ε bounds the relative error of an operation. For a sum, the size is the sum of both sizes, and
+/// k is the larger k plus 1. For a product, the size is the product of both sizes, and k is the sum of both
+/// k, plus 1 unless a factor is a constant power of two. The theorem has no rule for quotients, so their size
+/// is infinite.
 struct TheoremBound {
   double size = 0;
   int k = 0;

@@ -27,8 +27,8 @@ class Asked:
     claimed: typing.Callable  # query, as a line -> the bound that the subject claims
 
     def enclosed(self, name):
-        """For each query, the number that the histogram with this key counts; NaN if it has
-        none."""
+        """For each query, the number that the histogram with this key counts; NaN if the query has
+        no such number."""
         return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property

@@ -104,8 +104,8 @@ class Nearmiss:
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Lower and upper ends of collisions' earliest times: neighbouring doubles, or equal
-        ones."""
+        """Lower and upper ends of collisions' earliest times: neighbouring doubles or equal
+        doubles."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):

@@ -1,5 +1,6 @@
-"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies: those of each subject,
-kind and family, their sums in other sections, and the comparison of versions."""
+"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies: the
+counters of each subject, kind and family, their sums in other sections, and the comparison of
+versions."""
 
 import math
 from collections import Counter
@@ -208,7 +209,8 @@ def check_trade_offs(comparison, where, report, answers):
 
 
 def check_ladder(comparison, where, report, answers):
-    """Checks the rates of each rung of the ladder of precisions."""
+    """Checks the rates of each subject on the precision ladder (one algorithm in several scalar
+    types)."""
     for rung in report.get('ladder', {'rungs': []})['rungs']:
         subject = rung['subject']
         check_rates(comparison, f'{where} {subject}', rung, Tally.of(answers, subject, MESHES))

@@ -38,7 +38,7 @@ def check_sizes(comparison, where, report, answers):
 
 def _outside(counts, factor, first, last):
     """The sum of the answers at all values 2^x of a factor except those from `first` to `last`.
-    Kinds with fewer than two collisions for each value do not count beside others."""
+    If another kind has at least two collisions for each value, kinds with fewer do not count."""
     of_kinds = []
     for of_kind in counts.values():
         powers = {}
@@ -61,8 +61,9 @@ NAMES = ('collisions', 'false_negatives', 'others', 'false_positives')
 
 
 def _counts(answers, subject, kind, family=None):
-    """The answers to all queries of a family, or of all families with factors, under ''; and to
-    those with each value, and with each pair of values."""
+    """Answers by values of factors, for the queries of a family or of all families with factors:
+    the answers to all queries (under ''), to the queries with each value, and to the queries with
+    each pair of values."""
     asked = answers.asked[subject, kind]
     counts = {'': Counter()}
     for i, own in enumerate(answers.family[kind]):

@@ -35,7 +35,8 @@ def check_kept(comparison, where, found, tally, answers, kind):
 
 
 def _check_case(comparison, where, case, answers, subject, kind, of, key):
-    """Checks a case by its provenance, its number and its query. Returns the index of the query."""
+    """Checks a case by its provenance, the number under `key`, and its query. Returns the
+    index of the query."""
     place, asked = answers.place(kind, case['provenance']), answers.asked[subject, kind]
     if place is None or not asked.enclosed(of).lo[place] >= 0:
         comparison.fail('provenances', where, case['provenance'], f'a query with a number {of}')

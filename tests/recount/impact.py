@@ -1,4 +1,4 @@
-"""Times of impact: their sort for each subject, and how far they are from the exact ones."""
+"""Times of impact: their sort for each subject, and how far they are from the exact times."""
 
 import math
 from dataclasses import dataclass
@@ -31,7 +31,8 @@ SPLIT = {'vt': 1, 'ee': 2, 'vv': 1, 've': 1}  # the first vertex of the second p
 
 
 def sort_of(subject, description):
-    """The sort of time of a subject: by a plug-in's description, or a built-in one's name."""
+    """The sort of time of a subject, from the description of a plug-in or from the name of a
+    built-in subject."""
     built_in = SORTS.get(subject.split(':')[0], 'none')
     return next((sort for words, sort in WORDS.items() if words in description), built_in)
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from asking import Nearmiss
 from recount import recount
 
-# The subjects: one that misses collisions, several with valid claims at various precisions, one
-# that passes queries on, one whose claim is refuted, and one with exact times. Two plug-ins give
+# The built-in subjects: one misses collisions, several have valid claims at various precisions,
+# one passes queries on, the claim of one is refuted, and one gives exact times. Two plug-ins give
 # times: estimates, and lower bounds that are late. The other plug-ins export the name of the
 # second plug-in, so they are its versions.
 SUBJECTS = 'adaptive,basic,wang,wang:float,wang:p144,defect:D2*10,exact'.split(',')

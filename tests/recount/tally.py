@@ -125,8 +125,8 @@ def stages(subject, counts):
     """Counts by accepting stage. For exact, whose counts depend on how many queries are decided at
     once, the stages filter and exact are added up.
 
-    The subject exact decides many queries at once. Its filter then leaves a different set of
-    queries undecided than for single queries."""
+    The subject exact decides many queries at once. Its filter then leaves other queries undecided
+    than if the queries are asked one by one."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}

@@ -1,4 +1,4 @@
-// The comparison of a campaign with its baseline: ways to fail that are new, that last, and that are gone.
+// The comparison of a campaign with its baseline: which ways to fail are new, lasting or gone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -35,7 +35,7 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
 }
 
 /// Shard `shard` of three. The three share the rounds 0 to 9. Each round has a finding with the signature
-/// "s"; rounds from 5 on also have one with "t".
+/// "s"; rounds from 5 on also have a finding with the signature "t".
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.index = shard, .count = 3, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
@@ -176,8 +176,8 @@ TEST(Campaign, ANameStandsForOneSubject) {
   EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
 }
 
-/// A campaign with one run of seed 3, with these families and this number of cases. It asked the subject of
-/// the key queries of the key's family.
+/// A campaign with one run of seed 3, with these families and this number of cases. The campaign asked the
+/// subject that the key names queries of the family that the key names.
 Campaign asked(const std::string& families, const std::string& cases, const CountsKey& key) {
   const RunInfo facts{{"command", "fuzz"}, {"seed", "3"}, {"families", families}, {"cases", cases}};
   Campaign campaign{{{facts, {{.index = 0, .complete = true}}, {}}}, {}};

@@ -92,8 +92,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  // Families with few failures are added up three times, with three limits for "few"; so p is multiplied by
-  // 3.
+  // Families with few failures are added up three times, with three limits for "few"; therefore p is
+  // multiplied by 3.
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
@@ -105,7 +105,7 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   EXPECT_THAT(changes(with(0, 510), with(0, 500)).rates, IsEmpty());
 }
 
-// The number of false positives is the same, but now a few of them are far from contact.
+// The number of false positives has not changed, but now a few of them are far from contact.
 TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   const auto with = [](std::uint64_t far, std::uint64_t measured_by_wang = 0) {
     std::map<CountsKey, Counts> all;
@@ -236,7 +236,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
     EXPECT_EQ(found[0].subject, "mine");
     EXPECT_NEAR(found[0].ratio() / factor, 1, 0.05);
   }
-  // Four families of two kinds are enough to be compared with each other.
+  // Families are compared with each other from eight pairs of family and kind on; four families of two kinds
+  // just suffice.
   const std::vector<std::string> subjects{"mine", "wang"};
   EXPECT_THAT(changed(night("2", slow(3), subjects, 4), {night("1", usual, subjects, 4)}), SizeIs(1));
   const auto alone = changed(night("2", slow(118), {"mine"}), {night("1", usual, {"mine"})});

@@ -1,4 +1,4 @@
-// Every counter stands in the store, report.json and statistics.csv; sums by class of families.
+// Every counter is in the store, in report.json and in statistics.csv. Also tests sums by class of families.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -146,7 +146,7 @@ Change of_version(int version) {
 }
 
 /// SQL that makes nested views: each view joins the previous one with itself. With each further view,
-/// SQLite's work to expand the last one doubles, but the file hardly grows.
+/// SQLite's work to expand the last view doubles, but the file hardly grows.
 std::string nested_views() {
   std::string sql = "CREATE VIEW v0 AS SELECT 1 AS a";
   for (int i = 1; i < 64; ++i) {

@@ -123,8 +123,8 @@ TEST(RightRange, IsEverythingIfNothingIsWrong) {
 }
 
 TEST(RightRange, EndsWhereMissesBegin) {
-  // A distance with an absolute threshold behaves so: for edges below a centimetre, one collision in four is
-  // missed.
+  // A CCD whose distance function has an absolute threshold may miss one collision in four for edges below a
+  // centimetre.
   const auto below = [](int x, int i) { return x < -7 && i % 4 == 0; };
   const RightRange range = range_of(answers(Kind::edge_edge, 8, below, never));
   EXPECT_THAT(range.exponents, Optional(Pair(-7, 30)));
@@ -133,7 +133,7 @@ TEST(RightRange, EndsWhereMissesBegin) {
 }
 
 TEST(RightRange, IsNotMeasuredByFalsePositivesWhereEverythingIsMissed) {
-  // Conservative advancement that steps over small primitives behaves so: it reports nothing about them.
+  // Conservative advancement may step over small primitives, and then reports none of them.
   const auto below = [](int x, int /*i*/) { return x < -9; };
   const auto reported = [](int x, int i) { return x >= -9 && i < 16; };  // of 40
   EXPECT_THAT(range_of(answers(Kind::edge_edge, 40, below, reported)).exponents, Optional(Pair(-9, 30)));

@@ -1,4 +1,4 @@
-// A report as JSON, as a page, and as tables; a campaign as JUnit's XML and as GitHub's annotations.
+// Tests a report as JSON, as a page and as tables, and a campaign as JUnit's XML and as GitHub's annotations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// Subjects compared: error against run time, the ladder of precisions, and who decided the queries.
+// Compares subjects: error against run time, the precision ladder (one algorithm in several scalar types),
+// and which stage decided the queries.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs .clusterfuzzlite/build.sh as OSS-Fuzz does, but without a container. Checks that the targets that it
-# builds run without any of our files. Arguments name the targets; by default, one of each kind. Keeps the
-# build folder, because the first build takes minutes.
+# builds run without any of our files. Arguments name the targets; by default, the script builds one target of
+# each kind. Keeps the build folder, because the first build takes minutes.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs tools/environments on two environments, and checks its output. Also checks which compiler flags the
-# headers of ccd/ refuse.
+# Runs tools/environments on two environments, and checks the script's output. Also checks which compiler
+# flags the headers of ccd/ refuse.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."

@@ -76,20 +76,21 @@ expect "expected exit code 2" test $code = 2
 notified "^nearmiss: no report: found --subject './none.so'"
 # The history has all nights.
 expect "expected a row for each night" test "$(grep -oE '"page": ?"2[^"]*/report/index.html"' "$folder/told/index.html" | sort -u | wc -l)" = 3
-# A night with lasting failures fails. The baseline has these failures, although the night before does not.
+# A night with lasting failures fails. The baseline has these failures, although the night before this one
+# does not have them.
 night 0 --subject wang
 night 1 --subject=wang,basic
 expect_said '^lasting: [0-9]* ways to fail of basic, the oldest first seen 20.*Z .version .*.$'
 seen=$(sed -nE 's/^lasting: .*, the oldest first seen ([^ ]*) .*/\1/p' "$folder/said")
 expect "expected that the oldest was first seen in the second night, at $began, found $seen" test "$seen" = "$began"
-# A night that has root parity on trial asks it only as any other subject.
+# If root parity is on trial, the night asks it only in the same way as any other subject.
 night 0 --subject wang,parity
 expect "expected no sample for root parity" test ! -e "$folder/the nights/last/parity.db"
 # With --baseline 1, the baseline is only the night before.
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
 # A subject that sometimes fails to answer raises an alarm only in its first night. A new way to fail raises
-# one again.
+# an alarm again.
 fails=$(dirname "$nearmiss")/plugins/fail.so
 export NEARMISS_ONE_IN=5
 night 1 --subject "wang,$fails" --results "$folder/faults"

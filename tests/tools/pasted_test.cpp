@@ -1,5 +1,5 @@
-// Certificates as a user sees them: those of findings and of recorded truths, and those in the tests that
-// `nearmiss shrink --as c++` and `--as python` print for other projects.
+// Certificates as a user sees them: of findings, of recorded truths, and in the tests that `nearmiss shrink
+// --as c++` and `--as python` print for other projects.
 #include <sstream>
 
 #include "corpus/query_text.hpp"

@@ -140,8 +140,8 @@ class Questions : public CommandLine {
     EXPECT_TRUE(all["findings"].empty());
   }
 
-  /// Expects that the query of a function's simplest failure can be asked again alone, with the same
-  /// failure, and that the checker accepts the failure's certificate. `right` is the command for a function
+  /// Expects that the query of a function's simplest failure fails in the same way if it is asked again on
+  /// its own, and that the checker accepts the failure's certificate. `right` is the command for a function
   /// without a defect.
   void expect_finding(const std::string& command, const std::string& right,
                       const std::string& failure) const {

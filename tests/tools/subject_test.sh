@@ -85,11 +85,11 @@ adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(forei
 compile plain ADAPTER "${by_flags[@]}" -std=c++20
 is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
 
-# A plug-in with several detectors. Two have the signatures of CTCD; the second of these has a contract, and
-# another sort of time than its signature says. One has those of El Topo, which are overloaded and take
-# indices. Others: a CCD for edges that gives times; distances with a CCD, and without; a filter of steps,
-# which lets nothing move; a detector with an option; and a detector that takes separations for only one of
-# its kinds.
+# A plug-in with several detectors. Two detectors have the signatures of CTCD; the second of these has a
+# contract, and another sort of time than its signature says. One detector has the signatures of El Topo,
+# which are overloaded and take indices. Others: a CCD for edges that gives times; distances with a CCD, and
+# without; a filter of steps, which lets nothing move; a detector with an option; and a detector that takes
+# separations for only one of its kinds.
 cat >all.cpp <<'END'
 #include "foreign.hpp"
 #include "ccd/nearmiss_functions.hpp"

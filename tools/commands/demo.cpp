@@ -40,8 +40,8 @@ bool is_plain(const Query& query) {
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
 }
 
-/// Asks a subject random queries, of ordinary or of all other families, until it misses a collision whose
-/// shrunk query is easy to draw. In ordinary families, only ordinary queries count.
+/// Asks a subject random queries, either of ordinary families or of all other families, until the subject
+/// misses a collision whose shrunk query is easy to draw. In ordinary families, only ordinary queries count.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query

@@ -33,8 +33,7 @@ struct Options {
 };
 
 /// Prints a line for each of `count` queries of one kind, starting with the index `first`. A line has the
-/// query or, with
-/// --factors, its factors. With --class, leaves out queries of other classes.
+/// query or, with --factors, the factors of the query. With --class, leaves out queries of other classes.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
   expect_kind(family, kind, "--kind");
@@ -50,8 +49,8 @@ void print_queries(const Options& options, const Family& family) {
   }
 }
 
-/// For each kind, prints how many queries are ordinary, and how many are not ordinary by each rule; then the
-/// same for the collisions among them.
+/// For each kind, prints how many queries are ordinary, and how many queries each rule makes not ordinary.
+/// Then prints these numbers for only the collisions.
 void print_classes(const Options& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;

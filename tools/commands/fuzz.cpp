@@ -1,4 +1,5 @@
-// nearmiss fuzz runs a campaign; nearmiss ladder runs a campaign over many precisions.
+// nearmiss fuzz runs a campaign; nearmiss ladder runs a campaign with CCDs in scalar types of many
+// precisions.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -74,7 +75,8 @@ void add_common(CLI::App& command, CampaignOptions& options) {
       ->needs("--db");
 }
 
-/// The scalars of a ladder by default: all with names of their own, and those of 24, 32, ... 128 bits.
+/// The default scalars of the precision ladder: all scalars with names of their own, and the scalars of 24,
+/// 32, ... 128 bits.
 std::vector<std::string> default_scalars() {
   std::vector<std::string> names;
   for (const ladder::Scalar& scalar : named_scalars()) names.push_back(scalar.name);

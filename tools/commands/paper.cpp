@@ -1,5 +1,6 @@
-// nearmiss audit and paper: the paper's rounding constants beside those that its rules give for our code and those
-// that are proven, and its quantitative claims beside what we measure.
+// nearmiss audit shows the paper's rounding constants beside the constants that its rules give for our code
+// and the constants that are proven. nearmiss paper shows the paper's quantitative claims beside our
+// measurements.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

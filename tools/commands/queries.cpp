@@ -1,5 +1,5 @@
-// nearmiss oracle, certify and verdict: exact answers to queries, proofs of them, and the answers of one
-// subject.
+// nearmiss oracle, certify and verdict: exact answers to queries, proofs of these answers, and the answers of
+// one subject.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// nearmiss distance and nearmiss step: other questions than whether primitives collide.
+// nearmiss distance and nearmiss step, which ask subjects for distances and for safe parts of steps, not
+// whether primitives collide.
 #include <fmt/format.h>
 
 #include <memory>

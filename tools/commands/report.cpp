@@ -35,7 +35,7 @@ struct ReportOptions {
   bool verbose = false;
 };
 
-/// A list in JSON. Throws Error if there is none.
+/// The list under a key of a JSON object. Throws Error if the object has no such list.
 const nlohmann::ordered_json& list_in(const nlohmann::ordered_json& json, const char* key) {
   if (!json.is_object() || !json.contains(key) || !json[key].is_array())
     throw Error(fmt::format("no list '{}'", key));

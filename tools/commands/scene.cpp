@@ -181,8 +181,8 @@ std::string what_few_collisions_show(const Statistics& statistics) {
   return lines;
 }
 
-/// The family of queries around the scene's pairs; nothing if the scene has no pairs of a kind. Throws Stopped
-/// if there are too many pairs to collect them in a few seconds.
+/// The family of queries around the scene's pairs; nothing if a kind has no pairs in the scene. Throws
+/// Stopped if there are too many pairs to collect them in a few seconds.
 std::optional<Family> family_around(const Options& options, const Scene& scene) {
   constexpr std::chrono::seconds patience(5);
   Stop until(interrupted());

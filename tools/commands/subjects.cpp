@@ -27,7 +27,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// Says for which kinds a plug-in takes separations; "" if for none.
+/// Says for which kinds a plug-in takes separations; "" if it takes none.
 std::string separations_of(const DetectorInfo& info) {
   if (info.separation_kinds == 0) return "";
   if (info.separation_kinds == info.kinds) return "takes a separation; ";

@@ -122,8 +122,8 @@ std::uint64_t simulated(const ordered_json& results, std::string_view scene, con
   return sum;
 }
 
-/// By how much a count is larger with wang than with exact: in each scene as a part of the count with exact,
-/// and in words for all scenes.
+/// By how much a count is larger with wang than with exact. The increase is given for each scene, as a
+/// fraction of the count with exact, and in words for all scenes together.
 struct Changes {
   std::vector<double> parts;
   std::string text;

@@ -24,7 +24,7 @@ enum class Judgement {
 /// The name of a judgement in tables, such as "holds with a condition".
 std::string_view name(Judgement judgement);
 
-/// The judgement with this name; nothing if there is none.
+/// The judgement with this name; nothing for any other name.
 std::optional<Judgement> judgement_named(std::string_view name);
 
 struct Measured {

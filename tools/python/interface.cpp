@@ -104,8 +104,8 @@ py::array_t<T> one_for_each(const Queries& queries) {
 
 /// Calls ask(part, first) for one part of the queries after the other, until the interpreter exits. Between
 /// parts, at most every tenth of a second, lets Python handle signals. If queries are slow, takes smaller
-/// parts, so that signals do not wait long. Returns at the first status other than NEARMISS_OK, with this
-/// status.
+/// parts, so that signals do not wait long. Stops at the first status other than NEARMISS_OK, and returns
+/// this status.
 template <class Ask>
 int ask_until_the_end(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
@@ -128,7 +128,7 @@ int ask_until_the_end(const Queries& queries, const Ask& ask) {
   return NEARMISS_OK;
 }
 
-/// As ask_until_the_end, but without Python's lock, so that other Python threads run.
+/// Does what ask_until_the_end does, but without Python's lock, so that other Python threads run.
 template <class Ask>
 int ask_in_parts(const Queries& queries, const Ask& ask) {
   const Running this_call;
@@ -210,7 +210,7 @@ py::tuple enclosures(const Queries& queries, double width) {
   return py::make_tuple(lower, upper);
 }
 
-/// The certificate of each query; nothing if it has none.
+/// The certificate of each query; nothing for a query without a certificate.
 std::vector<std::optional<std::string>> certificates(const Queries& queries, int what) {
   std::vector<std::optional<std::string>> texts(queries.size());
   std::size_t answered = 0;

@@ -78,8 +78,8 @@ Subjects subjects_of(const py::list& of, const Stop& stop) {
   return subjects;
 }
 
-/// The kinds that are asked if no families are named: all that some function decides or, without functions,
-/// those that a campaign with these subjects asks.
+/// The kinds that are asked if no families are named: all kinds that at least one function decides or,
+/// without functions, the kinds that a campaign with these subjects asks.
 std::vector<Kind> kinds_of(const Subjects& subjects) {
   const auto is_function = [](const auto& each) {
     return dynamic_cast<const FunctionSubject*>(each.get()) != nullptr;

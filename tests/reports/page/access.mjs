@@ -24,7 +24,7 @@ export async function hasNoBarriers(browser) {
     }
 }
 
-/** Makes a copy of a report with this number of findings, which repeat those of the report. */
+/** Makes a copy of a report with this number of findings, which repeat the findings of the report. */
 function withFindings(name, many) {
   const page = readFileSync(join(folder, name, "index.html"), "utf8");
   const begin = page.indexOf(">", page.indexOf('id="report"')) + 1;

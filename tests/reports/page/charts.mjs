@@ -1,4 +1,5 @@
-// Tests charts: of sweeps, of false positives that refute a bound of 0, of misses, and of deciders.
+// Tests the charts of sweeps, of false positives that refute a bound of 0, of misses, and of deciders (the
+// stages that decide queries).
 import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, plugin, run } from "./session.mjs";
 
@@ -39,8 +40,8 @@ export async function showsASingleValueBesideASweep(browser) {
 }
 
 /**
- * Each option has a row of charts. A chart has a point for each class and value for which its number is
- * known.
+ * Each option has a row of charts. A chart has a point for each class and value for which the plotted number
+ * is known.
  */
 export async function showsValuesOfOptions(browser) {
   run("tightness", "--subject", `wang,${plugin("sampling")}:tolerance=*`, "--values", "0,0.01,1", "--cases", "1200", "--db", "options.db");

@@ -217,8 +217,8 @@ async function checkOtherSections(page) {
 }
 
 /**
- * Two versions of a CCD: the queries that the later one fixes and breaks, and the replay of the first broken
- * one.
+ * Tests two versions of a CCD: the queries that the later version fixes or breaks, and the replay of the
+ * first broken query.
  */
 export async function showsVersions(browser) {
   const page = await open(browser, makeReport("versions", ["--subject", `old=${plugin("v1")},new=${plugin("v2")},vt=${plugin("v3")}`, "--family", "uniform", "--cases", "400"]));

@@ -1,4 +1,4 @@
-// Tests the ladder of precisions and the audit.
+// Tests the precision ladder (one CCD in several scalar types) and the audit of rounding constants.
 import assert from "node:assert/strict";
 import { count, jsonOf, open, pageOf, plugin, run } from "./session.mjs";
 

@@ -107,7 +107,8 @@ export async function drawsManySubjectsWithoutALadder(browser) {
   }
 }
 
-/** The page draws a campaign with a ladder, with subjects that are on no ladder, and with a scene. */
+/** The page draws a report with a precision ladder (one CCD in several scalar types), subjects outside any
+    ladder, and a scene. */
 export async function drawsAMixOfRuns(browser) {
   run("scene", "spikes@100", "--subject", "wang,wang-time", "--db", "spikes.db");
   run("report", "many.db", "plain.db", "spikes.db", "-o", "mixed");

@@ -39,9 +39,9 @@ class Subject:
               separation is (n,). The function must answer a query in the same way whenever it is asked.
     name:     the subject's name in results; by default, the name of the function
     time:     unless it is 'none', the function returns (bools, times), with a time in [0, 1] for each
-              collision. 'estimate': the times are near the earliest ones; 'lower-bound': they are never after
-              the earliest ones; 'free-step': also, the rounded step to x0 + time (x1 - x0) has no contact on
-              the way
+              collision. 'estimate': the times are near the earliest times; 'lower-bound': the times are
+              never after the earliest times; 'free-step': also, the rounded step to x0 + time (x1 - x0) has
+              no contact on the way
     kinds:    the kinds of queries that the subject is asked
     takes_separation: whether the subject is asked queries with a separation h > 0
     """
