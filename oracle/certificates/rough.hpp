@@ -59,7 +59,7 @@ class RoughPolynomial {
     const std::size_t n = size_;
     auto c = a_;
     // First in powers of the fraction of the interval, as in exact::OnInterval.
-    if (interval.begin.x != 0)
+    if (interval.begin.x != 0 || interval.begin.error != 0)
       for (std::size_t first = 0; first + 1 < n; ++first)
         for (std::size_t i = n - 1; i > first; --i) c[i - 1] = c[i - 1] + c[i] * interval.begin;
     Coefficient power = interval.width;

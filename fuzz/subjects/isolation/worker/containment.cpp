@@ -28,7 +28,8 @@ unsigned long threads_of_user() {
     if (entry->d_name[0] < '0' || entry->d_name[0] > '9') continue;
     const std::string threads = std::string("/proc/") + entry->d_name + "/task";
     struct stat about {};
-    if (stat(threads.c_str(), &about) == 0 && about.st_uid == getuid()) count += about.st_nlink - 2;
+    if (stat(threads.c_str(), &about) == 0 && about.st_uid == getuid() && about.st_nlink > 2)
+      count += about.st_nlink - 2;  // without the links of . and ..
   }
   closedir(processes);
   return count;
