@@ -48,9 +48,8 @@ chmod +x build/release/nearmiss
 mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # neither of these folders is a night
 night 0 --subject wang
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
-# The night also asks root parity, with a seed of its own. The report shows what root parity cannot see, if it met any,
-# but no night raises an alarm
-# for it.
+# The night also asks root parity, with a seed of its own. The report shows what root parity cannot see, if the
+# seed drew any, but no night raises an alarm for it.
 expect_said '^ ok  parity: no miss in [1-9]'
 expect_said '^ --  parity \(beyond contract\): (MISSED|no miss in [1-9])'
 night 1 --subject wang,basic
