@@ -104,8 +104,19 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
 Enclosure minimum_distance(const Query& query, double relative_width) {
   const PlainArithmetic guard;
   if (touches(query)) return {0, 0};
-  return distance_in_units(query, 1,
-                           [&](double hi) { return std::min(above(hi * (1 - relative_width)), hi); });
+  const auto to_width = [&](double width) {
+    return distance_in_units(query, 1, [&](double hi) { return std::min(above(hi * (1 - width)), hi); });
+  };
+  if (1 - relative_width < 1) return to_width(relative_width);
+
+  // Bounds hardly ever meet, however precise they are. So exact comparisons narrow a rough enclosure.
+  const Enclosure rough = to_width(0x1p-20);
+  if (rough.lo == rough.hi) return rough;
+  exact::SmallestDistance smallest(query);
+  Narrowing exact(smallest, 0, {below(rough.lo), rough.hi});
+  while (exact.compare()) {
+  }
+  return exact.distance();
 }
 
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed) {

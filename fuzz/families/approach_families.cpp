@@ -6,6 +6,7 @@
 
 #include "fuzz/families/facing.hpp"
 #include "fuzz/families/tables.hpp"
+#include "oracle/distance.hpp"
 
 namespace nearmiss {
 
@@ -45,7 +46,7 @@ Query near_separation(Random& random, Kind kind, double x) {
   for (;;) {
     Query query = base.make(random, kind);
     repeat_vertices(query);
-    const double distance = rounded_distance(query);
+    const double distance = minimum_distance(query, 0).hi;
     if (distance == 0) continue;
     const double below = std::nextafter(distance, 0);
     const double h = is_above ? distance + off * distance : below - off * below;

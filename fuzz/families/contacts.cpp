@@ -2,16 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
-
-#include "ccd/query/arithmetic.hpp"
-#include "oracle/distance.hpp"
-#include "oracle/exact/nearness.hpp"
 
 namespace nearmiss {
 
@@ -244,23 +237,6 @@ double extent(const Query& query) {
     largest = std::max(largest, hi - lo);
   }
   return largest;
-}
-
-// Exact comparisons find the last bits. It would take long to narrow an enclosure down to two neighbouring
-// doubles, and it would fail, because the lower bound is rounded down and the upper bound is rounded up.
-double rounded_distance(const Query& query) {
-  const PlainArithmetic guard;
-  const auto [lo, hi] = minimum_distance(query, 0x1p-20);
-  if (hi == 0) return 0;
-  exact::SmallestDistance smallest(query);
-  // The bits of positive doubles, read as integers, are in the order of the doubles.
-  auto below = std::bit_cast<std::uint64_t>(std::nextafter(lo, 0));
-  auto most = std::bit_cast<std::uint64_t>(hi);
-  while (most - below > 1) {
-    const std::uint64_t middle = std::midpoint(below, most);
-    (smallest.is_at_most(std::bit_cast<double>(middle)) ? most : below) = middle;
-  }
-  return std::bit_cast<double>(most);
 }
 
 double power_of_ten(double x) {

@@ -118,9 +118,6 @@ Query finished(Random& random, const Query& query);
 /// The largest side of the box that the primitives sweep.
 double extent(const Query& query);
 
-/// The smallest distance during the step, rounded up to a double.
-double rounded_distance(const Query& query);
-
 /// The power of two nearest to 10^x. Multiplying by it is exact.
 double power_of_ten(double x);
 

@@ -7,6 +7,7 @@
 #include "ccd/wang/elementary.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
+#include "oracle/distance.hpp"
 
 namespace nearmiss {
 
@@ -32,7 +33,7 @@ Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path
 /// is 0, the separation is 2^x.
 Query with_separation_beside(Random& random, const Query& query, double x) {
   const double off = random.uniform(-1, 1) * exp2_of(x);
-  const double d = rounded_distance(query);
+  const double d = minimum_distance(query, 0).hi;
   return with_separation(query, d > 0 ? d + off * d : exp2_of(x));
 }
 
