@@ -1,5 +1,6 @@
-// Where a command writes its results: --json FILE, and for systems of continuous integration --junit FILE and
-// --github. Also the option --fail-on A,B: further failures for which a command exits with code 1.
+// Options that say where a command writes its results: --json FILE, and --junit FILE and --github for systems
+// of continuous integration. The option --fail-on A,B names further failures for which a command exits with
+// code 1.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -21,8 +21,8 @@ enum class LeaveOut : std::uint8_t {
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// What the plan does under LeaveOut::all with a pair whose swept boxes meet, or are at most the separation
-/// apart: see PairFate. If no subject is asked about the pair, the second value says whether it collides.
+/// Decides under LeaveOut::all whether subjects are asked about a pair. The pair's swept boxes meet, or are at
+/// most the separation apart. If no subject is asked, the second value says whether the pair collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Pairs of one kind about which subjects are asked.

@@ -14,7 +14,8 @@ namespace nearmiss {
 /// A search asks the subject about at most this many queries for each query that it returns.
 inline constexpr int search_evaluations = 2000;
 
-/// What a directed search looks for. Each query of its family is the best that one search found:
+/// The aims of directed searches. Each search gives one query to the family of its aim: the best query that it
+/// found.
 enum class SearchFor {
   /// "search-miss-NAME": a collision that the subject misses; if the search found none, the collision that
   /// came nearest to being missed.

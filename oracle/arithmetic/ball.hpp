@@ -46,4 +46,7 @@ struct Ball {
   static constexpr double underflow_of_product = (product_underflow<Real> + 4) * smallest;
 };
 
+/// A ball with a number whose conversion to double gave d, to nearest or towards zero.
+inline Ball<double> ball_around(double d) { return {d, 0x1p-51 * std::abs(d) + smallest}; }
+
 }  // namespace nearmiss::certified

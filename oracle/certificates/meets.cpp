@@ -44,10 +44,7 @@ std::array<Vec<Real>, 4> positions(const Query& query, const Real& t) {
 }
 
 /// A double near x, with a bound of its error.
-Ball<double> ball(const mpq_class& x) {
-  const double d = x.get_d();
-  return {d, 0x1p-51 * std::abs(d) + certified::smallest};
-}
+Ball<double> ball(const mpq_class& x) { return certified::ball_around(x.get_d()); }
 
 /// Whether a time is in a span.
 template <class Time>

@@ -151,8 +151,9 @@ bool Normal::separates_at(const Number& t) {
 }
 
 const Polynomial* Normal::obstacle(std::size_t gap, const Interval& interval, bool open) {
-  const auto& [lo, hi, unused_begin, unused_width] = interval;
   const auto& [n_d, excess] = along<Polynomial>(gap);
+  const Number& lo = interval.lo;
+  const Number& hi = interval.hi;
   if (!is_positive(n_d, lo, hi, open)) return &n_d;
   if (!gaps_->has_separation()) return nullptr;
   const bool is_farther =

@@ -19,8 +19,7 @@ using exact::Number;
 
 /// A double near x, with a bound of its error.
 inline certified::Ball<double> ball(const Number& x) {
-  const double d = CGAL::to_double(x);
-  return {d, CGAL::is_zero(x) ? 0 : 0x1p-51 * std::abs(d) + certified::smallest};
+  return CGAL::is_zero(x) ? certified::Ball<double>() : certified::ball_around(CGAL::to_double(x));
 }
 
 /// The part [lo, hi] of the step.

@@ -121,8 +121,8 @@ std::string values_of(const RightRange& range) {
                          : "no range";
 }
 
-/// What is wrong at the values outside the range, such as "misses 58 of 310, reports 90 % of the rest"; "" if
-/// nothing is wrong there.
+/// Says how the subject fails at the values outside the range, for example "misses 58 of 310, reports 90 % of
+/// the rest". Empty if it does not fail there.
 std::string wrong_elsewhere(const RightRange& range) {
   const FactorCounts& counts = range.elsewhere;
   std::string wrong;

@@ -117,8 +117,8 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
  private:
-  /// What a worker has done in its last call: it answered the first `count` queries. If `failure` is set, it
-  /// failed on the next query.
+  /// The result of a call: the worker answered the first `count` queries and, if `failure` is set, failed on
+  /// the next one.
   struct Done {
     const WorkerProcess* worker;  ///< null if no worker could be started
     std::size_t first;            ///< index of the call's first query among all queries
@@ -341,8 +341,8 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable std::atomic<int> failed_starts_ = 0;  // number of consecutive failed starts
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // at the last failed start
-  /// What the process wrote at the last fault with this code. Each thread has its own entry and reads it
-  /// right after its fault, so it gets the text of its own query.
+  /// The text that the process wrote when this fault with this code last happened to a thread. The thread
+  /// reads its entry right after the fault, so the text belongs to its own query.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };
