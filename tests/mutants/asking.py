@@ -59,31 +59,32 @@ def culprit(group, ended):
     return failed[1] if failed else begun[-1] if begun else '', how
 
 
-def run_steps(group):
+def run_steps(group, layer):
     """Runs steps of one executable, with limits far above their times without a mutant."""
     return run_tests(
         group[0].group,
         [step.test for step in group],
         seconds=30 + 10 * sum(step.wall for step in group),
         cpu=4 + 4 * sum(step.cpu for step in group),
+        layer=layer,
     )
 
 
-def ask(steps, answer):
-    """Runs the tests with the mutant that is built, and adds the result to `answer`. Runs a failed
+def ask(steps, answer, layer):
+    """Runs the tests with the mutant of a layer, which is built, and adds the result to `answer`. Runs a failed
     test again, because it may have failed on account of a busy machine."""
     kept, left = affordable(steps)
     answer.unasked += left
     for group in batches(kept):
         while group:
-            ended = run_steps(group)
+            ended = run_steps(group, layer)
             answer.cpu += ended.cpu
             answer.asked += len(group)
             if ended.code == 0:
                 break
             test, how = culprit(group[0].group, ended)
             failed = next((step for step in group if step.test == test), group[0])
-            if how != 'failed' or run_steps([failed]).code != 0:
+            if how != 'failed' or run_steps([failed], layer).code != 0:
                 answer.noticed_by, answer.how = failed.name, how
                 return
             group = [step for step in group if step is not failed]

@@ -1,13 +1,18 @@
-"""The copy of the tree that contains a mutant. The copy has its own C++ files and headers; all
-other files are links."""
+"""The copy of the tree and its build, without a mutant. The copy has its own C++ files and headers; all
+other files are links. A mutant is a layer over both, so that a mutant changes neither of them, several
+mutants can be built at a time, and nothing is compiled again when a mutant is taken back."""
 
 import os
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
 
-from processes import run
+from processes import limits, run
 from sources import FOLDERS, ROOT, WORK, read
 
-COPY = WORK / 'tree'
-BUILD = WORK / 'build'
+BASE = WORK / 'base'
+COPY = BASE / 'tree'
+BUILD = BASE / 'build'
 
 
 def has_code(folder):
@@ -29,9 +34,9 @@ def link(target, path):
     path.symlink_to(target)
 
 
-def mirror(source, target, mutation):
-    """Copies a folder. C++ files and headers become files, one of which may have the mutant; all other
-    files become links. Removes from the copy what the folder does not have."""
+def mirror(source, target):
+    """Copies a folder. C++ files and headers become files; all other files become links. Removes from the
+    copy what the folder does not have."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -39,12 +44,9 @@ def mirror(source, target, mutation):
             remove(entry)
     for entry in source.iterdir():
         if entry.is_dir() and has_code(entry):
-            mirror(entry, target / entry.name, mutation)
+            mirror(entry, target / entry.name)
         elif entry.suffix in ('.cpp', '.hpp', '.h'):
-            is_mutated = mutation is not None and entry == ROOT / mutation.file
-            write(
-                target / entry.name, mutation.applied(read(entry)) if is_mutated else read(entry)
-            )
+            write(target / entry.name, read(entry))
         else:
             link(entry, target / entry.name)
 
@@ -59,12 +61,11 @@ def remove(path):
     path.rmdir()
 
 
-def make_copy(mutation=None):
-    """Makes the copy, with the mutant if one is given."""
+def make_copy():
     COPY.mkdir(parents=True, exist_ok=True)
     for entry in ROOT.iterdir():
         if entry.name in FOLDERS:
-            mirror(entry, COPY / entry.name, mutation)
+            mirror(entry, COPY / entry.name)
         elif entry.name not in ('.git', 'build'):
             link(entry, COPY / entry.name)
 
@@ -86,8 +87,37 @@ def configure():
         raise SystemExit(f'cmake failed:\n{ended.output}')
 
 
-def ninja(targets, jobs):
-    """Builds as many of the targets as possible. Uses no compiler cache: with precompiled headers, a
+@dataclass
+class Layer:
+    """A layer over the copy and its build, in a folder of its own: what commands write there stays in the
+    layer."""
+
+    folder: Path
+
+    def begin(self, mutation):
+        """Empties the layer, and puts the mutant into it."""
+        self.end()
+        changed = self.folder / 'upper' / (COPY / mutation.file).relative_to(BASE)
+        changed.parent.mkdir(parents=True)
+        changed.write_text(mutation.applied(read(COPY / mutation.file)))
+        (self.folder / 'work').mkdir()
+
+    def end(self):
+        for made_by_overlayfs in (self.folder / 'work').glob('*'):
+            made_by_overlayfs.chmod(0o700)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def words(self):
+        """Words to put before a command that sees the layer."""
+        user = [] if os.geteuid() == 0 else ['--user', '--map-current-user', '--keep-caps']
+        folders = f'lowerdir={BASE},upperdir={self.folder}/upper,workdir={self.folder}/work'
+        mount = 'mount -t overlay overlay -o "$1" "$2" && cd "$PWD" && shift 2 && exec "$@"'
+        return ['unshare', *user, '--mount', 'sh', '-c', mount, 'sh', folders, BASE]
+
+
+def ninja(targets, jobs, layer=None):
+    """Builds targets, until one fails. Uses no compiler cache: with precompiled headers, a
     cache is slower than the compiler."""
-    words = ['ninja', '-C', BUILD, f'-j{jobs}', '-k', '0', *targets]
-    return run(words, cwd=COPY, env={'CCACHE_DISABLE': '1'}, seconds=24 * 3600)
+    words = ['ninja', '-C', BUILD, f'-j{jobs}', *targets]
+    before = [*(layer.words() if layer else []), *limits()]
+    return run(words, COPY, {'CCACHE_DISABLE': '1'}, seconds=24 * 3600, before=before)

@@ -1,13 +1,16 @@
 #!/usr/bin/python3
-"""Tests that the operators make the right edits, that a seed always gives the same draw, and that the
-tool checks its list of equivalent mutants against the sources."""
+"""Tests that the operators make the right edits, that a seed always gives the same draw, that a mutant in a
+layer does not change the copy, and that the tool checks its list of equivalent mutants against the sources."""
 
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from unittest import mock
 
+import copied
 from draw import chosen, mutants_of
 from equivalents import complaints, entries
+from processes import run
 
 FILE = 'slips.cpp'
 TEXT = '''
@@ -74,6 +77,31 @@ class Draw(unittest.TestCase):
     def test_mutants_have_names_of_their_own(self):
         twice = mutants_of(FILE, TEXT + TEXT)
         self.assertEqual(len({each.name for each in twice}), 2 * len(SITES))
+
+
+class Layers(unittest.TestCase):
+    def test_only_commands_in_a_layer_see_its_mutant(self):
+        mutant = SITES[0]
+        with TemporaryDirectory() as folder:
+            base = Path(folder) / 'base'
+            file = base / 'tree' / FILE
+            file.parent.mkdir(parents=True)
+            file.write_text(TEXT)
+            with mock.patch.multiple(copied, BASE=base, COPY=base / 'tree'):
+                layer = copied.Layer(Path(folder) / 'layer')
+                layer.begin(mutant)
+                if run(['true'], base, before=layer.words()).code != 0:
+                    self.skipTest('overlayfs cannot be mounted here')
+                seen = run(['cat', file], base, before=layer.words())
+                run(['rm', file], base, before=layer.words())
+                gone = run(['ls', file.parent], base, before=layer.words())
+                layer.begin(mutant)
+                again = run(['cat', file], base, before=layer.words())
+                layer.end()
+            self.assertEqual(seen.output, mutant.applied(TEXT))
+            self.assertEqual(gone.output, '')
+            self.assertEqual(again.output, mutant.applied(TEXT))
+            self.assertEqual(file.read_text(), TEXT)
 
 
 ENTRY = f'{FILE}\n- return x[i]\n+ return x[2]\n= for the test\n'

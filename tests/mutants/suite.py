@@ -47,9 +47,9 @@ def commands():
     }
 
 
-def run_tests(group, tests, seconds, cpu=None):
-    """Runs tests of a group until one fails. The tests cannot affect other processes. Removes their
-    files afterwards."""
+def run_tests(group, tests, seconds, cpu=None, layer=None):
+    """Runs tests of a group until one fails, with the mutant of a layer if one is given. The tests cannot
+    affect other processes. Removes their files afterwards."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
         if group in commands():
             words = [*commands()[group], *filter(None, tests)]
@@ -57,7 +57,8 @@ def run_tests(group, tests, seconds, cpu=None):
             flags = Path(folder) / 'flags'
             flags.write_text(f'--gtest_filter={":".join(tests)}\n')
             words = [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={flags}']
-        return run(words, BUILD, {'TMPDIR': folder}, seconds, before=seal() + limits(cpu, MEMORY))
+        before = [*(layer.words() if layer else []), *seal(), *limits(cpu, MEMORY)]
+        return run(words, BUILD, {'TMPDIR': folder}, seconds, before=before)
 
 
 def tests_of(group):
