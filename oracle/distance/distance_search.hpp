@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
+#include <boost/container/stable_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -24,7 +24,7 @@ class DistanceSearch {
   /// Encloses the smallest distance.
   Approach smallest() {
     look_at_ends();
-    descend(times_[0], times_[1]);
+    descend(&times_[0], &times_[1]);
     for (int i = 0; i < most_gaps && required_ > 0; ++i) {
       const auto gap = first_gap();
       if (!gap) return {std::min(required_, upper_), upper_, best_time_, true};
@@ -38,7 +38,7 @@ class DistanceSearch {
   FirstTime first(double low, double width) {
     low_ = low;
     look_at_ends();
-    if (times_.size() == 2 && !is_low(times_[1]) && first_gap()) descend(times_[0], times_[1]);
+    if (times_.size() == 2 && !is_low(times_[1]) && first_gap()) descend(&times_[0], &times_[1]);
     int slow_steps = 0;
     double last_width = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_gaps; ++i) {
@@ -67,7 +67,6 @@ class DistanceSearch {
   struct SampledTime {
     Real t;
     Moment moment;
-    bool is_covered = false;  ///< whether the step is covered from here to the next time
     Reach ahead{}, behind{};  ///< the last results of covered()
   };
 
@@ -94,7 +93,7 @@ class DistanceSearch {
   }
 
   SampledTime look_precisely(const Real& t) {
-    SampledTime time{t, look(VerticesAt<Real>(differences_, t)), false};
+    SampledTime time{t, look(VerticesAt<Real>(differences_, t))};
     time.moment.is_precise = true;
     note(time);
     return time;
@@ -102,7 +101,7 @@ class DistanceSearch {
 
   /// Looks at the double nearest to t, in double. If that is not precise enough, looks precisely at t.
   SampledTime look_at(const Real& t) {
-    SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
+    SampledTime time{Real(to_double(t)), look(rough_vertices(t))};
     note(time);
     if (!resolves(time.moment) && !is_low(time)) return look_precisely(t);
     return time;
@@ -134,21 +133,20 @@ class DistanceSearch {
   /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
   /// The next time to look at is the minimum that one end predicts, or the middle if the predictions do not
   /// help.
-  void descend(SampledTime a, SampledTime b) {
-    if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
+  void descend(const SampledTime* a, const SampledTime* b) {
+    if (!(a->moment.slope < 0 && b->moment.slope > 0)) return;
     constexpr int most_steps = 60;
     int slow_steps = 0;
-    double width = to_double(b.t - a.t);
+    double width = to_double(b->t - a->t);
     for (int i = 0; i < most_steps && required_ > 0 && !(upper_ < low_); ++i) {
-      const Real t = slow_steps < 2 ? guess_between(a, b, width) : a.t + Real(0.5 * width);
-      if (!(a.t < t && t < b.t)) return;
-      const SampledTime next = look_between(a, t, b);
-      insert(next);
+      const Real t = slow_steps < 2 ? guess_between(*a, *b, width) : a->t + Real(0.5 * width);
+      if (!(a->t < t && t < b->t)) return;
+      const SampledTime& next = insert(look_between(*a, t, *b));
       constexpr double little = 0.9;
       if (next.moment.predicted >= little * next.moment.upper || next.moment.slope == 0) return;
-      (next.moment.slope < 0 ? a : b) = next;
+      (next.moment.slope < 0 ? a : b) = &next;
       const double before = width;
-      width = to_double(b.t - a.t);
+      width = to_double(b->t - a->t);
       slow_steps = 2 * width > before && slow_steps < 2 ? slow_steps + 1 : 0;
     }
   }
@@ -164,10 +162,10 @@ class DistanceSearch {
     return from_a ? a.t + Real(a.moment.step) : b.t + Real(b.moment.step);
   }
 
-  void insert(const SampledTime& time) {
-    times_.insert(std::upper_bound(times_.begin(), times_.end(), time,
-                                   [](const SampledTime& a, const SampledTime& b) { return a.t < b.t; }),
-                  time);
+  const SampledTime& insert(SampledTime&& time) {
+    const auto next = std::upper_bound(times_.begin(), times_.end(), time,
+                                       [](const SampledTime& a, const SampledTime& b) { return a.t < b.t; });
+    return *times_.insert(next, std::move(time));
   }
 
   /// How far the step is covered from a sampled time, forward (1) or backward (-1), at most `most`.
@@ -188,13 +186,13 @@ class DistanceSearch {
   }
 
   std::optional<Gap> first_gap() {
-    for (std::size_t i = 0; i + 1 < times_.size(); ++i) {
-      if (times_[i].is_covered) continue;  // the required bound never rises
-      const double width = to_double(times_[i + 1].t - times_[i].t) * (1 + 0x1p-48);
-      const double before = covered(times_[i], 1, width);
-      const double behind = before < width ? covered(times_[i + 1], -1, width) : 0;
-      times_[i].is_covered = before + behind >= width;
-      if (!times_[i].is_covered) return Gap{i, width, before, behind};
+    for (; covered_times_ + 1 < times_.size(); ++covered_times_) {
+      SampledTime& a = times_[covered_times_];
+      SampledTime& b = times_[covered_times_ + 1];
+      const double width = to_double(b.t - a.t) * (1 + 0x1p-48);
+      const double before = covered(a, 1, width);
+      const double behind = before < width ? covered(b, -1, width) : 0;
+      if (!(before + behind >= width)) return Gap{covered_times_, width, before, behind};
     }
     return std::nullopt;
   }
@@ -213,15 +211,12 @@ class DistanceSearch {
 
     const Real t = guess_in(gap);
     if (!(a.t < t && t < b.t)) return false;
-    const SampledTime before = a;  // a copy, because times_ grows
-    const SampledTime behind = b;
-    const SampledTime next = look_between(before, t, behind);
-    insert(next);
+    const SampledTime& next = insert(look_between(a, t, b));
     constexpr double near = 2;
     if (!is_wide(gap.covered_before + gap.covered_behind, gap.width) && next.moment.upper > near * upper_)
       return true;
-    descend(before, next);
-    descend(next, behind);
+    descend(&a, &next);
+    descend(&next, &b);
     return true;
   }
 
@@ -268,7 +263,7 @@ class DistanceSearch {
       return true;
     }
     if (time.moment.is_precise || covered > 0) return false;
-    time = look_precisely(time.t);  // is_covered is determined again
+    time = look_precisely(time.t);
     return true;
   }
 
@@ -331,7 +326,7 @@ class DistanceSearch {
       next = look_precisely(later);
       if (!is_resolved(next)) return false;
     }
-    insert(next);
+    insert(std::move(next));
     return true;
   }
 
@@ -350,7 +345,8 @@ class DistanceSearch {
 
   const VertexDifferences& differences_;
   const NeededDistance& needed_;
-  boost::container::small_vector<SampledTime, 8> times_;
+  boost::container::stable_vector<SampledTime> times_;  ///< in order; they stay where they are in memory
+  std::size_t covered_times_ = 0;  ///< the step is covered up to this time, as the required bound never rises
   double upper_ = std::numeric_limits<double>::infinity();
   double required_ = std::numeric_limits<double>::infinity();
   double best_time_ = 0;
