@@ -18,8 +18,6 @@ std::string ccd_of(const Subject& subject) {
          std::string(subject.name().ends_with(beyond_contract) ? beyond_contract : "");
 }
 
-bool is_asked(Fault fault) { return fault != Fault::not_asked && fault != Fault::contract; }
-
 }  // namespace
 
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
@@ -43,15 +41,12 @@ std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
 VersionComparison::VersionComparison(const Subjects& subjects, const Comparison& comparison)
     : subjects_(subjects),
       before_(predecessors(subjects, comparison.versions)),
+      has_versions_(std::ranges::any_of(before_, [](const auto& each) { return each.has_value(); })),
       answers_(subjects.size()),
       counts_(subjects.size()) {}
 
-void VersionComparison::note(std::size_t subject, const Outcome& outcome,
-                             std::optional<std::size_t> finding) {
-  answers_[subject] = {is_asked(outcome.verdict.fault), finding};
-}
-
 void VersionComparison::finish_query(std::vector<Finding>& findings) {
+  if (!has_versions_) return;
   for (std::size_t s = 0; s < subjects_.size(); ++s) {
     if (!before_[s] || !answers_[s].is_asked || !answers_[*before_[s]].is_asked) continue;
     const bool failed = answers_[*before_[s]].finding.has_value();

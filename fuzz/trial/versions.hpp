@@ -25,7 +25,9 @@ class VersionComparison {
 
   /// Notes the outcome of a subject's answer to the present query, and the index of the finding if the
   /// subject fails.
-  void note(std::size_t subject, const Outcome& outcome, std::optional<std::size_t> finding);
+  void note(std::size_t subject, const Outcome& outcome, std::optional<std::size_t> finding) {
+    if (has_versions_) answers_[subject] = {is_asked(outcome.verdict.fault), finding};
+  }
 
   /// Counts the present query. If a version fails and the version before it does not, names the version
   /// before in the finding (`broken_since`). Then goes on to the next query.
@@ -41,8 +43,11 @@ class VersionComparison {
     std::optional<std::size_t> finding = {};
   };
 
+  static bool is_asked(Fault fault) { return fault != Fault::not_asked && fault != Fault::contract; }
+
   const Subjects& subjects_;
   std::vector<std::optional<std::size_t>> before_;  // by subject
+  bool has_versions_;                               // whether any subject has a version before it
   std::vector<Answer> answers_;                     // the answers to the present query, by subject
   std::vector<VersionCounts> counts_;               // by subject
 };

@@ -1,11 +1,11 @@
 #include "oracle/parity/parity.hpp"
 
-#include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,13 +19,19 @@ namespace nearmiss {
 namespace parity {
 namespace {
 
-using Gmpz = CGAL::Gmpz;
-using Gmpq = CGAL::Gmpq;
-using IntegerVector = CGAL::Simple_cartesian<Gmpz>::Vector_3;
+/// Integers of any size, stored in place up to 512 bits: most determinants of a query's coordinates fit.
+using IntegerBackend =
+    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked,
+                                           std::allocator<boost::multiprecision::limb_type>>;
+using Integer = boost::multiprecision::number<IntegerBackend, boost::multiprecision::et_off>;
+using Rational = boost::multiprecision::number<boost::multiprecision::rational_adaptor<IntegerBackend>,
+                                               boost::multiprecision::et_off>;
+using IntegerVector = CGAL::Simple_cartesian<Integer>::Vector_3;
 
-int sign(const Gmpz& x) { return CGAL::sign(x); }
-int sign(const Gmpq& x) { return CGAL::sign(x); }
-Gmpz determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
+int sign(const Integer& x) { return x.sign(); }
+int sign(const Rational& x) { return x.sign(); }
+Integer determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
   return CGAL::cross_product(a, b) * c;
 }
 
@@ -89,7 +95,7 @@ struct BilinearPatch {
 
 /// p + q √D.
 struct Surd {
-  Gmpq p, q, D;
+  Rational p, q, D;
 
   [[nodiscard]] int sign_of() const {
     const int sp = sign(p);
@@ -101,7 +107,7 @@ struct Surd {
 };
 
 /// c0 + c1 t + c2 t².
-using RationalQuadratic = std::array<Gmpq, 3>;
+using RationalQuadratic = std::array<Rational, 3>;
 
 bool is_zero(const RationalQuadratic& f) { return f[0] == 0 && f[1] == 0 && f[2] == 0; }
 
@@ -116,18 +122,18 @@ bool reaches_zero(const RationalQuadratic& h) {
 bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h) {
   if (g[2] == 0) {
     if (g[1] == 0) return false;
-    const Gmpq r = -g[0] / g[1];
+    const Rational r = -g[0] / g[1];
     return r >= 0 && r <= 1 && h[0] + r * (h[1] + r * h[2]) <= 0;
   }
-  const Gmpq D = g[1] * g[1] - 4 * g[0] * g[2];
+  const Rational D = g[1] * g[1] - 4 * g[0] * g[2];
   if (sign(D) < 0) return false;
-  const Gmpq scale = 1 / (2 * g[2]);
-  const Gmpq part = h[2] / g[2];  // h - part g is linear, and equal to h at the roots of g
-  const Gmpq A = h[0] - part * g[0];
-  const Gmpq B = h[1] - part * g[1];
+  const Rational scale = 1 / (2 * g[2]);
+  const Rational part = h[2] / g[2];  // h - part g is linear, and equal to h at the roots of g
+  const Rational A = h[0] - part * g[0];
+  const Rational B = h[1] - part * g[1];
   for (const int branch : {1, -1}) {
-    const Gmpq p = -g[1] * scale;
-    const Gmpq q = branch * scale;
+    const Rational p = -g[1] * scale;
+    const Rational q = branch * scale;
     const bool in_step = Surd{p, q, D}.sign_of() >= 0 && Surd{p - 1, q, D}.sign_of() <= 0;
     if (in_step && Surd{A + B * p, B * q, D}.sign_of() <= 0) return true;
   }
@@ -164,7 +170,7 @@ struct Position {
 Position position(const BilinearPatch& patch) {
   const auto& [p00, p10, p01, p11] = patch;
   Position result;
-  const Gmpz volume = determinant(p10 - p00, p01 - p00, p11 - p00);
+  const Integer volume = determinant(p10 - p00, p01 - p00, p11 - p00);
   if (volume == 0) {
     const bool in_plane = determinant(p00, p10, p01) == 0 && determinant(p00, p10, p11) == 0 &&
                           determinant(p00, p01, p11) == 0 && determinant(p10, p01, p11) == 0;
@@ -173,10 +179,10 @@ Position position(const BilinearPatch& patch) {
     return result;
   }
   // λ times the volume of the tetrahedron: a determinant with one corner replaced by the origin.
-  const Gmpz l00 = determinant(p10, p01, p11);
-  const Gmpz l10 = -determinant(p00, p01, p11);
-  const Gmpz l01 = determinant(p00, p10, p11);
-  const Gmpz l11 = -determinant(p00, p10, p01);
+  const Integer l00 = determinant(p10, p01, p11);
+  const Integer l10 = -determinant(p00, p01, p11);
+  const Integer l01 = determinant(p00, p10, p11);
+  const Integer l11 = -determinant(p00, p10, p01);
   const int v = sign(volume);
   const bool inside = sign(l00) * v >= 0 && sign(l10) * v >= 0 && sign(l01) * v >= 0 && sign(l11) * v >= 0;
   if (!inside) return result;
@@ -226,10 +232,10 @@ Scale integer_scale(const Query& query) {
   return scale;
 }
 
-Gmpz scaled(double coordinate, int exponent) {
+Integer scaled(double coordinate, int exponent) {
   if (coordinate == 0) return 0;
   const int own = std::ilogb(coordinate) - 52;
-  Gmpz integer(static_cast<long>(std::ldexp(coordinate, -own)));
+  Integer integer(static_cast<long>(std::ldexp(coordinate, -own)));
   if (own + exponent >= 0)
     integer <<= static_cast<unsigned long>(own + exponent);
   else
