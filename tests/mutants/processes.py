@@ -58,12 +58,9 @@ def wait(process, seconds):
         pause = min(2 * pause, 0.1)
 
 
-def limits(cpu=None, memory=None):
-    """Words to put before a command to limit the CPU time (s) and the memory (bytes) of each of its
-    processes."""
+def limits(memory=None):
+    """Words to put before a command to limit the memory (bytes) of each of its processes."""
     words = ['nice', '-n', '2', 'prlimit', '--core=0']
-    if cpu is not None:
-        words.append(f'--cpu={int(cpu)}:{int(cpu) + 1}')
     if memory is not None:
         words.append(f'--as={memory}')
     return words

@@ -47,7 +47,7 @@ def commands():
     }
 
 
-def run_tests(group, tests, seconds, cpu=None, layer=None):
+def run_tests(group, tests, seconds, layer=None):
     """Runs tests of a group until one fails, with the mutant of a layer if one is given. The tests cannot
     affect other processes. Removes their files afterwards."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
@@ -57,7 +57,7 @@ def run_tests(group, tests, seconds, cpu=None, layer=None):
             flags = Path(folder) / 'flags'
             flags.write_text(f'--gtest_filter={":".join(tests)}\n')
             words = [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={flags}']
-        before = [*(layer.words() if layer else []), *seal(), *limits(cpu, MEMORY)]
+        before = [*(layer.words() if layer else []), *seal(), *limits(MEMORY)]
         return run(words, BUILD, {'TMPDIR': folder}, seconds, before=before)
 
 
