@@ -15,41 +15,49 @@ namespace nearmiss {
 inline constexpr std::size_t warm_up_queries = 8;
 
 /// Measures how long some work took, in ns, by two clocks. The wall clock is precise, since reading it takes
-/// about 20 ns, but it keeps running while another process has the processor. The CPU clock counts only the
-/// time of this thread, or of all threads of this process, but is only accurate to about 500 ns. So the
-/// shorter of the two times counts. If the work itself waited for a device or a thread, the time of the wall
-/// clock counts.
+/// about 20 ns, but it keeps running while another process has the processor. The CPU time is only that of
+/// this thread, or of all threads of this process, but is known less precisely. So the shorter of the two
+/// times counts. If the work itself waited for a device or a thread, the time of the wall clock counts.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID
-  explicit Stopwatch(clockid_t clock) : clock_(clock), waits_(waits()), cpu_start_(cpu_time()) {}
+  explicit Stopwatch(clockid_t clock) : is_of_thread_(clock == CLOCK_THREAD_CPUTIME_ID), start_(usage()) {}
 
   [[nodiscard]] std::uint64_t nanoseconds() const {
     const std::chrono::nanoseconds wall = Wall::now() - wall_start_;
-    const std::uint64_t cpu = cpu_time() - cpu_start_;
+    const auto [cpu, waits] = usage();
     const auto elapsed = static_cast<std::uint64_t>(wall.count());
-    return waits() == waits_ ? std::min(elapsed, cpu) : elapsed;
+    const std::uint64_t rounding = is_of_thread_ ? 0 : 2000;
+    return waits == start_.waits ? std::min(elapsed, cpu - start_.cpu + rounding) : elapsed;
   }
 
  private:
   using Wall = std::chrono::steady_clock;
 
-  /// The number of voluntary context switches.
-  [[nodiscard]] long waits() const {
+  struct Usage {
+    std::uint64_t cpu;  ///< ns of CPU time, accurate to about 500 ns for a thread, and to 2 µs for a process
+    long waits;         ///< the number of voluntary context switches
+  };
+
+  /// The kernel's own sum over the threads of a process takes the place of CLOCK_PROCESS_CPUTIME_ID. That clock
+  /// only advances with the kernel's ticks while the process has a limit or a timer of CPU time, and a plug-in
+  /// or `ulimit -t` may set one. For a thread, it is the kernel's sum that only advances with ticks.
+  [[nodiscard]] Usage usage() const {
     rusage usage{};
-    getrusage(clock_ == CLOCK_THREAD_CPUTIME_ID ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
-    return usage.ru_nvcsw;
-  }
-
-  [[nodiscard]] std::uint64_t cpu_time() const {
+    getrusage(is_of_thread_ ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
     timespec time{};
-    clock_gettime(clock_, &time);
-    return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
+    if (is_of_thread_)
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    else
+      time = {usage.ru_utime.tv_sec + usage.ru_stime.tv_sec,
+              1000 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec)};
+    return {
+        static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec),
+        usage.ru_nvcsw};
   }
 
-  clockid_t clock_;
-  long waits_;
-  std::uint64_t cpu_start_;
+  bool is_of_thread_;
+  Usage start_;
   Wall::time_point wall_start_ = Wall::now();
 };
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <stop_token>
@@ -50,6 +52,19 @@ void compute_for(std::uint64_t time) {
   const std::uint64_t start = now(CLOCK_MONOTONIC);
   while (now(CLOCK_MONOTONIC) < start + time) {
   }
+}
+
+TEST(Stopwatch, CountsComputingWhileTheProcessHasALimitOfCpuTime) {
+  rlimit before{};
+  getrlimit(RLIMIT_CPU, &before);
+  const rlimit limit{std::min<rlim_t>(before.rlim_max, 3600), before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_CPU, &limit), 0);
+  for (int i = 0; i < 10; ++i) {
+    const std::uint64_t start = now(CLOCK_THREAD_CPUTIME_ID);
+    const std::uint64_t counted = time_of(CLOCK_PROCESS_CPUTIME_ID, [] { compute_for(millisecond); });
+    EXPECT_GE(counted + millisecond / 10, now(CLOCK_THREAD_CPUTIME_ID) - start);
+  }
+  setrlimit(RLIMIT_CPU, &before);
 }
 
 TEST(Stopwatch, TheBestTimeIsTheShortest) {
