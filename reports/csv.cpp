@@ -26,7 +26,6 @@ std::string field(std::string text) {
   return quoted + '"';
 }
 
-/// A field of a row, and the heading of its column.
 struct Field {
   std::string heading, text;
 };
@@ -69,8 +68,8 @@ void add_counter(Fields& fields, const Counts& counts, const Counter<Counts, Sub
   }
 }
 
-/// Adds nothing for members of any other type: distances.csv and times.csv have the histograms, and case
-/// files have the farthest false positives.
+/// Members of any other type get no field: distances.csv and times.csv have the histograms, and case files
+/// have the farthest false positives.
 template <class Member>
 void add_counter(Fields& /*fields*/, const Counts& /*counts*/, const Counter<Counts, Member>& /*counter*/) {}
 
@@ -81,7 +80,7 @@ Value interval_of_false_positives(const Counts& counts) {
   return Bin{lo, hi};
 }
 
-/// Adds the counters, each followed by the measures that are computed from it.
+/// Adds the counters. After each counter, adds the measures that are computed from it.
 void add_counters(Fields& fields, const CountsSum& sum) {
   for_each_counter<Counts>([&](const auto& counter) {
     add_counter(fields, sum.counts, counter);
@@ -92,8 +91,8 @@ void add_counters(Fields& fields, const CountsSum& sum) {
   });
 }
 
-/// The fields of a row: the key, then the counters. `of` is the heading of the key's family column: "family"
-/// or "class".
+/// The fields of a row: the key, then the counters. `of` is the heading of the column with `key.family`:
+/// "family" or "class".
 Fields fields_of(const CountsKey& key, const char* of, const CountsSum& sum) {
   Fields fields{
       {"subject", field(key.subject)}, {"kind", std::string(short_name(key.kind))}, {of, field(key.family)}};
@@ -107,7 +106,8 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a file with these rows. The headings are those of `any`, which may be any row.
+/// The text of a file with these rows. The headings come from `any`, which may be any row; there may be no
+/// rows.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);
   for (const Fields& row : rows) text += line(row, &Field::text);

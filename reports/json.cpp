@@ -44,7 +44,7 @@ ordered_json extreme_json(const Extreme& extreme) {
 }
 
 /// The command that repeats the results of a run. Nothing in two cases: a time limit ended several shards,
-/// which no command can repeat; or the text in the store is not a single command that stores a run.
+/// which no command can repeat; or the fact "again" is not a single nearmiss command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");
   constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "simulate ", "tightness "};
@@ -191,7 +191,8 @@ ordered_json farthest_json(const ShownFarthest& each) {
           {"file", "farthest/" + each.exported.file}};
 }
 
-/// The earliest and the latest time of each subject and kind with times.
+/// For each subject and kind with times of impact, the time farthest before t*, and the time farthest after
+/// t*.
 ordered_json extreme_times_json(const Statistics& statistics) {
   ordered_json json = ordered_json::array();
   for (const auto& [key, sum] : statistics.by_subject_and_kind())
@@ -200,7 +201,7 @@ ordered_json extreme_times_json(const Statistics& statistics) {
       if (cases->empty()) continue;
       const FarCase& far = cases->front();
       const double time = moment(far.query);
-      const double given = is_early ? time - far.ratio : time + far.ratio;  // as precise as the ratio
+      const double given = is_early ? time - far.ratio : time + far.ratio;  // as precise as far.ratio
       json.push_back({{"subject", key.subject},
                       {"kind", short_name(key.kind)},
                       {"side", is_early ? "early" : "after"},
@@ -213,7 +214,6 @@ ordered_json extreme_times_json(const Statistics& statistics) {
   return json;
 }
 
-/// The rates of each subject and kind in the baseline and now.
 ordered_json before_and_now(const Statistics& now, const Statistics& before) {
   ordered_json json = ordered_json::array();
   const auto earlier = before.by_subject_and_kind();
@@ -234,7 +234,7 @@ ordered_json borders_json() {
   return json;
 }
 
-/// The stages that accept a pair, in order.
+/// The names of the stages that can accept a query, in order.
 ordered_json stages_json() {
   ordered_json json = ordered_json::array();
   for (const std::string_view each : stage_names)

@@ -17,8 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The text, escaped for an element or an attribute of XML. XML allows no control characters except ends of
-/// lines.
+/// The text, escaped for an element or an attribute of XML. Control characters other than line ends become
+/// "?", because XML does not allow most of them.
 std::string escaped(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -84,7 +84,6 @@ std::string message_of(const ClassKey& key, const Counts& counts, const Failures
   return message;
 }
 
-/// The commands that repeat the runs.
 std::string commands(const Campaign& campaign) {
   std::string lines;
   for (const Run& run : campaign.runs)
@@ -93,8 +92,8 @@ std::string commands(const Campaign& campaign) {
   return lines;
 }
 
-/// Queries in the form that nearmiss replay reads: at most three of the findings for which `chosen` is true,
-/// one for each way to fail.
+/// The shrunk queries of some findings, in the form that nearmiss replay reads: the first finding of each
+/// signature for which `chosen` is true, for at most three signatures.
 template <class Chosen>
 std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
   constexpr std::size_t most = 3;
@@ -108,8 +107,8 @@ std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) 
   return lines;
 }
 
-/// Queries for a test that failed: the queries of the test's class or, if no query is of this class, the
-/// queries that families of this class made.
+/// Queries for a test that failed: the findings whose query has the test's class or, if there are none, the
+/// findings in families of that class.
 std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings) {
   const auto is_own = [&](const Finding& each) {
     return each.subject == key.subject && each.query.kind == key.kind;
@@ -152,8 +151,8 @@ std::string junit_xml(const Campaign& campaign, const Failures& failing) {
 
 std::string github_annotations(const Campaign& campaign, const Failures& failing) {
   const auto line = [](std::string_view title, std::string_view message) {
-    // A colon or a comma would end the title, and an end of a line the annotation; % begins an escaped
-    // character.
+    // A colon or a comma would end the title, and a line end would end the annotation. A % would begin an
+    // escaped character.
     return fmt::format("::error title={}::{}\n", percent_encoded(title, "%:,"),
                        percent_encoded(message, "%\n"));
   };

@@ -38,7 +38,7 @@ bool is_in_sub_folder(const fs::path& path) {
   return false;
 }
 
-/// The report in a file. Throws Error if it is not a report.
+/// The report in a file. Throws Error if the file is not a report.
 ordered_json read_report(const fs::path& file) {
   constexpr std::string_view expected = "a report, which nearmiss report can replace";
   ordered_json report;
@@ -66,7 +66,7 @@ void expect_room(const fs::path& folder, const ReportPaths& own,
   };
   for (const char* sub_folder : sub_folders)
     if (const auto status = fs::symlink_status(folder / sub_folder);
-        fs::exists(status) && !fs::is_directory(status))  // not a link, which could lead to the user's files
+        fs::exists(status) && !fs::is_directory(status))  // refuses links, which may lead to the user's files
       throw refuse(folder / sub_folder);
   for (const auto& [name, content] : files) {
     const auto status = fs::symlink_status(folder / name);
@@ -140,9 +140,9 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
     put_in_place(part, folder, own, files);
   } catch (const std::exception& error) {
     std::error_code ignored;
-    if (!is_written) {  // once all is written, the next replacement needs `part`
+    if (!is_written) {  // after all files are written, the next replacement needs `part`
       fs::remove_all(part, ignored);
-      fs::remove(folder, ignored);  // if it is empty
+      fs::remove(folder, ignored);  // fails unless it is empty
     }
     throw Error(fmt::format("{}: the report cannot be written: {}", folder.string(), error.what()));
   }
@@ -150,7 +150,6 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
 
 namespace {
 
-/// All files of the report.
 std::map<std::string, std::string> files_with_contents(const Campaign& campaign,
                                                        const ReportContext& context) {
   const ordered_json json = report_json(campaign, context);

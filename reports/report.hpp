@@ -22,14 +22,15 @@ namespace nearmiss {
 /// sweeps if there are any (sections/sections.hpp); and other fields.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
-/// The runs. Each run has its facts, the command that repeats it, the number of decided cases, its missing
-/// shards, when it began, the run time of all shards together, and each environment once.
+/// The runs as JSON. Each run has its facts, the command that repeats it, the number of decided cases, its
+/// missing shards, when it began, the run time of all shards together, and the environments of its shards,
+/// each environment once.
 nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
 /// JUnit's XML: a suite for each subject, with a test for each kind and class of families. A test fails if
-/// its counters have one of the failures in `failing`; its text then has these failures in words, at most
-/// three queries in the form that nearmiss replay reads, and the command that repeats the run. If the oracle
-/// failed, the suite "oracle" fails.
+/// its counters have one of the failures in `failing`. The text of such a test has its failures in words, at
+/// most three queries in the form that nearmiss replay reads, and the commands that repeat the runs. If the
+/// oracle failed, the file also has a suite "oracle", which fails.
 std::string junit_xml(const Campaign& campaign, const Failures& failing = usual_failures());
 
 /// Lines that GitHub's workflows show as annotations: one for each failure of a subject or of the oracle.
@@ -49,10 +50,11 @@ struct ReportContext {
 /// The version of report.json, which reports/report.schema.json describes.
 inline constexpr int report_schema_version = 2;
 
-/// Everything that the page shows: the schema's version; summary_json by shown family (family.hpp); the
-/// headline, and a verdict on each subject; error against run time; the histogram's borders, and the names
-/// of the stages; the first findings of each signature and the farthest false positives, with the names of
-/// their case files; the earliest and latest times; and the sections of `context`.
+/// report.json, which has everything that the page shows: the schema's version; summary_json, with the
+/// counters by shown family (family.hpp); the headline, and a verdict on each subject; error against run
+/// time; the borders of histogram bins, and the names of the stages (ccd/wang/verdict.hpp); the first
+/// findings of each signature and the farthest false positives, with the names of their case files; the
+/// earliest and latest times of impact; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
 /// Writes the files of a report:

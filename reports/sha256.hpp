@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), by Nettle.
+// SHA-256 (FIPS 180-4), computed by Nettle.
 #pragma once
 
 #include <nettle/sha2.h>
@@ -19,7 +19,6 @@ class Sha256 {
 
   /// The digest of all bytes. Nothing may be added afterwards.
   [[nodiscard]] std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest();
-  /// The digest in hexadecimal.
   [[nodiscard]] std::string hex_digest();
 
  private:
@@ -29,7 +28,6 @@ class Sha256 {
 /// Bytes in lower-case hexadecimal, two digits a byte.
 std::string hex(std::string_view bytes);
 
-/// The SHA-256 digest of some bytes, in hexadecimal.
 std::string sha256_hex(std::string_view bytes);
 
 }  // namespace nearmiss

@@ -26,7 +26,8 @@ namespace {
 /// Sorts the findings of all shards into the order in which a single machine would have found them, and drops
 /// the findings that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
-  // The sort is stable because all findings of a case come from one shard, which has them in order.
+  // A stable sort keeps the order of the findings of a case: they come from one shard, which has them in
+  // order.
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
@@ -36,12 +37,11 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    if (name != "again")  // this command only repeats the other facts
+    if (name != "again")  // a command that only repeats the other facts
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 
-/// The facts that a run had before its store was salvaged, without the facts that a salvage adds.
 RunInfo original_of(RunInfo info) {
   info.erase(salvaged_fact);
   info.erase(origin_fact);
@@ -75,7 +75,7 @@ std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& o
 
 namespace {
 
-/// The key by which findings are sorted for display.
+/// The key by which Campaign::findings sorts.
 auto place_of(const Finding& finding, const Statistics& statistics) {
   const bool is_of_oracle = finding.subject.empty();
   const auto times_seen = statistics.times_seen(signature_of(finding));
@@ -119,7 +119,6 @@ void expect_known_runs(const Campaign& campaign, const std::string& name) {
                 "store whose results cannot count twice");
 }
 
-/// Merges the runs of several campaigns.
 class RunMerger {
  public:
   void add(const Run& each, const std::string& name) {
@@ -151,8 +150,8 @@ class RunMerger {
                               fact->name, fact->other, fact->one, other_name, describe(task_of(info))));
   }
 
-  /// Throws Error if two inputs give the same name to different plug-ins or renamed subjects. Versions of one
-  /// plug-in are not different plug-ins: its bytes and version may differ from night to night.
+  /// Throws Error if two inputs give the same name to different plug-ins or renamed subjects. Plug-ins that
+  /// call themselves by the same name count as one plug-in, even if their bytes or versions differ.
   void expect_known_names(const RunInfo& info, const std::string& name) {
     for (const auto& [about, value] : info) {
       const bool is_plugin = about.starts_with(about_plugin) && about.ends_with(its_digest) &&
@@ -186,14 +185,14 @@ class RunMerger {
   }
 
   std::map<RunInfo, Run> runs_;
-  std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< the first run of each task, and its input
+  std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< facts and input of a task's first run
   /// What each name of a plug-in or of a renamed subject stands for, and the first input that has the name.
   std::map<std::string, std::pair<std::string, std::string>> by_subject_;
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };
 
-/// Whether a fact lists a name that fulfils a condition; true if the run does not have the fact. Commas
-/// divide the list, and a blank ends a name; the text after the blank is a comment.
+/// Whether the fact `of` lists a name that fulfils a condition; true if the run does not have the fact.
+/// Commas divide the list, and a blank ends a name; the text after the blank is a comment.
 template <class Condition>
 bool any_name(const RunInfo& info, const std::string& of, const Condition& condition) {
   const std::string text = fact(info, of);
@@ -205,9 +204,9 @@ bool any_name(const RunInfo& info, const std::string& of, const Condition& condi
   return false;
 }
 
-/// Whether a run may have asked the queries of a key, judged by the run's facts. Examples of their values:
-/// "uniform,needle", "stiff in 17 steps" or "all, search" for the families, "vt,ee" for the kinds, and
-/// "wang,x=wang,./plugin.so" for the subjects.
+/// Whether a run may have asked the queries of a key, judged by three facts of the run. Examples of their
+/// values are "uniform,needle", "stiff in 17 steps" or "all, search" for the fact "families", "vt,ee" for
+/// "kinds", and "wang,x=wang,./plugin.so" for "subjects".
 bool may_ask(const RunInfo& info, const CountsKey& key) {
   const FamilyName wanted(key.family);
   return any_name(info, "families",
@@ -244,20 +243,20 @@ std::set<CountsKey> random_keys(const Campaign& campaign, const RunInfo& info) {
 /// Whether the queries of a family come from files.
 bool is_of_files(std::string_view root) { return root == "mesh" || root == "near" || root == "near-within"; }
 
-/// Finds results that would count twice if campaigns are added up: answers of a subject to the same random
+/// Finds results that would count twice if campaigns were merged: answers of a subject to the same random
 /// queries, or the same step of a simulation.
 class AskedQueries {
  public:
-  /// Adds a campaign; `name` is the name of its store. Throws Error if two runs of different campaigns have
-  /// the same seed and ask the same subject queries of the same family, or have the same step of a
-  /// simulation. Shards of one run do not count as two runs, because they ask different queries.
+  /// Adds a campaign; `name` is the name of its store. Throws Error if this campaign and an earlier one have
+  /// the same step of a simulation, or if a run of each has the same seed, and both runs asked one subject
+  /// queries of one family. Shards of one run do not count as two runs, because they ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:
   /// The queries that the runs of one task asked.
   struct Asked {
     RunInfo task;
-    std::string files;  ///< files of the families "mesh" and "near", if they were asked
+    std::string files;  ///< the files from which the families "mesh" and "near" were made, if any
     std::string name;
     std::set<CountsKey> keys;
   };
@@ -339,9 +338,9 @@ std::string how_far(const Run& run) {
 
 std::string missing_shards(const Run& run) {
   constexpr std::size_t most_named = 20;  // a damaged store may claim any number of shards
-  std::vector<std::uint64_t> missing;     ///< the first missing shards
+  std::vector<std::uint64_t> missing;     ///< at most `most_named` of the missing shards
   std::vector<std::uint64_t> unfinished;
-  std::vector<std::string> asked;  ///< number of cases of each unfinished shard
+  std::vector<std::string> asked;  ///< number of cases that each unfinished shard decided
   const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;
   std::uint64_t next = 0;
   const auto miss_before = [&](std::uint64_t index) {

@@ -1,5 +1,5 @@
-// A campaign: what was run, how far it got, and what it found. A store holds campaigns, and a report shows
-// one.
+// A campaign: what was run, how far the runs got, and what they found. A store holds one campaign, and a
+// report shows one.
 #pragma once
 
 #include <cstdint>
@@ -16,27 +16,27 @@
 
 namespace nearmiss {
 
-/// A key by which findings are sorted for display: the least exotic class comes first; within a class, shrunk
-/// findings come first.
+/// The order of findings for display: by the class of the query, then shrunk findings first, then by the
+/// exoticness of the shrunk query.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }
 
-/// Facts by name.
+/// Facts about a run, or about the machine of a shard, by name.
 using RunInfo = std::map<std::string, std::string>;
 
-/// The value of a fact, "" if there is none.
+/// The value of a fact; "" if `info` does not have the fact.
 std::string fact(const RunInfo& info, const std::string& name);
 
-/// Beginning of the names of facts about a plug-in. A run has "plug-in NAME sha256" and "plug-in NAME
-/// version"; if the plug-in calls itself by another name, "plug-in NAME detector" has that name. The
-/// environment of a shard has "plug-in NAME build id", and "plug-in NAME", an argument that names the
-/// plug-in in any working directory.
+/// Names of facts about a plug-in begin like this. A run has the facts "plug-in NAME sha256" and "plug-in
+/// NAME version". If the user gave the plug-in this NAME, "plug-in NAME detector" is the plug-in's own name.
+/// The environment of a shard has "plug-in NAME build id" and "plug-in NAME"; the value of the latter is the
+/// argument of --subject that names the plug-in, with an absolute path.
 inline constexpr std::string_view about_plugin = "plug-in ";
 inline constexpr std::string_view its_digest = " sha256";
 inline constexpr std::string_view its_detector = " detector";
-/// A run's facts about renamed built-in subjects have names that begin like this: "subject NAME" is
-/// "NAME=SUBJECT".
+/// Names of a run's facts about renamed built-in subjects begin like this: the fact "subject NAME" has the
+/// value "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";
 
 /// Whether a fact of a run says which code ran, not what the code was asked to do. Such facts are the version
@@ -47,18 +47,19 @@ bool says_which_code(std::string_view fact);
 /// lost.
 RunInfo task_of(const RunInfo& info);
 
-/// A fact that differs between two runs, and its two values; the value is "" for a run without the fact. The
-/// command that repeats a run is not compared, because it only repeats other facts.
+/// A fact that differs between two runs, and its values in `one` and `other`; "" in a run without the fact.
 struct DifferentFact {
   std::string name, one, other;
 };
+/// A fact that differs between `one` and `other`, if any. The fact "again", the command that repeats a run,
+/// is not compared, because it only repeats the other facts.
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
 /// Name of the fact that says what a run lost when its store was salvaged. A run with this fact differs from
-/// the original run, so no command resumes it.
+/// the original run, so no command resumes the salvaged run.
 inline constexpr const char* salvaged_fact = "salvaged";
-/// Name of the fact that a salvage gives to every run of a store that lost rows about runs: some results may
-/// belong to a run that is no longer known.
+/// Name of the fact that a salvage gives to every run of a store that lost rows about runs: some results of
+/// the store may belong to a run that is no longer known.
 inline constexpr const char* origin_fact = "origin";
 
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
@@ -68,7 +69,7 @@ inline constexpr std::string_view until_the_time_is_over = "until the time is ov
 struct Shard {
   std::uint64_t index = 0;  ///< position among `count` shards, from 0
   std::uint64_t count = 1;
-  std::uint64_t cases = 0;  ///< cases that the oracle decided, in order; a campaign resumes after them
+  std::uint64_t cases = 0;  ///< number of cases decided so far, in order; a resumed run goes on after them
   bool complete = false;
   std::string started = {};  ///< date and time, for people only: clocks jump
   double seconds = 0;        ///< run time so far
@@ -77,14 +78,14 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// A command together with everything on which its results depend: equal runs give equal results. The facts
-/// of a run include the code that ran: the commit of nearmiss, and the bytes of each plug-in
-/// (`says_which_code`). The compiler of nearmiss, its flags and the path of a plug-in belong to the
-/// environment of a shard: answers do not depend on them, so different machines can share a run.
+/// A command and its results. `info` has everything on which the results depend, including the code that ran
+/// (`says_which_code`): runs with equal facts give equal results. Answers do not depend on the compiler, its
+/// flags or the path of a plug-in. These belong to the environment of a shard, so that different machines can
+/// share a run.
 struct Run {
   RunInfo info;
   std::vector<Shard> shards;      ///< by index
-  std::vector<Finding> findings;  ///< in order: the first ones of each signature and class (FirstFindings)
+  std::vector<Finding> findings;  ///< the first of each signature and class (FirstFindings), in order
   std::vector<ScenePicture> pictures = {};  ///< by step
 
   bool operator==(const Run&) const = default;
@@ -96,18 +97,19 @@ struct Campaign {
   Statistics statistics;
 
   /// The findings of all runs in the order of display. Failures of the oracle come first, since they put all
-  /// other findings in doubt. Failures that count only on request (--fail-on) come last. The rest are sorted
-  /// by the class of the query, ordinary first; then by how often the signature was seen; then by simplicity.
-  /// If several findings of a signature and class are shrunk to the same query, only the first of them is
-  /// listed.
+  /// other findings in doubt. Findings that never count (beyond a contract) or count only on request
+  /// (--fail-on) come last. Within these groups, findings are sorted by `least_exotic_first`, then by how
+  /// often the signature was seen, then by signature, then by the simplicity of the shrunk query. If several
+  /// findings of a signature and class are shrunk to the same query, only the first of them is listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 
 /// Merges campaigns into one: counters add up, shards of the same run come together, and the first findings
 /// of each signature are kept. Thus all shards together give the campaign that one machine would have run.
-/// The result does not depend on the order of the inputs. Throws Error, with the inputs' names, if two inputs
-/// have the same shard of a run, divide a run into different numbers of shards, or have runs that differ only
-/// in the code that ran. Runs with different tasks, such as those of different nights, stay separate.
+/// The result does not depend on the order of the inputs. Runs with different tasks, such as those of
+/// different nights, stay separate. Throws Error, with the inputs' names, if two inputs have the same shard
+/// of a run, divide a run into different numbers of shards, have runs that differ only in the code that ran,
+/// asked a subject the same queries in different runs, or use one name for different subjects.
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
 
 /// A line that names the missing and the incomplete shards of a run; "" if all shards are complete.

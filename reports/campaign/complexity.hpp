@@ -15,12 +15,14 @@ struct Complexity {
   /// How hard the query is to draw. Each distinct magnitude adds 0 if it is an integer of one digit, 1 if it
   /// is another multiple of 1/4 below 100, and 2 otherwise.
   int awkward = 0;
-  int numbers = 0;    ///< number of nonzero coordinates (one at rest counts once), plus 1 with a separation
-  int moving = 0;     ///< number of coordinates that are not at rest
+  /// Number of nonzero coordinates at t = 0 and at t = 1, plus 1 if the query has a separation. A coordinate
+  /// that does not move counts once.
+  int numbers = 0;
+  int moving = 0;     ///< number of coordinates that move
   int distinct = 0;   ///< number of distinct magnitudes other than 0, including the separation
-  int bits = 0;       ///< sum of the significant bits of these magnitudes
-  int exponents = 0;  ///< sum of the absolute values of their exponents
-  int negative = 0;   ///< coordinates with a minus sign, -0 included
+  int bits = 0;       ///< number of significant bits of these magnitudes together
+  int exponents = 0;  ///< sum of the absolute values of the exponents of these magnitudes
+  int negative = 0;   ///< number of coordinates with a minus sign, -0 included
 
   bool operator==(const Complexity&) const = default;
   bool operator<(const Complexity& other) const {
@@ -37,7 +39,7 @@ Complexity complexity(const Query& query);
 using Numbers = std::array<double, 25>;
 Numbers numbers_of(const Query& query);
 
-/// The magnitudes of some numbers other than 0, sorted and without repetition.
+/// The magnitudes of the nonzero `numbers`, sorted and without repetition.
 std::vector<double> magnitudes(std::span<const double> numbers);
 
 /// The number of bits from the first to the last set bit of a magnitude.

@@ -1,4 +1,4 @@
-// Converts findings to cases, and their texts to lines.
+// Converts findings to cases.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace nearmiss {
 
-/// The finding, with its shrunk query in place of the original query. Its ratio is removed, because the ratio
-/// belongs to the original query.
+/// A copy of the finding that has the shrunk query in place of the original query, and no ratio, because the
+/// ratio belongs to the original query.
 Finding of_shrunk(const Finding& finding);
 
 /// The case of a finding. The case records the truth if the finding implies it.
 Case to_case(const Finding& finding);
 
 /// A name for the file of a finding's case: what failed, the subject, and `id`. Subjects with similar names,
-/// such as "a b" and "a;b", get the same text in file names, so the ids of their cases must also differ.
+/// such as "a b" and "a;b", get the same text in file names, so the ids of their cases must differ.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
 /// Turns a text into a part of a valid file name: keeps letters, digits, '-' and '.', and replaces every
 /// other character by '_'. Cuts a text of more than 60 bytes, and appends a hash of the whole text.
 std::string file_name(std::string text);
 
-/// The lines of Finding::errors, without their ends.
+/// The lines of Finding::errors, without line ends.
 std::vector<std::string> error_lines(const Finding& finding);
 
 }  // namespace nearmiss

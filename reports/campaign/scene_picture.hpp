@@ -5,7 +5,7 @@
 
 namespace nearmiss {
 
-/// The picture is a JSON object, because only a page reads it. Its members:
+/// The picture of one step, as a JSON object for the page. The members of the object:
 ///   meanings   entry i says what bit i of a mark means: "collides" and so on
 ///   primitives the number of primitives of the step; a large picture leaves some of them out
 ///   points     for each point, x y z at t = 0 and x y z at t = 1: integers from 0 to 9999, separated by

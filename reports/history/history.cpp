@@ -19,12 +19,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// The changes told so far, so that nothing is told twice. Each sort of change in one topic is told once,
-/// until the subject's code changes or the opposite change is told. A rate or a way to fail that becomes
-/// significant only in a later night is further evidence of a change that was already told, not a new change.
+/// Remembers which changes earlier nights have told. For each subject and topic, a sort of change ("new",
+/// "worse" and so on) is told once, until the subject's code changes or the opposite change is told. A rate
+/// or a way to fail that becomes significant only in a later night is further evidence of a change that was
+/// already told.
 class Told {
  public:
-  /// Whether a change is news.
   [[nodiscard]] bool is_news(const ReportedChange& change) const {
     if (told_.contains({change.subject, change.what, change.topic})) return false;
     if (change.what == "gone") return !gone_.contains(change.key);
@@ -36,7 +36,6 @@ class Told {
     std::erase_if(told_, [&](const Topic& each) { return std::get<0>(each) == subject; });
   }
 
-  /// Notes that a change of a subject was told.
   void tell(const std::string& subject, const std::string& what, const std::string& topic) {
     static const std::map<std::string, std::string> opposites{{"new", "gone"},      {"gone", "new"},
                                                               {"worse", "better"},  {"better", "worse"},
@@ -46,11 +45,12 @@ class Told {
     if (what == "gone") told_.erase({subject, "worse", topic});
   }
 
-  /// Call this after all changes of a night.
+  /// Notes the end of a night, after all its changes have been told.
   void end_night(const NightReport& night) {
     for (const auto& [subject, of_night] : night.subjects) {
       night_before_[subject].clear();
-      // A later failure counts as another one, even of the same code: a program's code is not known.
+      // After a clean night, a failure is news again, even if the subject's code seems to be the same: the
+      // code of a program is not known.
       if (of_night.clean)
         std::erase_if(told_, [&, name = subject](const Topic& each) {
           const auto& [of, what, topic] = each;
@@ -73,12 +73,11 @@ class Told {
   std::set<ChangeKey> gone_;
 };
 
-/// The subjects that became slower.
 class Slowed {
  public:
-  /// Adds an event for each subject that is fast again after it became slower: its time is nearer to the time
-  /// that was expected when it slowed down than to the slow time. The report itself does not show this once
-  /// the slow nights are part of its baseline.
+  /// Adds an event for each subject that became slower in an earlier night and is fast again: its time is
+  /// below the geometric mean of the slow time and the time that was expected in that night. The report
+  /// itself does not show this once slow nights are part of its baseline.
   void add_events(Night& night, Told& told) {
     for (const auto& [name, subject] : night.report.subjects) {
       const double time = subject.ns_per_query.value_or(0);
@@ -104,13 +103,14 @@ class Slowed {
     return found == night.changes.end() ? nullptr : &*found;
   }
 
-  std::map<std::string, double> limits_;  // ns a query, by subject
+  std::map<std::string, double> limits_;  // the time (ns per query) below which a slow subject is fast again
 };
 
-/// The order of events, with the words for one change and for several.
+/// A sort of event, with the words for one change and for several.
 struct Sort {
   std::string_view what, one, many;
 };
+/// The sorts of events, in the order in which a night shows them.
 constexpr std::array sorts{Sort{"new", "new way to fail", "new ways to fail"},
                            Sort{"worse", "worse rate", "worse rates"},
                            Sort{"slower", "slower run time", "slower run times"},
@@ -125,7 +125,8 @@ const Sort& sort_of(std::string_view what) {
 }
 
 /// Adds the news in a night's report: one event for each subject and sort of change. The example in an event
-/// is the first change, or the way to fail that was seen most often.
+/// is the way to fail that the night saw most often; for failures that are gone, rates and times, it is the
+/// first change.
 void add_changes(Told& told, Night& night) {
   struct Sum {
     std::size_t count = 0;
@@ -156,12 +157,13 @@ void add_changes(Told& told, Night& night) {
   }
 }
 
-/// "version 2", or the build, with a commit of at most 12 digits
+/// "version 2"; or, unless `by_version`, the build, with a commit of at most 12 digits
 std::string text_of(const SubjectCode& code, bool by_version) {
   return by_version ? code.text() : code.build.substr(0, std::string_view("commit 0123456789ab").size());
 }
 
-/// Adds the subjects that are new, and those whose code has changed.
+/// Adds an event for each subject that is new or has new code. `codes` has the last known code of each
+/// subject.
 void add_versions(const std::map<std::string, SubjectCode>& codes, Told& told, Night& night) {
   const auto compare = [&](const std::string& name, const SubjectCode& now) {
     const auto before = codes.find(name);
@@ -180,7 +182,7 @@ void add_versions(const std::map<std::string, SubjectCode>& codes, Told& told, N
   }
 }
 
-/// Which nights saw each way to fail.
+/// Finds out which nights saw each way to fail.
 class Ways {
  public:
   void add(const NightReport& night, std::size_t index) {

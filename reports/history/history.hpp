@@ -17,64 +17,65 @@
 
 namespace nearmiss {
 
-/// Identifies a change: (failure, subject, signature), or ("rate" or "time", subject, the measured quantity).
+/// Identifies a change: (failure, subject, signature), ("rate", subject, "false negatives in vt uniform") or
+/// ("time", subject, "vt uniform").
 using ChangeKey = std::tuple<std::string, std::string, std::string>;
 
 /// A change since the baseline, as read from a report.
 struct ReportedChange {
   std::string what;     ///< "new", "worse", "slower", "gone", "better" or "faster"
   std::string subject;  ///< "" for the oracle
-  std::string topic;    ///< the failure, such as "false negative", or "time"
+  std::string topic;    ///< the kind of failure or rate, such as "false negative", or "time"
   ChangeKey key;
   std::string text;        ///< "false-negative, vt simple-root inside in-face"
-  std::string fixed = {};  ///< "in version 2"
-  double ratio = 1;        ///< the run time divided by the expected run time
+  std::string fixed = {};  ///< for a failure that is gone: "in version 2", if known
+  double ratio = 1;        ///< the run time divided by the expected run time; 1 for other changes
 };
 
-/// A subject in one night. Numbers that its report does not give are missing.
+/// A subject in one night. Numbers that the night's report does not give are missing.
 struct SubjectNight {
   SubjectCode code;
   bool clean = true;
   std::string text;  ///< the verdict on the subject
   std::optional<double> queries = {}, false_positive_rate = {}, ns_per_query = {};
-  std::map<std::string, std::pair<double, double>> missed = {};  ///< by class: misses, and collisions
+  std::map<std::string, std::pair<double, double>> missed = {};  ///< by class: misses and collisions
 };
 
-/// A campaign and what its report says.
+/// A night: its campaign, and what the report of the campaign says.
 struct NightReport {
   std::string name;     ///< name of the night's folder
   std::string page;     ///< the report's page, relative to the folder of all nights; "" if there is no report
-  std::string started;  ///< the earliest date of its runs; "" if it is not known
-  std::string headline;  ///< the headline of its report, or why there is no report
+  std::string started;  ///< date of the earliest run; if unknown, the date in `name`, or `name` itself
+  std::string headline;  ///< the report's headline, or why there is no report
   bool clean = false;
   std::uint64_t cases = 0;
-  double seconds = 0;  ///< run time of all its runs
-  SubjectCode oracle;  ///< nearmiss itself
+  double seconds = 0;  ///< run time of all runs together
+  SubjectCode oracle;  ///< the code of nearmiss itself
   std::map<std::string, SubjectNight> subjects;
   std::vector<ReportedChange> changes;
-  std::map<ChangeKey, std::uint64_t> seen;  ///< in how many queries each way to fail was seen
+  std::map<ChangeKey, std::uint64_t> seen;  ///< in how many queries of the night each way to fail was seen
   bool has_baseline = false;
-  std::set<std::string> baseline = {};  ///< the dates of the runs that are its baseline
+  std::set<std::string> baseline = {};  ///< the dates of the runs in the report's baseline
 };
 
 /// The nights in a folder, in the order of their dates. A night always comes after the nights of its
 /// baseline, even if the clock was set back in between. A subfolder is a night if it has a report.json
-/// (directly or in report/) or a store, or if it is named as tools/nightly names a night. Throws Error if the
-/// folder has no night or cannot be read.
+/// (directly or in report/) or a store, or if its name is a date as tools/nightly writes it. Throws Error if
+/// the folder has no night or cannot be read.
 std::vector<NightReport> read_nights(const std::filesystem::path& folder);
 
-/// A change in a night.
+/// Changes of one sort in a night, which the history shows as one line.
 struct NightEvent {
-  std::string what;     ///< ReportedChange::what, or "version" or "first"
+  std::string what;     ///< ReportedChange::what, "version" (new code) or "first" (a new subject)
   std::string subject;  ///< "" for the oracle
-  std::size_t count;    ///< number of ways to fail, rates or run times
+  std::size_t count;    ///< number of ways to fail, rates or run times that changed
   std::string text;     ///< "2 new ways to fail, such as false-negative, vt simple-root inside in-face"
 };
 
 struct Night {
   NightReport report;
   bool went_back = false;               ///< an earlier night has a later date, because the clock was set back
-  std::vector<NightEvent> events = {};  ///< what the report tells and no earlier report told
+  std::vector<NightEvent> events = {};  ///< changes that no earlier night has told
 };
 
 /// A way to fail (a signature), and the nights that saw it, as indices into History::nights.
@@ -83,21 +84,22 @@ struct WayToFail {
   std::size_t first = 0, last = 0;
   std::size_t nights = 0;  ///< number of nights that saw this way to fail
   std::uint64_t seen = 0;  ///< number of queries in all nights
-  bool lasts = false;      ///< the last night that asked its subject saw this failure
-  std::size_t gone = 0;    ///< the night whose report says that the failure is gone; 0 without such a night
+  bool lasts = false;      ///< the last night that asked the subject saw this failure
+  std::size_t gone = 0;    ///< the night whose report says that the failure is gone; 0 if no report says so
   std::string fixed = {};  ///< "in version 2", if that report says so
 };
 
 struct History {
-  std::vector<Night> nights;    ///< in their order (read_nights)
-  std::vector<WayToFail> ways;  ///< lasting ones first, then the latest, then the most frequent
+  std::vector<Night> nights;  ///< in the order of read_nights
+  /// Failures that last come first. Within both groups, the order is by the last night that saw the failure,
+  /// the latest first, then by the number of queries, the largest first.
+  std::vector<WayToFail> ways;
 };
 
-/// Finds out what changed in each night. The first night has no changes, because earlier nights are not
-/// known.
+/// Finds out what changed in each night. The first night with a report has no events, because no earlier
+/// night is known.
 History make_history(std::vector<NightReport> nights);
 
-/// The history as JSON, which is part of its page.
 nlohmann::ordered_json history_json(const History& history);
 
 /// The last ten nights, a line of at most 100 columns each.

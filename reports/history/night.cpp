@@ -16,14 +16,14 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// The list that an object has under a name; an empty list if the object has none.
+/// The list that an object has under a name; an empty list if the object does not have the name.
 const ordered_json& list_in(const ordered_json& json, const char* name) {
   static const ordered_json none = ordered_json::array();
   const auto found = json.find(name);
   return found == json.end() ? none : *found;
 }
 
-/// The number that an object has under a name; nothing if the object has none.
+/// The number that an object has under a name; nothing if the object has no number there.
 std::optional<double> number_in(const ordered_json& json, const char* name) {
   const auto found = json.find(name);
   if (found == json.end() || !found->is_number()) return std::nullopt;
@@ -34,7 +34,7 @@ ChangeKey way_of(const ordered_json& signature) {
   return {signature.at("what"), signature.at("subject"), signature.at("signature")};
 }
 
-/// "false negative" for the failure "false-negative" and for the rate "false negatives"
+/// "false negative", for both the failure "false-negative" and the rate "false negatives"
 std::string topic_of(std::string what) {
   std::replace(what.begin(), what.end(), '-', ' ');
   if (what.ends_with('s')) what.pop_back();
@@ -95,7 +95,7 @@ void take_baseline(const ordered_json& json, NightReport& night) {
   for (const auto& each : list_in(json, "changed_times")) night.changes.push_back(changed_time(each));
 }
 
-/// The facts of runs that say which code ran.
+/// A campaign that has only the facts of a report's runs; `code_of` finds in them which code ran.
 Campaign campaign_of(const ordered_json& runs) {
   Campaign campaign;
   for (const auto& json : runs) {
@@ -198,7 +198,7 @@ std::vector<NightReport> in_order(std::vector<NightReport> nights) {
       });
     };
     auto next = std::find_if(nights.begin(), nights.end(), is_next);
-    if (next == nights.end()) next = nights.begin();  // dates that no clock gives
+    if (next == nights.end()) next = nights.begin();  // a cycle of baselines, so the dates are wrong
     sorted.push_back(std::move(*next));
     nights.erase(next);
   }

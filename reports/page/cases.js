@@ -11,7 +11,7 @@ function failureTitle(finding) {
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** A short hash of a text, which is the same in every report. */
+/** A short hash of a text. A text has the same hash in every report. */
 function digest(text) {
   let [a, b] = [0x9e3779b9, 0x85ebca6b];
   for (const letter of text) {
@@ -31,7 +31,6 @@ function findingLink(title, index) {
   return link;
 }
 
-/** A button that copies the address of a finding. */
 function linkButton(finding) {
   const icon = svgMade("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" },
     svgMade("path", { d: "M7 9.5l3-3M6.5 5l2-2a2.8 2.8 0 0 1 4 4l-2 2M9.5 11l-2 2a2.8 2.8 0 0 1-4-4l2-2" }));
@@ -41,9 +40,9 @@ function linkButton(finding) {
 }
 
 /**
- * A card with a picture that opens large, and with text about it.
+ * A card with a picture, which the user can enlarge, and with text about the picture.
  * @param shown what the picture shows (makeViewer)
- * @param onOpen is called when the user opens it
+ * @param onOpen is called when the user enlarges the picture
  */
 function pictureCard(shown, content, attributes = {}, onOpen = () => {}) {
   const card = made("article", [], { ...attributes, class: "card" });
@@ -69,7 +68,7 @@ function pictureCard(shown, content, attributes = {}, onOpen = () => {}) {
   return card;
 }
 
-/** A query that the page shows on demand, with a button that copies its certificate if it has one. */
+/** A query that the page shows on demand, with a button that copies the query's certificate, if any. */
 const fold = (title, query, file, certificate) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query),
   ...(certificate ? [" ", copyButton(certificate, "copy the certificate")] : [])]);
 
@@ -90,9 +89,8 @@ const findingCard = (finding, attributes = { id: idOf(finding), tabindex: -1 }) 
 // --- findings -------------------------------------------------------------------------------------
 
 /**
- * The findings, each with its index and the text in which a filter looks for words. New findings come first;
- * otherwise
- * the order is the report's: ordinary queries first, then the most frequent ways to fail.
+ * The findings, each with its index and the text in which a filter looks for words. New findings come first.
+ * Within both groups, findings are in the order of the report (Campaign::findings).
  */
 const findings = report.findings.map((finding, index) => ({ finding, index,
   words: [failureTitle(finding), finding.what, finding.signature, finding.kind, kindTitles[finding.kind], finding.family, finding.provenance,
@@ -120,7 +118,7 @@ function drawCards() {
   element("more-findings").toggleAttribute("hidden", some.length <= filter.most);
 }
 
-/** Shows only the findings that have these values in these fields. */
+/** Shows only the findings with these values; `values` maps fields of the filter to values. */
 function filterFindings(values) {
   Object.assign(filter, noFilter, values);
   for (const input of document.querySelectorAll("#findings-filter [name]")) input.value = filter[input.name];
@@ -152,7 +150,6 @@ function showAddress() {
   element("findings-section").scrollIntoView();
 }
 
-/** The controls of the filter. */
 function drawFilter() {
   const values = (field) => [...new Set(report.findings.map((each) => each[field]))].sort();
   const titles = { what: failureTitles, kind: kindTitles, subject: { "": "the oracle" } };
@@ -178,7 +175,7 @@ function drawFilter() {
   });
 }
 
-/** Draws the simplest failure of the worst subject, which is the first in the first table. */
+/** Draws the simplest failure of the worst subject, the first subject in the first table. */
 function drawExample() {
   const worst = inOrder(report.verdicts).find(({ clean, finding }) => !clean && finding !== null);
   const index = worst ? worst.finding : report.findings.findIndex(({ subject }) => subject === ""); // the oracle's
@@ -223,8 +220,8 @@ function drawExtremeTimes() {
   const rows = report.extreme_times;
   if (rows.length === 0) return;
   show("extreme-times-section");
-  // A time after t* is not late if the distance of the primitives only touches h. If a subject gives both
-  // lower bounds and estimates, the report does not say which of the two a time is, so the page does not
+  // A time after t* is not late if the primitives come no closer than h before that time. If a subject gives
+  // both lower bounds and estimates, the report does not say which of the two a time is, so the page does not
   // call the time late.
   const isLate = ({ subject, kind, side }) => {
     const { late, after_histogram: after } = report.subjects[subject][kind];

@@ -2,8 +2,8 @@
 "use strict";
 
 /**
- * The width of each of two panels side by side, at most `widest`; `labels` is the room for their labels, in
- * pixels.
+ * The width of each of two panels side by side: 300 to `widest` pixels. `labels` is the width that the labels
+ * of both panels need.
  */
 const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
 
@@ -15,7 +15,7 @@ const algorithmColor = (names) => ({
   field: "algorithm", type: "nominal", title: "algorithm",
   scale: { domain: names, range: names.map(colorOfAlgorithm) },
 });
-/** The colour halfway between two colours, all as "#rrggbb". */
+/** The colour halfway between two colours; all three have the form "#rrggbb". */
 const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
   Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge", vv: "vertex-vertex", ve: "vertex-edge" };
@@ -25,8 +25,8 @@ const kindNames = Object.keys(kindTitles);
 const boundField = { field: "bound_of_distances", title: "bound" };
 
 /**
- * A logarithmic axis whose ends stand for 0 and infinity, if `values` have them. The result's `at` moves
- * such a value to its end; `written` is the expression that formats a value.
+ * A logarithmic axis whose ends stand for 0 and infinity, if `values` have them. The result's function `at`
+ * maps 0 and infinity to these ends. `written` is the Vega expression that formats other values.
  */
 function logAxis(values, written = "digits(datum.value, 3)") {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
@@ -44,18 +44,17 @@ function logAxis(values, written = "digits(datum.value, 3)") {
     axis: { values: ticks, labelExpr: label } };
 }
 
-/** The classes of families in the order of charts. */
 const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
-/** Whether a row is a step of a sweep that its subject was asked; other charts show the sweeps. */
+/** Whether a row is a step of a sweep of which the row's subject was asked; other charts show sweeps. */
 function isSweep({ subject, family }) {
   const swept = family.replace(/@[^~]*/, "");
   return swept !== family && Object.hasOwn(report.sweeps ?? {}, swept) && Object.hasOwn(report.sweeps[swept], subject);
 }
 
 /**
- * The rows whose false positives are a rate: random families except sweeps, because cases and scenes are no
- * random samples.
+ * The rows with a rate of false positives: random families except sweeps. Cases and scenes are no random
+ * samples.
  */
 function rateRows() {
   return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row))

@@ -2,14 +2,17 @@
 "use strict";
 
 /**
- * Replaces the largest double by infinity: JSON has none, so the largest double stands for a distance
+ * Replaces the largest double by infinity. JSON has no infinity, so the largest double stands for a distance
  * divided by a bound of 0.
  */
 const withInfinity = (value) => (Array.isArray(value) ? value.map(withInfinity) : value === Number.MAX_VALUE ? Infinity : value);
 const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
 
-/** The folder of this page, if it is a file. The report may have been copied since it was written, together with its cases. */
+/**
+ * The folder of this page, if the page is a file; "" otherwise. Commands name this folder, because a report may
+ * be copied together with its cases.
+ */
 const ownFolder = (() => {
   if (location.protocol !== "file:") return "";
   try {
@@ -18,9 +21,9 @@ const ownFolder = (() => {
     return ""; // the folder's name is not UTF-8, so commands work in the report's folder
   }
 })();
-/** A text as a word of a shell. */
+/** A text in the form that a shell reads as one word. */
 const shellQuoted = (text) => (/^[\w./@%+=:,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-/** The command that replays a finding: in any folder, if the page is a file. */
+/** The command that replays a finding. If the page is a file, the command works in any folder. */
 const replayCommand = ({ again }) => again.replace(/(?<= )cases\/\S+/, (file) => shellQuoted(ownFolder + file));
 
 /** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
@@ -48,12 +51,11 @@ const isNoRung = ({ subject, algorithm }) => subject === algorithm;
  */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
 /**
- * The mark of a distance that is not a fraction of a claimed bound; the notes of class "units" explain it.
+ * The mark of a distance that is not a fraction of a claimed bound; elements of the class "units" explain it.
  */
 const unitMark = (row) => (isOfClaim(row) ? "" : "**");
 /**
- * The mark of a subject: the mark of distances, unless the subject's distances of all kinds are fractions of
- * a claimed bound.
+ * The mark of a subject: "**" unless the subject's distances of all kinds are fractions of a claimed bound.
  */
 const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");
 

@@ -1,4 +1,4 @@
-// What the pages of the report and of its history have in common: elements, durations, and charts by Vega-Lite.
+// Functions for the page of a report and the page of a history: elements, durations, and charts by Vega-Lite.
 "use strict";
 
 const element = (id) => document.getElementById(id);
@@ -29,8 +29,8 @@ const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-seri
 const drawn = {};
 
 /**
- * A copy in which an invisible character is added to strings such as "constructor", the name of a member that
- * every object has: Vega-Lite drops such strings from the domain of a scale.
+ * A copy in which strings such as "constructor", the name of a member that every object has, end with an
+ * invisible character. Vega-Lite would drop these strings from the domain of a scale.
  */
 function withoutMembers(value) {
   if (typeof value === "string") return value in {} ? `${value}\u200b` : value;

@@ -1,4 +1,4 @@
-// Draws error against run time: a mark for each subject, or lines if there are algorithms over many scalars.
+// Draws error against run time: a mark for each subject, or lines if an algorithm has at least three scalars.
 "use strict";
 
 const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", ...digits(4) },
@@ -39,7 +39,7 @@ function nameLayers(rows, x, y, [width, height]) {
   return [lines, text({ stroke: color("--paper"), strokeWidth: 3 }), text({ color: color("--ink") })];
 }
 
-/** Draws a mark with a name for each subject; only chosen subjects have their own colours. */
+/** Draws a mark with a name for each subject. Only the subjects chosen in the picker have their own colours. */
 function drawErrorTimeOfEach() {
   const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each,
@@ -95,7 +95,7 @@ const isEmulated = (row) => /^p\d/.test(row.scalar);
 
 /**
  * Divides points into lines, one for each algorithm and sort of scalars (the machine's or emulated), and
- * orders the points of each line from few digits to many.
+ * orders the points of each line by the number of digits of their scalars.
  */
 function makeStrands(rows) {
   const strands = new Map();

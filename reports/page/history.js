@@ -1,10 +1,11 @@
-// Draws the history of nights: a row for each night, charts for each subject, and when each way to fail was seen.
+// Draws the history of nights: a row for each night, charts for each subject, and when each way to fail was
+// seen.
 "use strict";
 
 const { nights, ways_to_fail: ways } = JSON.parse(element("history").textContent);
 const latest = nights.at(-1);
 
-/** A night's name as a link to its report, if there is one. */
+/** A night's name, as a link to the night's report if it has one. */
 const link = (night) => (night.page ? made("a", night.name, { href: `./${night.page.split("/").map(encodeURIComponent).join("/")}` }) : night.name);
 const verdictOf = (night) => (!night.page ? "no report" : night.clean ? "ok" : "FAIL");
 
@@ -36,8 +37,8 @@ function drawNights() {
 }
 
 /**
- * The nights that asked a subject, each with the subject's numbers, and whether its code differs from the
- * night before.
+ * The nights that asked a subject, each with the subject's numbers. `is_other` says whether the subject's code
+ * has changed since the previous one of these nights.
  */
 function nightsOf(subject) {
   const asked = nights.map((night, index) => ({ index, night, of: night.subjects[subject] })).filter(({ night }) => Object.hasOwn(night.subjects, subject));
@@ -56,7 +57,7 @@ const panels = [
   { title: "queries a second of the night", field: "per_second", rows: (rows) => rows, tooltip: [{ field: "per_second", title: "queries a second", ...digits(3) }] },
 ];
 
-/** A chart over nights, with a line for each version. */
+/** A chart over nights. A vertical line marks each night in which the subject's code changed. */
 function panelSpec({ title, field, rows: rowsOf, format, hue, tooltip }, all) {
   const rows = rowsOf(all).filter((row) => Number.isFinite(row[field]));
   const x = { field: "index", type: "quantitative", title: null, scale: { domain: [-0.5, nights.length - 0.5], nice: false },

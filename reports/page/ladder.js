@@ -15,7 +15,7 @@ const fitText = (fit) => `${fit.algorithm}: ` + (fit.restates_the_bound
   : `the farthest distance goes as ε to the power of ${exponent(fit)} (95 % confidence), at ${partsOfClaimed(fit)} of the claimed distance`) +
   ` for ${fit.points} subjects with ${fit.precisions} precisions.`;
 
-/** A table of exponents: a row for each origin of queries, columns for each algorithm. */
+/** Draws a table of the fitted exponents: a row for each origin of queries, columns for each algorithm. */
 function drawFits(fits) {
   const origins = [...new Set(fits.map((fit) => fit.origin))];
   if (origins.length < 2) return;

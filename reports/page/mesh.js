@@ -3,8 +3,8 @@
 "use strict";
 
 /**
- * Colours of marked primitives: a list with bits, their meaning, and the name of a colour. The first entry
- * that has a bit in common with a primitive's mark gives its colour.
+ * Colours of marked primitives: a list of bits with their meaning and a colour. A primitive has the colour of
+ * the first entry that has a bit in common with the primitive's mark.
  */
 function markColours(meanings, subject) {
   const bit = (meaning) => (meanings.includes(meaning) ? 1 << meanings.indexOf(meaning) : 0);
@@ -29,7 +29,7 @@ function primitivesOf(picture) {
 }
 
 /**
- * What a picture's viewer needs.
+ * A picture in the form that drawMesh needs.
  * @param picture an entry of report.pictures; reports/campaign/scene_picture.hpp describes its format
  */
 function readPicture(picture) {
@@ -117,7 +117,7 @@ function drawMesh(entries) {
       }
       paint.stroke();
     }
-    // A ring marks each miss, even if it is small or behind other primitives.
+    // A ring marks each small primitive that was missed or is tangled, even if other primitives hide it.
     for (const primitive of missesOf(view.picture, view.subject)) {
       const isFocus = primitive === view.focus;
       const [x, y] = [mean(primitive, 0), mean(primitive, 1)];
@@ -166,7 +166,7 @@ function drawMesh(entries) {
     change({ picture, subject, focus: undefined });
   }
   step.addEventListener("change", () => choose(pictures[step.value]));
-  /** Shows the next miss of this picture or, after its last one, the first miss of the next picture that has any. */
+  /** Shows the next miss of this picture or, after the last miss, the first miss of the next picture with misses. */
   function showNextMiss() {
     const misses = missesOf(view.picture, view.subject);
     const after = misses.indexOf(view.focus) + 1;

@@ -1,4 +1,4 @@
-// Draws what subjects miss among the collisions of ordinary queries, against their run time.
+// Draws the share of ordinary collisions that each subject misses, against the subject's run time.
 "use strict";
 
 /** A row for each subject that was asked ordinary queries, with the sums over its kinds. */

@@ -12,7 +12,8 @@
 #error "reports/page/node_modules is missing: run tools/setup, or npm ci in reports/page"
 #endif
 
-// The executable contains the files of the page: NEARMISS_ASSET(name, file) defines name_begin and name_end.
+// NEARMISS_ASSET(name, file) puts a file of the page into the executable, and defines `name`, the file's
+// text.
 #define NEARMISS_ASSET(name, file)                    \
   asm(".pushsection .rodata, \"a\"\n" #name           \
       "_begin:\n"                                     \
@@ -79,7 +80,8 @@ std::string inside_script(const nlohmann::ordered_json& json) {
   return text;
 }
 
-/// A page with this HTML as its body, with JSON as its data, and with the scripts in `files`, which draw the data.
+/// A page with this HTML as its body, with JSON in an element with the id `data`, and with the scripts in
+/// `files`, which draw the JSON.
 std::string page_of(std::string_view body, const char* data, const nlohmann::ordered_json& json,
                     std::initializer_list<std::string_view> files) {
   const std::string nonce = make_nonce();

@@ -1,4 +1,4 @@
-// Draws the report. All numbers come from report.json; the page computes none of its own.
+// Draws the report. All numbers come from report.json; the page only adds and divides them.
 "use strict";
 
 // --- head -----------------------------------------------------------------------------------------
@@ -14,14 +14,13 @@ function drawHead() {
     .join(" · ");
 }
 
-/** Links to the sections that are shown. */
 function drawNavigation() {
   const titles = { "findings-section": `Findings (${report.findings.length})` };
   for (const section of document.querySelectorAll("main section:not([hidden]) > h2"))
     document.querySelector("nav").append(made("a", titles[section.parentNode.id] ?? section.textContent, { href: `#${section.parentNode.id}` }));
 }
 
-/** Lists the run times that differ by more than the run times of equal campaigns do. */
+/** Lists the run times that have changed since the baseline by more than chance explains. */
 function drawChangedTimes({ changed_times: times, compared_times: compared, campaigns_with_times: campaigns }) {
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   if (campaigns === 0) return say("Run times are not compared: the baseline ran on another model of processor.");
@@ -107,7 +106,6 @@ function drawUnits() {
 
 // --- counts ---------------------------------------------------------------------------------------
 
-/** The number of queries without an answer. */
 const faults = (r) => Object.values(r.faults).reduce((a, b) => a + b, 0);
 /** "3 crash, 1 time" */
 const faultText = (r) => Object.entries(r.faults).map(([why, times]) => `${integer(times)} ${why}`).join(", ");
@@ -312,7 +310,7 @@ if (ownFolder !== "")
   for (const each of document.querySelectorAll(".commands-note"))
     each.textContent = `The commands work in any folder, on a machine that has this report in ${ownFolder}`;
 
-// For one or two subjects, a picture of error against run time says no more than their tables.
+// For one or two subjects, a chart of error against run time says no more than the tables.
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 2],
   ["misses-time-part", drawMissesTime, report.error_against_time.ladder === undefined && ordinaryRows().some((row) => row.missed > 0) && ordinaryRows().length > 2],
@@ -348,12 +346,9 @@ async function drawOne([id, chart]) {
   }
 }
 
-/**
- * Draws charts one after the other. A call while charts of an earlier call are not yet drawn replaces those
- * charts.
- */
 let calls = 0;
 let drawing = Promise.resolve();
+/** Draws charts after those of earlier calls. Skips these charts if another call comes before they are drawn. */
 function drawCharts(some) {
   const call = ++calls;
   document.body.removeAttribute("data-drawn");

@@ -7,8 +7,8 @@ const fewSubjects = 8;
 const hasPicker = subjectNames.length > fewSubjects;
 
 /**
- * Subjects in the order of their names. If there are many, they are grouped by algorithm, and sorted within
- * a group from few digits to many.
+ * Subjects in the order of their names. If there are many subjects, they are grouped by algorithm, and sorted
+ * within a group by the number of digits of their scalars.
  */
 const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
 if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
@@ -33,10 +33,10 @@ function firstChoice() {
   return choice;
 }
 
-/** Maps each chosen subject to the index of its colour, which it keeps while it is chosen. */
+/** Maps each chosen subject to the index of its colour. A subject keeps its colour while it is chosen. */
 const chosenColors = new Map();
 
-/** Chooses these subjects. If a subject's usual colour is taken, it gets the first free one. */
+/** Chooses these subjects. If a subject's usual colour is taken, the subject gets the first free colour. */
 function choose(choice) {
   for (const subject of chosenColors.keys()) if (!choice.has(subject)) chosenColors.delete(subject);
   const isFree = (index) => ![...chosenColors.values()].includes(index);

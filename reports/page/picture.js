@@ -1,5 +1,5 @@
-// Draws a query: both primitives at one time, and the paths of their vertices. Draws the primitives in pale
-// colours at both ends of the step and at the times that a subject gave.
+// Draws a query: both primitives at one time, and the paths of their vertices. Also draws the primitives in
+// pale colours, at both ends of the step and at the time that a subject gave.
 "use strict";
 
 /** The two primitives of each kind as lists of vertices, and a caption that names them. */
@@ -23,14 +23,14 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
 
 /**
- * A query whose coordinates are moved and scaled into [-1, 1]. `at` returns the scaled places of its
- * vertices at a time of its step, or of another step of the same vertices; `unit` is the length that is
- * scaled to 1.
+ * A query whose coordinates are moved and scaled into [-1, 1]. The function `at` returns the scaled places of
+ * the vertices at the time t of the query's step, or of another `step` of the same vertices. `unit` is the
+ * length that is scaled to 1.
  */
 function scaledQuery(query) {
   const x = query.slice(0, query.length - (query.length % 6));
   const sides = [0, 1, 2].map((k) => {
-    const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // so that no difference overflows
+    const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // divided by 4, so that no difference overflows
     return { middle: (Math.min(...all) + Math.max(...all)) / 2, half: (Math.max(...all) - Math.min(...all)) / 2 };
   });
   const half = Math.max(...sides.map((side) => side.half)) || 1;
@@ -68,15 +68,15 @@ function clipped(points, low, high) {
 /**
  * A picture that can be drawn again.
  * @param shown {kind, query, time: t* or when the primitives are closest, toi: the time that a subject gave for t*,
- * step: the step to that time, if its end matters}; toi and step may be missing
+ * step: the step to toi, if its end matters}; toi and step may be missing
  * @param size [width, height]
- * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: that of a plane between the primitives}
+ * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: the normal of a plane between the primitives}
  */
 function makePicture({ kind, query, time, toi, step }, [width, height]) {
   const { primitives, caption } = shapes[kind];
   const { at } = scaledQuery(query);
   const contact = closestPoint(kind, at(time));
-  const fit = (0.46 * height) / (Math.max(...[at(0), at(1)].flat().map((p) => Math.hypot(...p))) || 1); // whatever the turn
+  const fit = (0.46 * height) / (Math.max(...[at(0), at(1)].flat().map((p) => Math.hypot(...p))) || 1); // fits at every turn
   const others = [[at(0), "start"], [at(1), "end"], ...(toi === undefined ? [] : [[at(toi), "given"]]), ...(step ? [[at(1, step), "committed"]] : [])];
   const svg = svgMade("svg", { viewBox: `0 0 ${width} ${height}`, class: toi === undefined ? "picture" : "picture two-times", role: "img",
     "aria-label": `${caption} at t = 0, at t = ${time.toPrecision(4)}${toi === undefined ? "" : `, at t = ${toi.toPrecision(4)}`} and at t = 1, ` +
@@ -98,7 +98,7 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
       return corners.length < 2 ? [] : [svgMade("polygon", { points: corners.map((p) => p.map((c) => c.toFixed(1)).join(",")).join(" "), class: name })];
     };
     const circle = ([cx, cy], r, name) => (Math.max(Math.abs(cx), Math.abs(cy)) > far ? [] : [svgMade("circle", { cx: cx.toFixed(1), cy: cy.toFixed(1), r, class: name })]);
-    /** The names of vertices; those that are at one place in the picture have one label, "x0, x2". */
+    /** The names of vertices. Vertices at one place in the picture have one label, "x0, x2". */
     const labels = (all) => {
       const groups = [];
       for (const [i, [x, y]] of all.entries()) {
@@ -135,7 +135,7 @@ function planeBetween(points, normal) {
   return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => middle.map((c, k) => c + height * normal[k] + 0.7 * (a * side[k] + b * up[k])));
 }
 
-/** Lines of the legend: the separation, both times, and the committed step, each if the picture shows it. */
+/** Lines of the legend: the separation, t*, the subject's time, and the committed step, if the query has them. */
 function pictureLegend({ query, time, toi, step }) {
   const line = (name, content) => made("div", [made("span", "", { class: `swatch ${name}` }), ` ${content}`]);
   const difference = toi - time;

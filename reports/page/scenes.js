@@ -24,7 +24,7 @@ const funnelRows = () => Object.entries(report.scenes ?? {}).flatMap(([step, ofK
   Object.entries(ofKind).map(([kind, { times, ...funnel }]) =>
     ({ scene: sceneOf(step), step: stepNumber(step), kind, ...funnel, ...times })));
 
-/** The counters of each subject in each step and kind; "time" is the sum over all its queries. */
+/** The counters of each subject in each step and kind; `time` is the run time of all queries of the row. */
 const askedRows = () => countRows(true).filter((row) => isStep(row.family)).map((row) => ({
   scene: sceneOf(row.family), step: stepNumber(row.family), subject: row.subject, kind: row.kind, queries: row.queries,
   collisions: row.collisions, false_negatives: row.false_negatives, false_positives: row.false_positives,

@@ -55,8 +55,7 @@ function noAnswerCell(verdict) {
 }
 
 /**
- * The logarithmic scale of the bars. It goes from somewhat below the fastest subject to the largest 99 %
- * quantile.
+ * The logarithmic scale of the bars, from half of the shortest time to the longest time.
  */
 const barScale = (() => {
   const times = report.verdicts.flatMap((v) => [v.times.median_ns, v.times.q99_ns, v.counts.ns_per_query]).filter((ns) => ns > 0);
@@ -64,12 +63,12 @@ const barScale = (() => {
   return (ns) => `${(100 * Math.log(ns / least)) / Math.log(most / least)}%`;
 })();
 
-/** The median time of queries that were timed one by one; if there are none, the time of batches. */
+/** The median time of queries that were timed one by one; if no query was, the time of batches. */
 const usualTime = ({ counts, times }) => times.median_ns ?? counts.ns_per_query;
 
 /**
- * The run time: the median and the 99 % quantile of queries that were timed one by one; if there are none,
- * the time of batches.
+ * The run time: the median and the 99 % quantile of queries that were timed one by one; if no query was, the
+ * time of batches.
  */
 const timeCell = (verdict) => {
   const { median_ns: median, q99_ns: q99 } = verdict.times;

@@ -3,7 +3,7 @@
 
 const integer = (n) => n.toLocaleString("en-US");
 /**
- * A number with this many significant digits. It is written with an exponent if it is below 10^-3 or at
+ * Writes a number with this many significant digits, and with an exponent if the number is below 10^-3 or at
  * least 10^7.
  */
 function rounded(x, digits) {
@@ -11,7 +11,7 @@ function rounded(x, digits) {
   if (x !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace(/\.?0*e\+?/, "e");
   return Number(x.toPrecision(digits)).toLocaleString("en-US", { maximumFractionDigits: 20 });
 }
-/** A number with three digits, or with all digits if it is a whole number below ten million. */
+/** Writes a number with three digits, or with all digits if it is a whole number below ten million. */
 const short = (x) =>
   x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) && Math.abs(x) < 1e7 ? integer(x) : rounded(x, 3);
 /** "1 query", "1,234 queries" */
@@ -29,7 +29,8 @@ function fraction(x) {
 }
 /** Says how far the primitives of a false positive are apart; `row` says whose bound is the unit. */
 function timesTheBound(x, row) {
-  // A row without this field is a refuted bound, and only a claimed bound can be refuted.
+  // A row without bound_of_distances is a finding of a refuted bound, and only a claimed bound can be
+  // refuted.
   const isClaim = row.bound_of_distances === undefined || isOfClaim(row);
   const whose = isClaim ? "its" : "wang's";
   const text = x === Infinity ? `beyond ${isClaim ? "a" : "wang's"} bound of 0` : x > 1 ? `${fraction(x)} times ${whose} bound` : `at ${fraction(x)} of ${whose} bound`;
@@ -49,7 +50,6 @@ function made(tag, content = [], attributes = {}) {
   return node;
 }
 
-/** A line in small print. */
 const small = (content) => made("div", content, { class: "small" });
 
 /** "14.8 % (14.4–15.2 %)", or without the interval if the queries are no random sample. */
@@ -128,7 +128,6 @@ function copyButton(content, title = "copy") {
   return button;
 }
 
-/** A command, and a button that copies it. */
 const command = (content) => made("div", [made("code", content), copyButton(content)]);
 
 /**

@@ -9,7 +9,6 @@ const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
 const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
   legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
 
-/** A row for each subject and kind with times. */
 const timedRows = () => countRows(false).filter((row) => row.times_given > 0)
   .map((row) => ({ ...row, sort: sortsOfTime[row.time_sort] }));
 
@@ -21,7 +20,7 @@ const earlinessRows = () => Object.entries(report.error_against_time.subjects)
   .map(([subject, row]) => ({ ...row, subject, sort: sortsOfTime[row.time_sort],
     median: row.median_time_error[1], q99: row.q99_time_error[1] }));
 
-/** Draws a mark for each subject; only chosen subjects have their own colour. */
+/** Draws a mark for each subject. Only the subjects chosen in the picker have their own colours. */
 function drawEarliness() {
   show("earliness-part");
   const rows = earlinessRows();
@@ -64,8 +63,7 @@ function drawEarliness() {
 /** The column of late times, for subjects that promise lower bounds. */
 const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
 /**
- * The column of committed times: sound lower bounds, but the rounded step to such a time has contact before
- * its end.
+ * The column of committed times: sound lower bounds for which the rounded step has contact before its end.
  */
 const committedSteps = { title: "committed", number: (r) => r.committed, text: (r) => (r.times_promised > 0 ? integer(r.committed) : "–"), bad: (r) => r.unsafe_steps > 0 };
 
@@ -91,8 +89,7 @@ function drawTimes() {
 
 /**
  * The two histograms of a row as one, from the earliest time to the latest: bin i of the times before t* is
- * at place
- * -i, bin i of the times after t* at place i.
+ * at place -i, bin i of the times after t* at place i.
  */
 function binsOfErrors(row) {
   const { early_histogram: early, after_histogram: after } = row;
@@ -112,7 +109,7 @@ function drawTimeErrors() {
   const all = rows.flatMap(binsOfErrors);
   const used = all.filter((bin) => bin.count > 0).map((bin) => bin.place);
   const [first, last] = [Math.min(0, ...used) - 3, Math.max(0, ...used) + 3];
-  // The border of bin i is at place i - 1/2; a tick stands at every fourth power of ten.
+  // The lower border of bin i is at place i - 1/2; a tick stands at every fourth power of ten.
   const [lowest, ratio] = [report.histogram_borders[1], report.histogram_borders[2] / report.histogram_borders[1]];
   const perTick = Math.round(4 / Math.log10(ratio));
   const ticks = [0];

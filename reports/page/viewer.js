@@ -12,8 +12,8 @@ function certificateNumber(text) {
 }
 
 /**
- * A function that returns the unit normal, at a time, of the plane that a certificate puts between the
- * primitives; undefined without such planes.
+ * A function of the time. It returns the unit normal of the plane that a certificate puts between the
+ * primitives at that time; undefined if the certificate has no such plane.
  */
 function normalOf(certificate) {
   const { times, normals } = certificate ? JSON.parse(certificate) : {};
@@ -73,7 +73,7 @@ function drawPlot(svg, lines, [lowest, highest], marks, levels) {
     ...marks.filter(({ at }) => at >= 0 && at <= 1).map(({ at, name }) => svgMade("line", { x1: at * width, x2: at * width, y1: 0, y2: height, class: name })));
 }
 
-/** The plots of a query, and a function that draws them for a span of time and marks the time now. */
+/** The plots of a query, and a function that draws them for a span of time and marks the time `now`. */
 function makePlots({ kind, query, time, toi }) {
   const { at, unit } = scaledQuery(query);
   const first = curves[kind](at(0));
@@ -119,7 +119,7 @@ function makeViewer(shown) {
   const now = made("output");
   const play = made("button", "play", { type: "button" });
   /**
-   * The span of time that the slider covers: around t*, and the shorter the more the picture is zoomed in.
+   * The span of time that the slider covers. It surrounds t*, and becomes shorter when the user zooms in.
    */
   const span = () => [Math.max(0, shown.time - 1 / view.zoom), Math.min(1, shown.time + 1 / view.zoom)];
 

@@ -21,12 +21,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// All values that each fact has in the runs of a campaign.
 std::map<std::string, std::set<std::string>> facts_of(const Campaign& campaign) {
   std::map<std::string, std::set<std::string>> facts;
   for (const Run& run : campaign.runs)
     for (const auto& [name, value] : run.info) facts[name].insert(value);
-  facts.erase("again");  // this command only repeats the other facts
+  facts.erase("again");  // a command that only repeats the other facts
   return facts;
 }
 
@@ -149,14 +148,14 @@ std::vector<std::string> lines_for_the_worse(const Changes& changes, const Failu
 
 namespace {
 
-/// What a line says after its title, such as "worse".
+/// A line of `describe`: a title, such as "worse", and a text.
 struct Line {
   std::string title, subject;
-  const char* many;  ///< what several lines of a subject are about
+  const char* many;  ///< what several lines with this title and subject list, such as "rates"
   std::string text;
 };
 
-/// "3 ways to fail of mine, the oldest first seen 2026-01-02T22:00:00Z (version 1)": a line for each subject.
+/// A line for each subject: "3 ways to fail of mine, the oldest first seen 2026-01-02T22:00:00Z (version 1)".
 std::vector<Line> lasting_by_subject(const Changes& changes) {
   std::map<std::string, std::vector<Sightings>> of_subject;
   for (const Signature& each : changes.lasting_signatures)
@@ -209,7 +208,7 @@ std::string describe(const Changes& changes, bool verbose) {
     std::size_t& count = counts.at({each.title, each.subject});
     if (verbose || count == 1)
       text += fmt::format("{}: {}\n", each.title, each.text);
-    else if (count > 1)  // of the first line
+    else if (count > 1)  // the first of several lines
       text += fmt::format("{}: {} {} of {}, such as {}\n", each.title, with_separators(count), each.many,
                           each.subject.empty() ? "the oracle" : each.subject, each.text);
     if (!verbose) count = 0;

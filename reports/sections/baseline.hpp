@@ -17,7 +17,7 @@
 
 namespace nearmiss {
 
-/// Which code of a subject ran. If runs had different code, their values are joined with " | ".
+/// Which code of a subject ran. If runs had different code, the values of all runs are joined with " | ".
 struct SubjectCode {
   std::string
       version;  ///< version of the plug-in or, for a built-in subject and the oracle, of nearmiss; "" without
@@ -47,8 +47,8 @@ struct Sightings {
 struct ChangedSignatures {
   /// Ways to fail that are new, or more frequent than chance explains, in the order of Signature.
   std::vector<Signature> new_signatures = {};
-  /// Signatures that the baseline does not have, but that chance explains: their subject already failed in
-  /// the baseline, and they are rare.
+  /// Signatures that the baseline does not have, but that chance explains: their subject already has failures
+  /// of the same sort in the baseline, and the signatures are rare.
   std::vector<Signature> unseen_signatures = {};
   double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
   /// Signatures that only the baseline has, if chance hardly explains that they are absent now.
@@ -56,27 +56,29 @@ struct ChangedSignatures {
   /// For each gone signature whose subject's code has changed since the signature was last seen: "in version
   /// 2", or "since sha256 0123456789ab".
   std::map<Signature, std::string> fixed = {};
-  /// The other signatures that only the baseline has.
+  /// Signatures that only the baseline has, if chance may explain that they are absent now.
   std::vector<Signature> unrepeated_signatures = {};
   /// Signatures that the baseline also has, and that are no more frequent now than chance explains.
   std::vector<Signature> lasting_signatures = {};
   std::map<Signature, Sightings> sightings = {};  ///< of all signatures of the baseline
-  /// Subjects that the baseline was not asked about. Their failures are neither new nor lasting.
+  /// Subjects that were asked now, but not in the baseline. Their failures are neither new nor lasting.
   std::vector<std::string> absent_subjects = {};
 };
 
-/// Compares the signatures of a campaign with those of earlier ones, the oldest first.
+/// Compares the signatures of a campaign with those of its baseline: earlier campaigns, the oldest first.
 ///
-/// If a subject has no failure of a sort in the baseline, each failure of that sort is new. A failure of the
-/// oracle that the baseline does not have is always new. A subject that already fails in the baseline shows a
-/// few unseen signatures in every campaign. Therefore a signature of such a subject is new only if Fisher's
-/// exact test finds it more frequent among the subject's queries than chance explains. A signature that is no
-/// longer seen is gone if the same test finds it less frequent, or if the subject has no failure of that sort
-/// any more and the test finds all failures of the sort together less frequent.
+/// If a subject has no failure of a sort (Finding::What) in the baseline, each failure of that sort is new. A
+/// failure of the oracle that the baseline does not have is always new. A subject that already fails in the
+/// baseline shows a few unseen signatures in every campaign. Therefore a signature of such a subject is new
+/// only if Fisher's exact test finds it more frequent among the subject's queries than chance explains. A
+/// signature that is no longer seen is gone if the same test finds it less frequent than chance explains, or
+/// if the subject has no failure of that sort any more and the test finds all failures of the sort together
+/// less frequent.
 ///
-/// The comparison leaves out campaigns of the baseline in which a signature was rarer, by more than chance
-/// explains, than in the last campaign of the baseline. A new signature must also be more frequent than in
-/// the rest of the baseline. Therefore campaigns in which a fault was absent do not make the fault new again.
+/// For a new signature, the test compares the campaign both with the whole baseline and with a part of the
+/// baseline. This part leaves out the campaigns in which the signature was rarer, by more than chance
+/// explains, than in the last campaign of the baseline. Therefore campaigns in which a fault was absent do
+/// not make the fault new again.
 ///
 /// The steps of a sweep share their random draws, so the queries of a campaign with sweeps are not
 /// independent samples. Therefore the test counts draws: the smallest number of draws that could have made
@@ -84,9 +86,9 @@ struct ChangedSignatures {
 ///
 /// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
 /// different ratios for different families, and the families in which a signature was seen are not recorded.
-/// Therefore the test takes the ratio that makes its result least certain: the largest one for a signature
-/// that may be new, the smallest for one that may be gone. Failures in cases and meshes are no evidence that
-/// a signature is gone, because those cases and meshes may not have been asked again.
+/// Therefore the test takes the ratio that makes its result least certain: the largest ratio for a signature
+/// that may be new, the smallest ratio for a signature that may be gone. Failures in cases and meshes are no
+/// evidence that a signature is gone, because those cases and meshes may not have been asked again.
 ///
 /// @param before the sum of the baseline's statistics
 /// @param risk the probability of calling some signature new although none is new. The probability of calling
@@ -95,7 +97,7 @@ struct ChangedSignatures {
 ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
                                      const Statistics& before, double risk);
 
-/// A rate that differs by more than chance explains.
+/// A rate that differs between a campaign and its baseline by more than chance explains.
 struct ChangedRate {
   /// "false negatives", "false positives", "late times", "false positives beyond the bound" or "no answer".
   /// For a subject that claims no bound: "false positives beyond wang's bound (no claim)".
@@ -115,16 +117,17 @@ struct ComparedRates {
 /// Compares, by Fisher's exact test, the rates of all families that both a campaign and its baseline have.
 /// The earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
 /// differs from the last one's by no more than chance explains. Therefore campaigns in which a fault was
-/// absent do not make the fault new again. For each subject, the function also compares the sum over all
-/// families and kinds with few failures in both campaigns, to notice a new way to fail that is spread over
-/// many families. The steps of a sweep share their random draws, so the sum includes only the step of each
-/// sweep with the most failures. Cases and meshes are left out, because they are no random samples.
+/// absent do not make the fault new again. For each subject, the function also adds up the rates of those
+/// families and kinds that have few failures in the campaign and its baseline together, and compares these
+/// sums, to notice a new way to fail that is spread over many families. The steps of a sweep share their
+/// random draws, so a sum includes only the step with the most failures. Cases and meshes are left out,
+/// because they are no random samples.
 ///
 /// @param risk the probability of calling some rate changed although none has changed; each comparison has an
 /// equal part of this risk (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
 
-/// A run time per query that differs by more than the run times of equal campaigns do.
+/// A run time per query that differs from the expected time by more than chance explains.
 struct ChangedTime {
   /// For a subject as a whole, `family` is ChangedTime::all_families, and `kind` names all kinds, as in "vt,
   /// ee".
@@ -149,25 +152,27 @@ struct ComparedTimes {
 
 /// Compares the run times of a campaign with those of earlier campaigns on a processor of the same model: the
 /// times of each subject as a whole, and of each of its families and kinds. The time of a family is the
-/// geometric mean over batches, weighted by their numbers of queries; that of a subject is the geometric mean
-/// over families and kinds.
+/// geometric mean over batches, weighted by their numbers of queries. The time of a subject is the geometric
+/// mean over families and kinds.
 ///
 /// A busy machine makes everything slower. Therefore each family is compared with the subject's other
 /// families: the ratio of its time to its earlier time is divided by the median of this ratio over the
 /// subject's families. A subject as a whole is compared with the other subjects: its median ratio is divided
-/// by the median of 1 and the median ratios of all subjects. If a subject has only a few families, their
-/// ratios are also divided by this median.
+/// by the machine's ratio, which is the median of 1 and the median ratios of all subjects. If a subject has
+/// only a few families, the ratio of each of its families is divided by the machine's ratio instead.
 ///
 /// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
-/// parts: one that follows from the batches, and one estimated from the subject's families, most of which
-/// have not changed. If there are several earlier campaigns, the variance is at least the variance between
-/// them.
+/// parts. One part follows from the spread among batches. The other part is estimated from the spread among
+/// the subject's families, most of which have not changed; for a subject as a whole, or with only a few
+/// families, it is an assumed value. If there are several earlier campaigns, the variance is at least the
+/// variance between these campaigns.
 ///
 /// @param risk the probability of calling some time changed although none has changed; each comparison has an
 /// equal part of this risk (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
-/// A fact that differs between the campaigns' runs; `before` and `now` join all of its values with " | ".
+/// A fact that differs between the runs of the baseline and of the campaign. `before` and `now` are all
+/// values of the fact, joined with " | ".
 struct ChangedFact {
   std::string name, before, now;
 };
@@ -178,7 +183,6 @@ struct Changes : ChangedSignatures {
   ComparedTimes times = {};
   std::vector<ChangedFact> facts = {};
 
-  /// The failures of the baseline, by subject.
   std::set<std::pair<std::string, FailureKind>> failed_before = {};
 
   Campaign baseline = {};  ///< the sum of the earlier campaigns
@@ -193,19 +197,17 @@ inline constexpr double false_alarm_risk = 1e-3;
 /// Error if two of them have a shard of random queries in common, because its queries would count twice.
 Campaign add_up(std::span<const Campaign> campaigns);
 
-/// Compares a campaign with earlier ones, given from the oldest. Rates and signatures are compared with the
-/// sum of those earlier campaigns that resemble the last one (`compare_rates`, `compare_signatures`), and run
-/// times with each earlier campaign (`compare_times`).
+/// Compares a campaign with earlier campaigns, the oldest first: signatures with `compare_signatures`, rates
+/// with `compare_rates`, run times with `compare_times`.
 Changes changes(const Campaign& now, std::span<const Campaign> baseline);
 
-/// Compares a campaign with one earlier campaign.
 Changes changes(const Campaign& now, const Campaign& baseline);
 
 /// A line for each new way to fail whose kind of failure is in `failing`, and for each rate that is worse.
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 
-/// A line for each subject and sort of change, or if `verbose` one for each change; "" without changes.
+/// A line for each subject and sort of change or, if `verbose`, for each change; "" if nothing has changed.
 std::string describe(const Changes& changes, bool verbose = false);
 
 nlohmann::ordered_json changes_json(const Changes& changes);

@@ -67,16 +67,16 @@ constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// Proportions {now, before} of some pairs of family and kind, and the sum of the bits of these kinds.
+/// The proportions {now, before} of some pairs of family and kind, and the bits of these kinds.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;
 };
 
-/// The pairs of family and kind with 1 to `few` failures in both campaigns together, by the rate's name. The
-/// steps of a sweep share their draws, so they are not independent samples: only the step with the most
-/// failures is included. Pairs are selected by the sum of both counts. This selection favours neither
-/// campaign, so the later test stays valid.
+/// For each rate, the pairs of family and kind with 1 to `few` failures in the campaign and its baseline
+/// together. The steps of a sweep share their draws, so they are not independent samples: only the step with
+/// the most failures is included. Selecting pairs by the sum of both counts favours neither the campaign nor
+/// the baseline, so a test of the selected pairs stays valid.
 std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
   std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;
@@ -94,8 +94,9 @@ std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& p
   return found;
 }
 
-/// The rates of each subject, summed over all families and kinds with few failures. Takes the threshold in
-/// `fews` that gives the smallest p-value, and multiplies this p-value by the number of thresholds.
+/// The rates of each subject, summed over all families and kinds with few failures. For each rate, takes the
+/// threshold in `fews` that gives the smallest p-value, and multiplies this p-value by the number of
+/// thresholds.
 std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
   std::map<RateName, ChangedRate> best;
   for (const std::uint64_t few : fews)
@@ -121,7 +122,8 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   return sums;
 }
 
-/// Changes the names of rates of subjects that claim no bound: the names say that the bound is wang's.
+/// Renames the rate of false positives beyond the bound of each subject that claims no bound. The new name
+/// says that the bound is wang's.
 void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
   std::set<std::string> claim_nothing;
   for (const auto& [key, counts] : now.counts)

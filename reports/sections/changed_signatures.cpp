@@ -36,7 +36,6 @@ double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   return std::max(expected, 0.0);
 }
 
-/// The subjects that were asked now, but not in the baseline.
 std::vector<std::string> absent_subjects(const Statistics& now, const Statistics& before) {
   std::vector<std::string> absent;
   for (const auto& [key, sum] : now.by_subject_and_kind())
@@ -81,13 +80,12 @@ std::map<Signature, Sightings> sightings_in(std::span<const Campaign> campaigns)
   return all;
 }
 
-/// The number of queries that a subject was not asked.
 std::uint64_t unasked(const Counts& counts) {
   return counts.without_answer(Fault::not_asked) + counts.without_answer(Fault::contract);
 }
 
-/// The number of queries that could have shown this sort of failure: all asked queries for a fault, all
-/// answered queries for any other sort.
+/// The number of queries that could have shown a failure of the sort `what`: all asked queries for a fault,
+/// all answered queries for any other sort.
 std::uint64_t chances(const Counts& counts, What what) {
   return counts.queries - (what == What::fault ? unasked(counts) : counts.faults_total());
 }
@@ -119,7 +117,6 @@ struct Chances {
   }
   /// The smallest number of draws that could have made this many queries.
   [[nodiscard]] std::uint64_t draws(std::uint64_t queries) const { return queries / repeats; }
-  /// The proportion of the draws that fail.
   [[nodiscard]] Proportion proportion(std::uint64_t failures, std::uint64_t queries) const {
     return {draws(failures), draws(std::max(failures, queries))};
   }
@@ -158,7 +155,8 @@ double chance_of_more(const Signature& signature, const Statistics& now, const S
       .more;
 }
 
-/// The probability, if nothing has changed, that a failure that was seen `before` times is not seen now.
+/// The probability, if nothing has changed, that a failure seen `before` times in the baseline is not seen
+/// now.
 double chance_of_none(std::uint64_t before, const Chances& chances) {
   if (!chances.known()) return 1;
   return fisher_test(chances.proportion(0, chances.now(chances.least)),
@@ -166,7 +164,6 @@ double chance_of_none(std::uint64_t before, const Chances& chances) {
       .less;
 }
 
-/// How often signatures were seen, by sort of failure.
 std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statistics) {
   std::map<Sort, std::vector<std::uint64_t>> seen;
   for (const auto& [signature, count] : statistics.seen)
@@ -185,7 +182,6 @@ Statistics without_rarer(const Signature& signature, std::span<const Campaign> b
   return sum;
 }
 
-/// Finds out which of the signatures that are seen now are new.
 void find_new(const Statistics& now, std::span<const Campaign> baseline, const Statistics& before,
               double risk, ChangedSignatures& changes) {
   const auto seen_before = seen_by_sort(before);
@@ -216,7 +212,6 @@ void find_new(const Statistics& now, std::span<const Campaign> baseline, const S
   }
 }
 
-/// Finds out which of the signatures that were seen before are gone.
 void find_gone(const Statistics& now, const Statistics& before, double risk, ChangedSignatures& changes) {
   std::set<Sort> still_fail;
   for (const auto& [signature, count] : now.seen) still_fail.emplace(signature.what, signature.subject);
@@ -241,8 +236,8 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, Cha
   }
 }
 
-/// "in version 2" or "since sha256 0123456789ab": the first other code after the signature was last seen; "" if the code
-/// has not changed.
+/// "in version 2" or "since sha256 0123456789ab": the first other code after the signature was last seen; ""
+/// if the code has not changed or is not known.
 std::string fixed_text(const Sightings& seen, const SubjectCode& now) {
   const SubjectCode& then = seen.last_code;
   const SubjectCode& next = seen.next_code == SubjectCode{} ? now : seen.next_code;

@@ -17,21 +17,19 @@ namespace nearmiss {
 
 namespace {
 
-/// Logarithms of times, or of ratios of times.
 using Logs = std::map<CountsKey, double>;
 
 /// A subject's families are compared with each other if there are at least this many pairs of family and
 /// kind.
 constexpr std::size_t fewest_families = 8;
-/// Assumed standard deviations of log(time now / time before) if nothing has changed; the variance from the
-/// spread among batches is added to their squares. The first is the least value for a family, which is
-/// compared with the subject's other families. The second is for a subject, which is compared with other
-/// subjects. The third is for a time that can be compared with no other time.
+/// Assumed standard deviations of log(time now / time before) if nothing has changed. Their squares are added
+/// to the variance that follows from the spread among batches. `spread_of_family` is the least value for a
+/// family, which is compared with the subject's other families. `spread_of_subject` is for a subject that is
+/// compared with other subjects, `spread_of_machine` for the only subject of a campaign.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
 
-/// The key under which a subject as a whole is compared.
 CountsKey whole(const std::string& subject) { return {subject, {}, std::string(ChangedTime::all_families)}; }
 
 bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_families; }
@@ -65,7 +63,6 @@ double usual_variance(std::vector<double> values) {
   return square(1.4826 * median(std::move(values)));  // exact for a normal distribution
 }
 
-/// An estimate of a variance.
 struct Variance {
   double value = 0;
   double weight = 0;  ///< the square of `value` divided by the estimate's degrees of freedom
@@ -91,11 +88,12 @@ struct Variance {
 /// The logarithm of the time per query in ns: a mean over all batches, weighted by their numbers of queries.
 struct LogTime {
   double mean = 0;
-  Variance variance =
-      {};  ///< of the mean; takes a batch's variance as inversely proportional to its number of queries
+  /// The variance of `mean`. Assumes that a batch's variance is inversely proportional to its number of
+  /// queries.
+  Variance variance = {};
 };
 
-/// The mean over the batches of a subject; nothing for fewer than two batches.
+/// The mean over the batches in `times`; nothing for fewer than two batches.
 std::optional<LogTime> log_time(const SubjectTimes& times) {
   constexpr double ps_per_ns = 1000;
   double queries = 0;
@@ -120,7 +118,6 @@ std::optional<LogTime> log_time(const SubjectTimes& times) {
 
 using LogTimes = std::map<CountsKey, LogTime>;
 
-/// The times of each subject, kind and family of random queries.
 LogTimes log_times(const Statistics& statistics) {
   LogTimes times;
   for (const auto& [key, counts] : statistics.counts)
@@ -128,20 +125,20 @@ LogTimes log_times(const Statistics& statistics) {
   return times;
 }
 
-/// Logarithms of the ratios time now / time before, one for each earlier campaign. Each is the sum of two
-/// parts.
+/// Logarithms of the ratios time now / time before, one for each earlier campaign. Each logarithm is the sum
+/// of a common and an own part.
 struct Ratios {
   std::vector<double> common = {};  ///< the part shared with other times, as on a busy machine
-  std::vector<double> own = {};     ///< the part of this time alone
+  std::vector<double> own = {};     ///< the part that other times do not share
   Variance sampling = {};           ///< sum of the variances of the earlier times
 
   [[nodiscard]] double change() const { return mean(own); }
   [[nodiscard]] double campaigns() const { return static_cast<double>(own.size()); }
-  /// The variance of (time now - mean of the earlier times), divided by the variance of a single time.
+  /// The variance of (log time now - mean of the earlier log times), divided by that of a single log time.
   [[nodiscard]] double of_difference() const { return 1 + 1 / campaigns(); }
 };
 
-/// The times now, and their ratios to those of earlier campaigns.
+/// The times of a campaign, and their ratios to the times of earlier campaigns.
 class Times {
  public:
   explicit Times(const Statistics& now) : now_(log_times(now)) {
@@ -217,8 +214,8 @@ class Times {
     return sum;
   }
 
-  /// The additional variance of a change that no spread among families can estimate: that of a whole
-  /// subject, or of a subject with too few families.
+  /// The additional variance of a change for a whole subject, or for a subject with too few families to
+  /// estimate the variance from their spread.
   [[nodiscard]] Variance assumed_spread(const Ratios& ratios) const {
     const double spread = families_.size() > 1 ? spread_of_subject : spread_of_machine;
     return {square(spread) * ratios.of_difference() / 2, HUGE_VAL};
@@ -241,13 +238,12 @@ class Times {
   }
 
   LogTimes now_;
-  std::map<std::string, std::size_t> families_;  // number of families and kinds
-  std::map<std::string, int> kinds_;             // sum of kinds
-  std::map<std::string, double> whole_;          // mean over families and kinds
+  std::map<std::string, std::size_t> families_;  // by subject: number of pairs of family and kind
+  std::map<std::string, int> kinds_;             // by subject: the bits of its kinds
+  std::map<std::string, double> whole_;          // by subject: mean log time of its families and kinds
   std::map<CountsKey, Ratios> ratios_;
 };
 
-/// The models of the processors that a campaign ran on.
 std::set<std::string> processors(const Campaign& campaign) {
   std::set<std::string> models;
   for (const Run& run : campaign.runs)

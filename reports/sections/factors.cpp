@@ -47,10 +47,10 @@ ordered_json common_factors_json(const Statistics& statistics) {
 
 namespace {
 
-/// The ranges of a subject by factor and kind.
+/// The ranges of values at which a subject is right, by factor and kind.
 using Ranges = std::map<std::pair<std::string, Kind>, RightRange>;
 
-/// The ranges of a subject, for one kind or for all.
+/// The edge lengths and the distances at which a subject is right, for one kind or for all kinds.
 struct Row {
   std::string subject;
   std::optional<Kind> kind;
@@ -60,8 +60,8 @@ struct Row {
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
 /// The range of a factor that all kinds have in common; nothing if their ranges differ or if no kind has a
-/// range. Ranges do not count as different if both kinds are right at every value that they were asked about.
-/// A kind with too few queries is left out, unless all kinds have too few.
+/// range. The ranges of two kinds do not count as different if the subject is right everywhere for both
+/// kinds. A kind with too few queries is left out, unless all kinds have too few.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   const bool has_enough = std::ranges::any_of(
@@ -81,7 +81,6 @@ std::optional<RightRange> common(const Ranges& ranges, const std::string& factor
   return all;
 }
 
-/// The range of a factor for a kind; nothing if the kind has no range for this factor.
 std::optional<RightRange> of_kind(const Ranges& ranges, const std::string& factor, Kind kind) {
   const auto found = ranges.find({factor, kind});
   return found == ranges.end() ? std::nullopt : std::optional(found->second);
@@ -122,14 +121,14 @@ std::string values_of(const RightRange& range) {
 }
 
 /// Says how the subject fails at the values outside the range, for example "misses 58 of 310, reports 90 % of
-/// the rest". Empty if it does not fail there.
+/// the rest". Empty if the subject does not fail there.
 std::string wrong_elsewhere(const RightRange& range) {
   const FactorCounts& counts = range.elsewhere;
   std::string wrong;
   if (counts.false_negatives > 0)
     wrong = fmt::format("misses {} of {}", with_separators(counts.false_negatives),
                         with_separators(counts.collisions));
-  // A CCD that allows for rounding errors may report up to a third of the rest at any value.
+  // A CCD that allows for rounding errors may report up to a third of the queries without a collision.
   if (3 * counts.false_positives > counts.others)
     wrong += fmt::format("{}reports {} of the rest", wrong.empty() ? "" : ", ",
                          percent(counts.false_positives, counts.others));

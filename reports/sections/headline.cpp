@@ -36,12 +36,11 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The names of subjects, or only their number if there are more than four.
 std::string subjects(const std::vector<std::string>& names) {
   return names.size() <= 4 ? listed(names) : fmt::format("{} subjects", names.size());
 }
 
-/// What is new since the baseline. `asked` is the number of subjects of the campaign.
+/// Says what is new since the baseline. `asked` is the number of subjects of the campaign.
 std::string since_text(const Changes& since, std::size_t asked) {
   if (asked != 0 && since.absent_subjects.size() == asked) return "no subject is in the baseline";
   std::vector<std::string> news;
@@ -106,7 +105,6 @@ std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// The content of Headline::alarms.
 std::vector<std::string> alarms_of(const std::vector<SubjectVerdict>& verdicts, const std::string& complaint,
                                    const std::optional<Changes>& since, const Failures& failing) {
   std::vector<std::string> alarms;
@@ -141,7 +139,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// How many of a subject's ways to fail, rates and run times have changed.
 ordered_json changes_of(const std::string& subject, const Changes& since) {
   const auto of_subject = [&](const auto& each) { return each.subject == subject; };
   const auto number = [&](const std::vector<Signature>& signatures) {

@@ -13,7 +13,7 @@
 namespace nearmiss {
 
 struct Headline {
-  bool clean;  ///< nothing failed, and nothing is worse than in the baseline
+  bool clean;  ///< nothing failed, and there is no alarm
   std::string text;
   /// The reasons for an alarm, a line each: every failure that breaks a promise (`breaks_promise`), every
   /// other failure that the baseline does not have, every new way to fail, and every rate that is worse.
@@ -25,10 +25,12 @@ struct Headline {
 Headline headline(const Statistics& statistics, const std::optional<Changes>& since,
                   const Failures& failing = usual_failures());
 
-/// A list with an object for each subject, in the order of their names. An object has the subject's verdict;
-/// its failures, the gravest first; its place on the ladder of precisions; its rates over all kinds, for all
-/// classes together and for each class; its run times; the number of changes since the baseline; and the
-/// index of its simplest failure in `findings` (null without findings).
+/// A list with an object for each subject, in the order of names. An object has
+///   the verdict on the subject, and its failures, the gravest first;
+///   the subject's place on the ladder of precisions (LadderPlace);
+///   its rates over all kinds, for all classes together and for each class;
+///   its run times, and the number of its changes since the baseline;
+///   the index of its simplest failure in `findings` (null without findings).
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                                       const std::optional<Changes>& since,
                                       const Failures& failing = usual_failures());

@@ -28,26 +28,26 @@ constexpr int finest = -127;
 constexpr int coarsest = -23;
 constexpr int double_exponent = -52;
 
-/// A subject of the precision ladder (one algorithm in several scalar types). Distances are in units of B.
+/// A subject of the precision ladder (one algorithm in several scalar types). Distances are in units of B,
+/// the size of a query's pair.
 struct Rung : LadderPlace {
   std::string subject;
   CountsSum sum;  ///< over all families and kinds
 
-  /// The distance bound that the subject claims.
   [[nodiscard]] double claimed() const { return *unit; }
-  /// Farthest distance divided by claimed distance; 0 without false positives.
+  /// Distance of the farthest false positive, divided by the claimed bound; 0 without false positives.
   [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
   /// Distance of the farthest false positive; 0 without false positives.
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// A fit of an algorithm's farthest distances by a power of ε: a line through their logarithms by least
-/// squares, for the queries of one origin or of all origins.
+/// A fit of the farthest distances of an algorithm's rungs by a power of ε: a line through the logarithms of
+/// ε and of the distances, by least squares. A fit uses the queries of one origin, or of all origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
   double half_width_95 = 0;                  ///< half-width of the exponent's 95 % confidence interval
-  int points = 0;                            ///< number of subjects
+  int points = 0;                            ///< number of rungs
   int precisions = 0;                        ///< number of different ε
   double least_part = 0, greatest_part = 0;  ///< range of Rung::part()
 
@@ -62,8 +62,7 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Whether the farthest ratio of a rung is known. If it is below the histogram's lowest border, only an upper
-/// bound is known.
+/// Whether Rung::part() is known. Below the histogram's lowest border, only an upper bound of it is known.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -84,7 +83,7 @@ LadderPlace place_of(const std::string& subject) {
                     *exponent, std::nullopt};
   if (!given_bound.empty()) return place;
   const auto name = algorithm.substr(0, algorithm.find(':'));  // without options
-  // These three claim no bound, so wang's bound is their unit.
+  // basic, basic-plain and bridson claim no bound, so wang's bound is their unit.
   if (name == "basic" || name == "basic-plain" || name == "bridson")
     place.unit = claimed_distance("wang", double_exponent);
   else if (name == "wang-tight")
@@ -107,7 +106,7 @@ namespace {
 /// only queries of the origin `only` (family.hpp), or of all origins if it is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
-  // The fits test the exponent of the bound 41 B ε^¼, which holds for pairs of meshes.
+  // The fits test the exponent of the bound 41 B ε^¼, which holds for vertex-triangle and edge-edge.
   for (const auto& [key, counts] : statistics.counts)
     if (is_of_meshes(key.kind) && (only.empty() || origin(key.family) == only))
       by_subject[key.subject].add(key.family, counts);
@@ -121,7 +120,7 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = ""
   return all;
 }
 
-/// The binary logarithms of ε and of the farthest distance.
+/// The binary logarithms of a rung's ε and farthest distance.
 struct LogPoint {
   double x = 0, y = 0;
 };

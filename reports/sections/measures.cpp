@@ -24,7 +24,6 @@ Value as_value(const std::optional<double>& number) { return number ? Value(*num
 Value as_value(DistanceUnit unit) { return name(unit); }
 Value as_value(TimeSort sort) { return name(sort); }
 
-/// The value of a member, or of a member function, of Counts.
 template <auto member>
 Value of(const CountsSum& sum) {
   return as_value(std::invoke(member, sum.counts));
@@ -36,12 +35,10 @@ Value quantile_of(const CountsSum& sum) {
   return std::invoke(quantile, sum.counts, hundredths / 100.0);
 }
 
-/// The bin of the 99 % quantile of Counts::travelled.
 Value far_travelled(const CountsSum& sum) { return sum.counts.travelled.quantile(0.99); }
 
 Value ns_per_query(const CountsSum& sum) { return as_value(sum.counts.times.ns_per_query()); }
 
-/// A quantile of the run times of single queries.
 template <int hundredths>
 Value ns_of_single(const CountsSum& sum) {
   return as_value(sum.counts.times.each.quantile(hundredths / 100.0));
@@ -170,8 +167,7 @@ ordered_json value_json(std::uint64_t count) { return count; }
 
 ordered_json value_json(const Histogram& histogram) { return histogram.bins; }
 
-/// The cases as JSON. Each has its `ratio` under `key`, which names the quantity in which the cases are
-/// extreme.
+/// The cases as JSON. Each case has its `ratio` under `key`: "ratio" for a distance, "error" for a time.
 ordered_json cases_json(const std::vector<FarCase>& cases, const char* key) {
   ordered_json json = ordered_json::array();
   for (const FarCase& far : cases)

@@ -28,8 +28,7 @@ struct Measure {
   std::string_view key;              ///< in report.json
   Value (*value)(const CountsSum&);  ///< computes the value that files show
   std::string_view heading = "";     ///< in tables on the terminal
-  std::string_view csv_after = "";   ///< the counter that it follows in CSV files; "" if it is not in these
-                                     ///< files
+  std::string_view csv_after = "";   ///< counter before the measure in CSV files; "" if they lack the measure
   std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the text of the value
 };
 
@@ -40,7 +39,6 @@ std::span<const Measure> rate_measures();
 /// places. Throws std::out_of_range if no measure has this key.
 const Measure& measure(std::string_view key);
 
-/// Keys of measures.
 using MeasureKeys = std::vector<std::string_view>;
 
 /// The headings of a table on the terminal: the given cells, then the measures.
@@ -60,7 +58,6 @@ std::string table(const std::map<Key, CountsSum>& sums, std::vector<std::string>
   return columns(rows, left_aligned);
 }
 
-/// The number as JSON; null if `number` is empty.
 nlohmann::ordered_json or_null(const std::optional<double>& number);
 
 /// Adds measures of a sum of counters to an object, under their keys.
@@ -74,7 +71,7 @@ nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);
 
-/// An object with "all", "touching" and "times", and a count for each PairFate under the name of that fate.
+/// An object with "all", "touching" and "times", and the number of pairs with each PairFate under its name.
 nlohmann::ordered_json funnel_json(const Funnel& funnel);
 
 /// Adds the oracle's "disagreements" and "mismatches_with_recorded_truth" to an object.

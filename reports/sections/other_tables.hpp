@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// One way to hunt for one known defect, and how long it took to find it.
+/// A hunt for a known defect of `subject`, and how long it took to find the defect.
 struct Hunt {
   std::string subject, way;
   std::string time = {};   ///< time limit of the hunt: "60s"

@@ -51,7 +51,8 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
 
 using Row = std::vector<std::string>;
 
-/// A row with a number for each kind (`parts`), and its percentage of the kind's number in `all`.
+/// A row with a number for each kind (`parts`), and this number as a percentage of the kind's number in
+/// `all`.
 Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
   Row cells{std::string(what)};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -61,7 +62,8 @@ Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<st
   return cells;
 }
 
-/// Adds rows that say how much work the asked pairs need, for the oracle and for the subjects that report it.
+/// Adds rows that say how much work the asked pairs need: for the oracle, and for subjects that say which of
+/// their tests rejected a pair.
 void add_needs(const ScenePairs& scene, std::array<std::uint64_t, 2> asked, std::vector<Row>& rows) {
   static const std::map<Rejection, std::string_view> left_out{
       {Rejection::planes, "planes separate the primitives, nothing else is computed"},

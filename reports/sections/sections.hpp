@@ -10,13 +10,16 @@
 
 namespace nearmiss {
 
-/// A line with the verdict on each subject (verdicts.hpp), a line for each pair of versions, and the
-/// tolerances that were measured. Only the failures in `failing` count.
+/// A line with the verdict on each subject (verdicts.hpp), a line for each pair of versions, the number of
+/// certified truths, and the tolerances that were measured. Only the failures in `failing` count.
 std::string summary_lines(const Statistics& statistics, const Failures& failing = usual_failures());
-/// The lines of summary_lines on subjects and versions. Then come the sizes at which subjects are right; a
-/// table with a row for each subject and kind; a table of times of impact and one of other counters, both
-/// with a row for each subject, kind and class; what misses have in common; the oracle's counters; and the
-/// measured tolerances.
+/// A longer summary. Its parts are, in this order:
+///   the lines of summary_lines on subjects and versions
+///   the sizes at which subjects are right
+///   a table with a row for each subject and kind
+///   a table of times of impact and a table of other counters, with a row for each subject, kind and class
+///   the factors that misses have in common
+///   the oracle's counters, and the measured tolerances
 std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());
 
 /// The edge lengths and the distances from the origin at which each subject is right (right_ranges): a row
@@ -24,17 +27,17 @@ std::string summary_table(const Statistics& statistics, const Failures& failing 
 std::string sizes_table(const Statistics& statistics);
 nlohmann::ordered_json sizes_json(const Statistics& statistics);
 
-/// "89 % of the missed ones have scale=1e-6, and 20 % of all": shares of the missed collisions and of all
-/// collisions
+/// "89 % of the missed ones have scale=1e-6, and 20 % of all": percentages of the missed collisions and of
+/// all collisions.
 std::string to_text(const CommonFactors& common);
 /// The factors that missed collisions have in common: a line (or an object in JSON) for each subject, kind
-/// and family whose queries have factors and that has misses.
+/// and family with factors and misses.
 std::string common_factors_lines(const Statistics& statistics);
 nlohmann::ordered_json common_factors_json(const Statistics& statistics);
 
 /// Versions of a CCD, compared query by query: a line for each pair, "new against old: 12 fixed, 3 broken, 41
-/// both fail, of 5,000 queries (ordinary vt 3 broken; ...)". It names the kinds that are not compared because
-/// only one version was asked about them.
+/// both fail, of 5,000 queries (ordinary vt 3 broken; ...)". The line also names the kinds that are not
+/// compared because only one of the two versions was asked about them.
 std::string version_lines(const Statistics& statistics);
 /// A list with an object for each pair of versions, class of families and kind.
 nlohmann::ordered_json versions_json(const Statistics& statistics);
@@ -51,29 +54,27 @@ std::string simulation_tables(const Statistics& statistics);
 /// entry for each step, and the list "step" with the numbers of the steps.
 nlohmann::ordered_json simulations_json(const Statistics& statistics);
 
-/// A table for each sweep and subject, with a row for each value. Then a table for each sweep of an option,
-/// with a row for each class and value, and with the sweep's cliff: the neighbouring values between which
-/// the rate of misses changes most.
+/// A table for each sweep of a family and each subject, with a row for each value of the family's parameter.
+/// Then a table for each sweep of an option, with a row for each class and value, and with the sweep's cliff:
+/// the neighbouring values between which the rate of misses changes most.
 std::string sweep_tables(const Statistics& statistics);
 /// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
 /// increasing order.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 /// An object with a list for each pattern NAME:KEY=*, in the order of classes and values.
 nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
-/// A list with an object for each cliff.
 nlohmann::ordered_json cliffs_json(const Statistics& statistics);
 
 /// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. The tables
-/// have rows for each such subject, one for all families, then one for each family. A row says how many
-/// queries each stage decides, and gives the subject's run time divided by that of wang and by that of
+/// have rows for each such subject, one row for all families, then one row for each family. A row says how
+/// many queries each stage decides, and gives the subject's run time divided by that of wang and by that of
 /// exact, if they have times.
 std::string decider_tables(const Statistics& statistics);
 nlohmann::ordered_json deciders_json(const Statistics& statistics);
 
-/// The ladder of precisions, with a row for each rung, and the fits over all origins; "" unless an algorithm
-/// has at least two precisions.
+/// The ladder of precisions (one algorithm in several scalar types): a row for each subject on it, and fits
+/// of the farthest distances by a power of ε. "" unless an algorithm has at least two precisions.
 std::string ladder_table(const Statistics& statistics);
-/// An object with "rungs" and "fits".
 nlohmann::ordered_json ladder_json(const Statistics& statistics);
 
 /// Error against run time, over the kinds and families that all compared subjects were asked about:
@@ -92,17 +93,16 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 /// A subject's place on a precision ladder (one algorithm in several scalar types). For a subject that is not
 /// on a ladder, the algorithm is the subject itself.
 struct LadderPlace {
-  std::string algorithm;  ///< with options, and a bound that the user gave: "wang-eps:h=0.001@0.5"
+  std::string algorithm;  ///< the subject's name without the scalar: "wang-eps:h=0.001@0.5"
   std::string scalar;
   int epsilon_exponent = 0;
-  /// The bound, in units of B, by which the distances of false positives are divided; nothing if the bound is
-  /// not known.
+  /// The bound by which the distances of false positives are divided, in units of B, the size of a query's
+  /// pair; nothing if the bound is not known.
   std::optional<double> unit;
 };
 
 LadderPlace place_of(const std::string& subject);
 
-/// An object with "algorithm", "scalar" and "epsilon".
 nlohmann::ordered_json place_json(const LadderPlace& place);
 
 }  // namespace nearmiss

@@ -18,14 +18,14 @@ namespace nearmiss {
 
 namespace {
 
-/// A file name in the form that is compared if upper and lower case count as the same.
+/// The name in lower case: names that differ only in case become equal.
 std::string without_case(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return name;
 }
 
-/// Gives each file a name of its own, even where upper and lower case are the same.
+/// Gives each file a name of its own, even on a file system that does not distinguish upper and lower case.
 class OwnNames {
  public:
   /// NAME.case, or NAME-2.case, NAME-3.case ... if NAME.case is taken.
@@ -54,7 +54,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  std::map<std::string, std::size_t> number;  // of files so far, by case-folded name
+  std::map<std::string, std::size_t> number;  // number of files so far, by name in lower case
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (first.take(finding))
@@ -87,7 +87,6 @@ std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
 
 namespace {
 
-/// The run that contains a finding; null if there is none.
 const Run* run_of(const Campaign& campaign, const Finding& finding) {
   for (const Run& run : campaign.runs)
     if (std::find(run.findings.begin(), run.findings.end(), finding) != run.findings.end()) return &run;
@@ -103,8 +102,8 @@ std::optional<std::string> plugin_text(const Run& run, const std::string& subjec
   return std::nullopt;
 }
 
-/// The argument that names a subject of a run. It includes the scene's bound if the subject was asked with
-/// that bound.
+/// The argument that names a subject of a run. The argument includes the scene's bound if the subject was
+/// asked with that bound.
 std::string text_of(const Run& run, std::string subject) {
   if (is_beyond_contract(subject)) subject.resize(subject.size() - beyond_contract.size());
   const auto renamed = run.info.find(std::string(about_subject) + subject);

@@ -32,7 +32,6 @@ std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 /// the subject is a plug-in, the command has the path of the plug-in on the machine that found the failure.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
-/// The farthest false positive of one subject, kind and family.
 struct ShownFarthest {
   CountsKey key;
   FarCase far;

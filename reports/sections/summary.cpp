@@ -163,7 +163,7 @@ constexpr const char* footnote_on_times =
     "invalid: "
     "a time that is none, or a collision without the time that is promised\n";
 
-/// Explains the mark "**" of distances that are not fractions of a claimed bound; "" if there are none.
+/// Explains the mark "**" of distances that are not fractions of a claimed bound; "" if no distance has it.
 std::string footnote_on_units(const Statistics& statistics) {
   const bool is_marked = std::any_of(
       statistics.counts.begin(), statistics.counts.end(),
@@ -196,7 +196,6 @@ constexpr const char* footnotes =
     "(Clopper-Pearson)\nns/query: without waiting for a processor, less that of an empty subject; the "
     "median over batches of each family\n";
 
-/// A table followed by an empty line; "" for an empty table.
 std::string spaced(const std::string& text) { return text.empty() ? "" : text + "\n"; }
 
 /// A table with a row for each subject, kind and class. A row has the sort of the subject's times, how many

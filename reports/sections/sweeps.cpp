@@ -104,8 +104,8 @@ Proportion missed(const CountsSum& sum) { return {sum.counts.false_negatives, su
 
 double difference(const Cliff& cliff) { return std::abs(cliff.missed.rate() - cliff.missed_next.rate()); }
 
-/// The neighbouring values between which the rate of misses changes most. Takes the least exotic class in
-/// which the rate changes by more than chance explains; nothing without such a class.
+/// The neighbouring values of the option between which the rate of misses changes most. Looks only at the
+/// least exotic class in which the rate changes by more than chance explains. Nothing without such a class.
 std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   constexpr double improbable = 1e-3;
   std::optional<Cliff> best;
@@ -123,7 +123,7 @@ std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   return best;
 }
 
-/// The text "cliff: at 1000, 30 % of the collisions in ordinary families are missed, at 10000 0 %".
+/// "cliff: of the collisions in ordinary families, 30 % are missed at 1000, and none at 10000"
 std::string to_text(const Cliff& cliff) {
   const auto share = [](const Proportion& part) {
     return part.count == 0 ? std::string("none") : percent(part.count, part.total);

@@ -26,8 +26,8 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over timed families. Rates are computed from this sum, too: only families of directed searches
-  /// have no meaningful rates, and such families are not timed.
+  /// The sum over timed families. Rates are computed from this sum, too, because it leaves out the families
+  /// of directed searches, which have no meaningful rates and are not timed.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -64,8 +64,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The largest set of subjects that were asked about a common family. Among sets of equal size, the set with
-/// the most common families is chosen.
+/// The subjects of the family that the most subjects were asked about. Among equally large sets of subjects,
+/// the set with the most families.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -75,8 +75,8 @@ Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>&
   return most == sets.end() ? Subjects() : most->first;
 }
 
-/// A TradeOff for each timed subject, in the order of their names, except subjects beyond their contracts.
-/// If the subjects have no family in common, only those of most_comparable() have a TradeOff.
+/// A TradeOff for each timed subject, in the order of names, except subjects beyond their contracts. If no
+/// family was asked of all these subjects, only the subjects of most_comparable() have a TradeOff.
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   const auto asked = asked_subjects(statistics);
   const Subjects subjects = most_comparable(asked);
@@ -184,12 +184,12 @@ constexpr std::array<std::string_view, decider_count> decider_names{"algorithm",
 /// A subject's queries of a family, all kinds together, by the decider that decided them.
 struct DeciderRow {
   std::string subject;
-  std::string family;  ///< "" for all families; a scene is one family with all its steps
+  std::string family;  ///< "" for all families; all steps of a scene count as one family
   std::array<std::uint64_t, decider_count> queries{};
-  std::optional<double> ns_per_query;       ///< nothing if the subject was not timed
-  std::map<std::string, double> time_over;  ///< for each other subject (the key), the time divided by the
-                                            ///< time of that subject, over the families and kinds that have
-                                            ///< both times
+  std::optional<double> ns_per_query;  ///< nothing if the subject was not timed
+  /// The subject's time divided by the time of wang and of exact (the keys), over the families and kinds that
+  /// have both times.
+  std::map<std::string, double> time_over;
 
   [[nodiscard]] std::uint64_t all() const;
 };
@@ -251,8 +251,8 @@ std::uint64_t DeciderRow::all() const {
   return std::accumulate(queries.begin(), queries.end(), std::uint64_t{0});
 }
 
-/// Rows for each subject whose algorithm decides some queries and leaves others to another decider: one row
-/// for all families, then one for each family.
+/// Rows for each subject whose algorithm decides some queries and leaves other queries to another decider:
+/// one row for all families, then one row for each family.
 std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
   const auto by_family = sums_by(
       statistics, [](const CountsKey& key) { return std::pair(key.subject, row_family(key.family)); });

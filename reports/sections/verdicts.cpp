@@ -15,7 +15,6 @@ namespace nearmiss {
 
 namespace {
 
-/// The counters of a subject by class and kind.
 using Parts = std::map<QueryClass, std::map<Kind, Counts>>;
 
 struct OfSubject {
@@ -48,10 +47,10 @@ std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Cou
   return {count, total};
 }
 
-/// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way, class by
-/// class, and in the first class kind by kind. Leaves out classes and kinds in which the subject did not
-/// fail, and the name of the class if all queries are unclassified. If the subject failed in no ordinary
-/// family, "; no ordinary one of 504" follows.
+/// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way,
+/// for each class of families and, in the first of these classes, for each kind. Leaves out classes and kinds
+/// in which the subject did not fail, and the name of the class if all families are unclassified. If the
+/// subject did not fail in ordinary families, "; no ordinary one of 504" follows.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   std::string no_ordinary_one;
@@ -75,8 +74,8 @@ std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   return fmt::format("{}{}", fmt::join(classes, "; "), no_ordinary_one);
 }
 
-/// "2 of 504 in ordinary families, 40 of 5,000 in extreme families": how often a subject failed in this way, class by
-/// class of the families.
+/// "2 of 504 in ordinary families, 40 of 5,000 in extreme families": how often a subject failed in this way,
+/// for each class of families.
 std::string by_families(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   for (const auto& [in, by_kind] : parts)
@@ -113,8 +112,8 @@ std::string class_and_kind(QueryClass of, Kind kind) {
 }
 
 /// "53 of 504 ordinary vt collisions": how often a subject failed in families of the class `in`, for each
-/// kind with such failures. If the classes of queries are `known`, only for kinds with failures on queries
-/// of this class. Adds these kinds to `said`. "" if there is no such kind.
+/// kind with such failures. If the classes of the failed queries are `known`, only for kinds with failures on
+/// queries of the class `in`. Adds the kinds in the text to `said`. "" if there are none.
 std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
@@ -133,8 +132,8 @@ std::string said_of_families(const Parts& parts, const FailureInfo& failure, Que
   return fmt::format("{} {}", fmt::join(of_kinds, " and "), is_one ? failure.one : failure.many);
 }
 
-/// "12 ordinary vt collisions in degenerate families": on how many queries of a class a subject failed, for
-/// each kind that is not in `said`. "" if there is no such kind.
+/// "12 ordinary vt collisions in degenerate families": on how many queries of the class `of` a subject
+/// failed, for each kind that is not in `said`. "" if the subject did not fail on such queries.
 std::string said_of_queries(const Parts& parts, const FailureInfo& failure, QueryClass of,
                             const std::set<Kind>& said) {
   std::map<Kind, std::uint64_t> by_kind;
@@ -157,9 +156,9 @@ std::string said_of_queries(const Parts& parts, const FailureInfo& failure, Quer
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// The least exotic class of the queries on which a subject failed in this way, and how often it failed
-/// there: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate families".
-/// If the classes of the queries are not known, uses the classes of their families.
+/// The least exotic class of the queries on which a subject failed in this way, and how often it failed on
+/// queries of this class: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in
+/// degenerate families". If the classes of the queries are not known, uses the classes of their families.
 std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const FailureInfo& failure) {
   const auto of_queries = class_of_queries(subject, failure);
   const QueryClass of = of_queries.value_or(least_exotic_part(subject.parts, failure)->first);
@@ -221,7 +220,6 @@ std::string false_positive_text(const Counts& counts) {
   return text + ", the farthest " + times_the_bound(counts.max_ratio(), counts.distance_unit());
 }
 
-/// Says why nothing is known about a subject.
 std::string unjudged_text(const Counts& counts) {
   if (counts.queries == 0) return "NOT ASKED: it decides no query of this sort";
   if (failure_info(FailureKind::slow).count(counts) == 0)
@@ -229,9 +227,9 @@ std::string unjudged_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
-/// How often a subject failed in this way, class by class of the families. If the least exotic class of the
-/// failed queries differs from that of their families, the text begins with the queries of that class, such
-/// as "3 ordinary vt collisions in extreme families; in all 40 of 5,000 in extreme families".
+/// How often a subject failed in this way, for each class of families. If the least exotic class of a failed
+/// query differs from the least exotic class of these families, the text begins with the queries of the
+/// former: "3 ordinary vt collisions in extreme families; in all 40 of 5,000 in extreme families".
 std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
   const auto in_queries = class_of_queries(subject, failure);
   if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)

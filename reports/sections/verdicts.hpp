@@ -30,7 +30,7 @@ struct SubjectVerdict {
 std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics,
                                              const Failures& failing = usual_failures());
 
-/// The oracle's failures in one line; "" if it did not fail.
+/// The oracle's failures in one line; "" if the oracle did not fail.
 std::string oracle_complaint(const Statistics& statistics);
 
 /// A line for each subject, " ok  NAME: ...", "FAIL NAME: ..." or, for a subject beyond its contract,

@@ -17,7 +17,6 @@ using Binomial = boost::math::binomial_distribution<>;
 /// only widens intervals and raises p-values.
 constexpr double most_trials = 0x1p40;
 
-/// Trials and successes, scaled down to at most `most_trials`.
 std::pair<double, double> scaled(double trials, double successes) {
   const double factor = std::min(1.0, most_trials / trials);
   return {factor * trials, factor * successes};

@@ -10,11 +10,10 @@
 namespace nearmiss {
 
 /// The one-sided 95 % upper confidence bound of a rate if `count` events were seen in `total` trials (Clopper
-/// and Pearson 1934): at this rate, the probability of at most `count` events is 5 %. It is 1 if `total` is
-/// 0.
+/// and Pearson 1934): if the rate equals the bound, the probability of at most `count` events is 5 %. The
+/// bound is 1 if `total` is 0.
 double clopper_pearson_upper(std::uint64_t count, std::uint64_t total);
 
-/// A confidence interval of a rate, within [0, 1].
 struct ConfidenceInterval {
   double lo = 0, hi = 1;
 
@@ -22,10 +21,10 @@ struct ConfidenceInterval {
 };
 
 /// The two-sided confidence interval of Clopper and Pearson. The true rate is below the interval with a
-/// probability of at most `risk` / 2, and above it with at most the same probability. [0, 1] if total is 0.
+/// probability of at most `risk` / 2, and above the interval with a probability of at most `risk` / 2. The
+/// interval is [0, 1] if `total` is 0.
 ConfidenceInterval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk = 0.05);
 
-/// The 0.975 quantile of Student's t-distribution.
 double student_t_quantile_975(std::size_t degrees_of_freedom);
 
 /// A number of events among a number of trials: count <= total.
@@ -42,8 +41,8 @@ struct Proportion {
   }
 };
 
-/// The one-sided p-values of a test whether two proportions, `now` and `before`, have the same rate. Both
-/// members are probabilities in the case that the rates are equal.
+/// The one-sided p-values of a test whether two proportions, `now` and `before`, have the same rate:
+/// probabilities under the assumption that the rates are equal.
 struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count
@@ -56,15 +55,15 @@ struct ExactTest {
 double level_of(double risk, std::size_t tests);
 
 /// Fisher's exact test, which takes the sum of both counts as given. If the totals add up to more than 2^31,
-/// or the counts to more than a million, it uses a binomial distribution, with larger p-values, in place of
-/// the hypergeometric one.
+/// or the counts to more than a million, the test replaces the hypergeometric distribution by a binomial
+/// distribution, which gives larger p-values.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);
 
 /// An exact test like fisher_test for several pairs {now, before} together, each with a rate of its own.
 /// Given the sum of a pair's counts, now.count is a sum of independent trials with mean probability
-/// now.total / (now.total + before.total). Consider the binomial distribution with the number of trials of
-/// all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), at a distance of more than 1
-/// from the expectation, the tails of this distribution are at least as large as those of the sum of
+/// now.total / (now.total + before.total). The test uses the binomial distribution with the number of trials
+/// of all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), at a distance of at least
+/// 1 from the expectation, the tails of this distribution are at least as large as those of the sum of
 /// now.count over all pairs.
 ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
 

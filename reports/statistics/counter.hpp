@@ -50,8 +50,7 @@ constexpr void for_each_counter(const Use& use) {
   std::apply([&](const auto&... counters) { (use(counters), ...); }, Owner::counters());
 }
 
-/// Whether every member of `Owner` is a declared counter. `Owner` must have no padding, because sizes are
-/// compared.
+/// Whether every member of `Owner` is a declared counter. Compares sizes, so `Owner` must have no padding.
 template <class Owner>
 constexpr bool declares_all_members() {
   std::size_t declared = 0;
@@ -63,7 +62,7 @@ constexpr bool declares_all_members() {
 /// The largest sum of counts, or of nanoseconds (36 years). A few sums of this size add up without overflow.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
-/// Throws Error if the sum is greater than largest_count.
+/// Adds a count to another count. Throws Error if the sum is greater than largest_count.
 inline void add_up(std::uint64_t& own, std::uint64_t other) {
   if (other > largest_count - std::min(own, largest_count))
     throw Error("found counts that add up to more than 2^60, expected fewer queries");
@@ -79,7 +78,8 @@ template <class Merges>
 requires requires(Merges& own, const Merges& other) { own.merge(other); }
 void add_up(Merges& own, const Merges& other) { own.merge(other); }
 
-/// Adds each counter of `other`. Numbers are summed; other types are merged with their add_up or merge.
+/// Adds each counter of `other` to the same counter of `own`. Numbers are summed; other types have their own
+/// add_up or merge.
 template <class Owner>
 void merge_counters(Owner& own, const Owner& other) {
   for_each_counter<Owner>([&](const auto& counter) { add_up(own.*counter.member, other.*counter.member); });

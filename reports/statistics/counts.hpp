@@ -21,8 +21,8 @@
 
 namespace nearmiss {
 
-/// A query that is kept because its answer is among the most extreme: a false positive with the farthest
-/// primitives, or the earliest or the latest time.
+/// A query that is kept because its answer is among the most extreme: a false positive whose primitives are
+/// among the farthest apart, or a time that is among the earliest or the latest relative to t*.
 struct FarCase {
   double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or |time - t*|
   Query query;
@@ -34,7 +34,7 @@ struct FarCase {
 /// Adds cases, and keeps the farthest of all: at most Counts::far_cases.
 void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 
-/// Adds a query to the kept cases if it is among the farthest.
+/// Adds a query to the kept cases if its ratio is among the largest.
 void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
                    const std::function<std::string()>& provenance);
 
@@ -47,13 +47,14 @@ struct TimeError {
   /// t*.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
-  bool late = false;      ///< contact, or a distance below h, before a promised lower bound
+  bool late = false;      ///< contact, or a distance below the separation h, before a promised lower bound
   bool stuck = false;     ///< the time is 0, although t* is not 0
   /// The time is promised and not late, but the rounded step to it (fuzz/trial/committed.hpp) has contact,
   /// or a distance below h, before its end.
   bool committed = false;
-  bool unsafe_step = false;     ///< `committed` holds, although the subject promises that this step is free
-  bool touches_at_end = false;  ///< the step of `committed` has contact only at its end
+  bool unsafe_step = false;  ///< `committed` holds, although the subject promises a step without contact
+  /// The time is promised and not late, and the rounded step to it has contact only at its end.
+  bool touches_at_end = false;
 
   bool operator==(const TimeError&) const = default;
 };
@@ -76,12 +77,11 @@ struct Outcome {
   QueryClass query_class = QueryClass::unclassified;  ///< set only if the subject failed on the query
 };
 
-/// Counts by the class of the query.
 using QueryClassCounts = std::array<std::uint64_t, class_names.size()>;
 
 /// Counters of one subject, kind and family.
 struct Counts {
-  std::uint64_t queries = 0;     ///< queries that the subject was asked, including `faults`
+  std::uint64_t queries = 0;     ///< all queries, including those in `faults`
   std::uint64_t collisions = 0;  ///< collisions, by the oracle, among the queries that the subject answered
   std::uint64_t positives = 0;   ///< queries that the subject reported as collisions
   std::uint64_t false_negatives = 0;
@@ -105,7 +105,7 @@ struct Counts {
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
   std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by reason
-  Histogram distances;                                       ///< distances of false positives
+  Histogram distances;                                       ///< distances of false positives (distance_unit)
   std::vector<FarCase> farthest;                             ///< farthest first, at most far_cases
   Histogram early;                                           ///< t* - time, of times that are not after t*
   Histogram after;                                           ///< time - t*, of times after t*
@@ -113,7 +113,8 @@ struct Counts {
   std::vector<FarCase> earliest;  ///< times with the largest t* - time, at most far_cases
   std::vector<FarCase> latest;    ///< times with the largest time - t*, at most far_cases
 
-  /// Whether no counter exceeds the counter of which it counts a part.
+  /// Whether no counter of a part exceeds the counter of the whole, for example false_negatives <=
+  /// collisions.
   [[nodiscard]] bool is_possible() const;
 
   /// Lists every counter. To add a counter, declare it here and count it in add().
@@ -167,7 +168,6 @@ struct Counts {
   void merge(const Counts& other) { merge_counters(*this, other); }
 
   [[nodiscard]] std::uint64_t faults_total() const;
-  /// The number of queries that have no answer for this reason.
   [[nodiscard]] std::uint64_t without_answer(Fault why) const {
     return faults[static_cast<std::size_t>(why)];
   }
@@ -191,7 +191,7 @@ struct Counts {
   /// after t*).
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// A list keeps a further case only if its ratio is at least this; 0 until the list is full.
+  /// The smallest ratio with which the list `kept` keeps a further case; 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
@@ -205,8 +205,8 @@ struct Counts {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
   }
-  /// The bin of a quantile of t* - time, over the times that are not after t*: a fraction `part` of them
-  /// have at most this error. The bin's upper end is at most the largest error.
+  /// The bin of a quantile of t* - time: of the times that are not after t*, a fraction `part` has an error
+  /// of at most the bin's upper end. The upper end is at most the largest error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
@@ -214,8 +214,8 @@ struct Counts {
   /// The bin of a quantile of |time - t*|, over all given times.
   [[nodiscard]] Bin time_error_quantile(double part) const;
   [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
-  /// The bin of a quantile of distance / bound: a fraction `part` of the false positives have at most this
-  /// ratio. The bin's upper end is at most the largest ratio.
+  /// The bin of a quantile of distance / bound: a fraction `part` of the false positives have at most the
+  /// ratio at the bin's upper end. The bin's upper end is at most the largest ratio.
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};

@@ -14,15 +14,18 @@ namespace nearmiss {
 /// The most extreme query that was found for one tolerance, or for one group of tests.
 struct Extreme {
   enum class Of : std::uint8_t {
-    accepting_tolerance,  ///< the largest factor with which a collision is missed; 0 if none is missed
-    keeping_tolerance,    ///< for a tolerance that keeps degenerate primitives out: the smallest factor with
-                          ///< which a collision is missed; infinity if none is missed
-    distance,             ///< the largest distance / bound of these tests' false positives; 0 without any
+    /// The largest factor on the tolerance that makes the algorithm miss a collision; 0 if no factor does.
+    accepting_tolerance,
+    /// For a tolerance that keeps degenerate primitives out: the smallest factor on the tolerance that makes
+    /// the algorithm miss a collision; infinity if no factor does.
+    keeping_tolerance,
+    /// The largest distance / bound of the tests' false positives; 0 without any.
+    distance,
   };
 
   Of of{};
   std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< factor of this tolerance (the others are the paper's), or distance / bound
+  double value = 0;           ///< factor of the tolerance (the others are the paper's), or distance / bound
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried
@@ -30,7 +33,7 @@ struct Extreme {
   [[nodiscard]] bool found() const { return !provenance.empty(); }
 
   /// Merges what was found for the same tolerance or tests: keeps the more extreme query or, if both are
-  /// equally extreme, the one whose provenance comes first, and adds up the numbers of queries.
+  /// equally extreme, the query whose provenance comes first. Adds up the numbers of queries.
   void merge(const Extreme& other);
 
   bool operator==(const Extreme&) const = default;

@@ -105,15 +105,14 @@ struct Level {
   [[nodiscard]] bool is_right() const { return !misses && !reports; }
 };
 
-/// The sum of the answers of some levels.
 FactorCounts sum_of(std::span<const Level> levels) {
   FactorCounts sum;
   for (const Level& each : levels) sum.merge(each.counts);
   return sum;
 }
 
-/// The answers of five successive values without misses, chosen so that the rate of false positives is
-/// lowest. If fewer than five values have no misses, the answers of these values are used. (Values with
+/// The answers at five successive values without misses, chosen so that the rate of false positives is
+/// lowest. If there are fewer than five values without misses, the answers at all of these. (Values with
 /// misses do not count: a CCD that misses everything has no false positives.)
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
@@ -146,7 +145,7 @@ std::vector<Level> levels_of(const Powers& powers) {
   return levels;
 }
 
-/// The longest run of right levels at neighbouring values, or the first of several such runs.
+/// The longest run of neighbouring values at which the subject is right, or the first of several such runs.
 std::span<const Level> longest_run(std::span<const Level> levels) {
   std::span<const Level> longest;
   for (std::size_t first = 0; first < levels.size();) {
@@ -160,9 +159,9 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
   return longest;
 }
 
-/// Whether chance may explain that no collision at some levels is missed. The assumed rate of misses is that
-/// of the nearest level outside, or of the nearest two levels together, and so on. `outside` has these
-/// levels, nearest first. If the nearest level outside has no misses, the answer is no.
+/// Whether chance may explain that none of the `collisions` in a run of levels is missed. `outside` has the
+/// levels on one side of the run, nearest first. The assumed rate of misses is that of the nearest of these
+/// levels, or of the nearest two together, and so on. False if the nearest level has no misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

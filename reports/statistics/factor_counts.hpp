@@ -1,6 +1,6 @@
-// Answers by the factors of queries. Families such as `crossed` build each query from factors, such as its
-// scale, and note the value of each factor: "scale=1e-3". The counts of these values show what a subject's
-// misses have in common, and at which sizes the subject is right.
+// Counts answers by the factors of queries. Families such as `crossed` build each query from factors, such as
+// its scale, and note the value of each factor: "scale=1e-3". The counts of these values show what a
+// subject's misses have in common, and at which sizes the subject is right.
 #pragma once
 
 #include <cstdint>
@@ -67,14 +67,14 @@ struct CommonFactors {
 };
 
 /// For each subject, kind and family with misses, considers the values and pairs of values that at least half
-/// of the misses have. Returns the one with the largest lift, share() / share_of_collisions(). Ties go to the
-/// value or pair that more misses have, then to a single value rather than a pair, then to the first in
-/// alphabetical order.
+/// of the misses have. Among these, chooses the value or pair with the largest lift, share() /
+/// share_of_collisions(). Ties go to the value or pair that more misses have, then to a single value rather
+/// than a pair, then to the first in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
-/// The values of a factor "FACTOR=2^x" at which a subject is right. There it misses nothing, and reports at
-/// most three quarters of the queries that do not collide; and its rate of false positives exceeds the rate
-/// at its best values by at most a quarter.
+/// The values of a factor "FACTOR=2^x" at which a subject is right. It is right at a value if it misses
+/// nothing, reports at most three quarters of the queries that do not collide, and has a rate of false
+/// positives at most 0.25 above the rate at the subject's best values.
 struct RightRange {
   std::string subject;
   Kind kind{};

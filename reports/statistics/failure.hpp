@@ -1,6 +1,6 @@
-// What counts as a failure, and how grave it is. Only this file decides that: findings, exit codes,
-// verdicts, the headline, the comparison with a baseline, nights, Pareto fronts and the power of a hunt
-// follow it.
+// Says what counts as a failure, and how grave it is. Only this file decides about failures: findings, exit
+// codes, verdicts, the headline, the comparison with a baseline, nights, Pareto fronts and the power of a
+// hunt follow it.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ enum class FailureKind : std::uint8_t {
   oracle_disagreement,  ///< the exact methods disagree
   wrong_truth,          ///< the oracle disagrees with a recorded truth
   miss,                 ///< a collision was not reported
-  late,                 ///< contact, or a distance below h, before a promised lower bound
+  late,                 ///< contact, or a distance below the separation h, before a promised lower bound
   unsafe_step,   ///< contact in the rounded step to a sound lower bound, though the subject promised it free
   beyond_bound,  ///< a false positive is farther away than claimed
   fault,         ///< there is no answer, for a reason other than time or a contract
@@ -44,7 +44,6 @@ struct FailureInfo {
   QueryClassCounts Counts::*by_class = nullptr;  ///< `count` by the class of the query; null if not counted
 };
 
-/// The row of a kind of failure.
 const FailureInfo& failure_info(FailureKind kind);
 inline std::string_view name(FailureKind kind) { return failure_info(kind).name; }
 
@@ -55,7 +54,6 @@ using Failures = std::set<FailureKind>;
 const Failures& all_failures();
 const Failures& usual_failures();
 
-/// The kinds of failure that are in both sets.
 Failures in_common(const Failures& some, const Failures& others);
 
 /// Whether a failure breaks a promise about collisions. Such a failure raises an alarm even if the baseline
@@ -68,7 +66,7 @@ std::optional<FailureKind> failure_of(const Outcome& outcome);
 
 /// The kind of failure that a signature shows.
 FailureKind failure_of(const Signature& signature);
-/// The sort of finding that a failure makes; nothing if it makes none.
+/// The sort of finding that a failure makes; nothing if the failure makes no finding.
 std::optional<Finding::What> finding_of(FailureKind kind);
 
 /// The end of the name of a subject that is asked only queries that break its contract. The subject promises

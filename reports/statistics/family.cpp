@@ -14,7 +14,7 @@ FamilyName::FamilyName(std::string_view name) : base(name.substr(0, name.find_fi
   for (const std::string_view each :
        {miss_search_family, far_search_family, late_search_family, early_search_family})
     if (root.starts_with(each)) search = name.substr(0, base.size() - root.size() + each.size() - 1);
-  // The name of a search's subject may contain a ~, so the last one counts.
+  // The name of a search's subject may contain a ~, so the last ~ counts.
   const auto tilde = std::min(search.empty() ? name.find('~') : name.rfind('~'), name.size());
   if (tilde < name.size()) separation = name.substr(tilde + 1);
   if (base.size() < tilde) value = name.substr(base.size() + 1, tilde - base.size() - 1);
@@ -101,7 +101,7 @@ QueryClass class_in_table(std::string_view name) {
 
 QueryClass class_of(std::string_view family) {
   if (family.starts_with("scene:")) return QueryClass::ordinary;
-  if (family.starts_with("sim:"))  // with options or sizes, their class is not known
+  if (family.starts_with("sim:"))  // the class of a simulation with options or sizes is not known
     return family.find_first_of("@~:", 4) == std::string_view::npos ? QueryClass::ordinary
                                                                     : QueryClass::unclassified;
   const FamilyName name(family);

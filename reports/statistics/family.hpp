@@ -26,14 +26,14 @@ std::string shown_family(std::string_view family);
 std::string_view origin(std::string_view family);
 
 /// The name that all steps of a sweep share, because the steps make the same random draws and differ only in
-/// the value of the parameter. For any other family, the family's own name.
+/// the value of the parameter. For a family that is no step of a sweep, the family's own name.
 std::string draws_of(std::string_view family);
 
-/// The most queries of a subject and kind that share one random draw: the number of steps of the longest
+/// The largest number of a subject's queries that share one random draw: the number of steps of the longest
 /// sweep.
 std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject);
 
-/// The statistics with the counters of all families added up that a report shows as one (shown_family).
+/// The statistics by shown_family: the counters of families that a report shows as one family are added up.
 Statistics by_shown_family(const Statistics& statistics);
 
 /// The scene of a step: "scene:NAME" for the step "scene:NAME#STEP".

@@ -20,7 +20,7 @@ inline constexpr std::string_view vertices_prefix = "v-";
 /// The parts of a family's name: NAME, or NAME@VALUE with a fixed parameter; ~SEPARATION may follow either.
 /// Only this struct knows the form of names. The name must outlive its parts.
 struct FamilyName {
-  std::string_view base;  ///< NAME; for a directed search, it includes the name of its subject
+  std::string_view base;  ///< NAME; for a directed search, NAME includes the name of the search's subject
   std::string_view root;  ///< NAME without "v-"
   std::optional<std::string_view> value;
   std::optional<std::string_view> separation;
@@ -28,7 +28,6 @@ struct FamilyName {
 
   explicit FamilyName(std::string_view name);
 
-  /// The name that has these parts.
   [[nodiscard]] std::string text() const;
 };
 

@@ -38,8 +38,8 @@ struct Finding {
   /// The simplest known query that fails in the same way and has the same class as `query`. It may be
   /// `query` itself.
   Query shrunk = {};
-  std::uint64_t place = 0;  ///< position of its case in the order of the whole campaign
-  double time = 0;          ///< the subject's time for the shrunk query, if it has_time()
+  std::uint64_t place = 0;  ///< position of the query's case in the order of the whole campaign
+  double time = 0;          ///< the subject's time for the shrunk query, if the finding has_time()
   bool is_shrunk = false;   ///< whether shrinking is finished
   QueryClass query_class = QueryClass::unclassified;
   Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
@@ -47,12 +47,12 @@ struct Finding {
   /// The earlier version of the subject's CCD, if that version does not fail on `query`; "" otherwise.
   std::string broken_since = {};
   double bound = 0;  ///< the bound that the subject claims for the shrunk query, if it is refuted
-  Query step = {};   ///< the step to that time, if it has_step()
-  /// The proof of what the oracle says against the subject about the shrunk query, as a line of JSON
-  /// (tools/certificates/README.md); "" if there is none.
+  Query step = {};   ///< the rounded step to `time`, if the finding has_step()
+  /// A line of JSON that proves, for the shrunk query, the statement by which the oracle contradicts the
+  /// subject (tools/certificates/README.md); "" without a proof.
   std::string certificate = {};
-  /// For a fault: the end of what the subject's process wrote to standard error before it ended, with the stack of a
-  /// crash, as lines of printable text; "" if there is nothing.
+  /// For a fault: the end of what the subject's process wrote to standard error before it ended, with the
+  /// stack of a crash, as lines of printable text; "" if it wrote nothing.
   std::string errors = {};
 
   bool operator==(const Finding&) const = default;
@@ -73,8 +73,8 @@ constexpr bool has_step(Finding::What what) {
 /// Whether a finding of this sort has the subject's time.
 constexpr bool has_time(Finding::What what) { return what == Finding::What::late || has_step(what); }
 
-/// Whether reports only show a finding of this sort. It breaks no promise, so it is no failure of a version,
-/// no new way to fail since a baseline, and no reason for a user's test to fail.
+/// Whether reports only show a finding of this sort. Such a finding breaks no promise, so it is no failure of
+/// a version, no new way to fail since a baseline, and no reason for a user's test to fail.
 constexpr bool is_only_shown(Finding::What what) { return what == Finding::What::committed; }
 
 /// A way to fail.
@@ -97,8 +97,8 @@ inline Signature signature_of(const Finding& finding) {
 /// findings.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes findings in order, and picks the first ones of each signature in each class of queries. Counts
-/// findings separately if an earlier version of the CCD does not fail on them.
+/// Takes findings in order, and picks the first ones of each signature in each class of queries. Findings on
+/// which an earlier version of the CCD does not fail are counted separately.
 class FirstFindings {
  public:
   /// Counts the finding. Returns its number among the findings of its signature and class, from 1 on.

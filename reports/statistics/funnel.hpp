@@ -1,5 +1,5 @@
-// Counts of the pairs of a scene: how many were left out for which reason, and how many subjects were asked
-// about.
+// Counts of the pairs of a scene: the pairs that were left out, by reason, and the pairs about which subjects
+// were asked.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace nearmiss {
 
-/// The fate of a pair. Subjects are asked only about pairs with the last fate; all others are left out.
+/// What becomes of a pair. Subjects are asked only about pairs with the fate `asked`; other pairs are left
+/// out.
 enum class PairFate : std::uint8_t {
   boxes_apart,     ///< the boxes that the primitives sweep do not meet
   share_vertex,    ///< the primitives have a vertex in common
@@ -27,7 +28,7 @@ inline constexpr std::size_t pair_fate_count = 5;
 inline constexpr std::array<std::string_view, pair_fate_count> pair_fate_names{
     "boxes_apart", "share_vertex", "at_rest", "in_translation", "asked"};
 
-/// Pairs of one kind in one step of a scene.
+/// Counts the pairs of one kind in one step of a scene.
 struct Funnel {
   std::array<std::uint64_t, pair_fate_count> pairs{};  ///< number of pairs with each PairFate
   std::uint64_t touching = 0;                          ///< pairs at rest or in translation that collide

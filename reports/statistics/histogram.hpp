@@ -54,7 +54,7 @@ struct Bin {
 
 /// Counts numbers, called ratios here because most are distances of false positives divided by the claimed
 /// bound. The bins are log-spaced, four to a decade from 10^-16 to 10^1. One more bin holds all smaller
-/// numbers, including 0, and one all larger numbers.
+/// numbers, including 0, and another bin holds all larger numbers.
 struct Histogram {
   static constexpr int per_decade = 4;
   static constexpr int lowest_decade = -16;
@@ -65,7 +65,8 @@ struct Histogram {
 
   void add(double ratio);
   void merge(const Histogram& other);
-  /// The lower border of bin i, which belongs to the bin: 0 for the first bin, infinity for i = bin_count.
+  /// The lower border of bin i: 0 for the first bin, infinity for i = bin_count. A ratio equal to the border
+  /// belongs to bin i.
   static double border(std::size_t i);
   /// The lower border of the bin that holds this ratio.
   static double lower_border(double ratio);

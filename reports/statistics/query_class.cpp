@@ -18,7 +18,6 @@ std::array<Point, 8> points(const Query& query) {
   return all;
 }
 
-/// Whether two of some points are equal.
 bool coincide(std::span<const Point> all) {
   for (std::size_t i = 0; i < all.size(); ++i)
     if (std::ranges::find(all.first(i), all[i]) != all.first(i).end()) return true;

@@ -1,4 +1,4 @@
-// Classes of queries: how near they are to those of a simulation.
+// Classes of queries: how near queries are to those of a simulation.
 #pragma once
 
 #include <array>

@@ -81,13 +81,12 @@ struct Statistics {
   SimulatedSteps simulated;                                     ///< steps of simulations
   FactorTable factors;                      ///< answers in the families whose queries have factors
   VersionTable versions;                    ///< compares versions of CCDs, query by query
-  std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed in each way
+  std::map<Signature, std::uint64_t> seen;  ///< number of queries with each signature
   std::map<std::string, Extreme> extremes;  ///< by the name of the tolerance or of the tests
   std::uint64_t oracle_disagreements = 0;   ///< queries about which the exact methods disagree
   std::uint64_t mismatches_with_recorded_truth =
       0;  ///< cases for which the oracle contradicts the recorded truth
 
-  /// Lists the counters of the campaign as a whole.
   static constexpr auto counters() {
     return std::tuple{Counter{"disagreements", &Statistics::oracle_disagreements},
                       Counter{"mismatches_with_recorded_truth", &Statistics::mismatches_with_recorded_truth}};
@@ -97,11 +96,10 @@ struct Statistics {
 
   /// The counters of each subject and kind, summed over families; key.family is empty.
   [[nodiscard]] std::map<CountsKey, CountsSum> by_subject_and_kind() const;
-  /// The oracle's counters summed over families and kinds.
   [[nodiscard]] OracleCounts oracle_total() const;
-  /// The number of queries that failed in this way.
+  /// The number of queries that failed with this signature.
   [[nodiscard]] std::uint64_t times_seen(const Signature& signature) const;
-  /// The number of queries that a subject was asked.
+  /// The number of a subject's queries, including those without an answer.
   [[nodiscard]] std::uint64_t queries_of(const std::string& subject) const;
   [[nodiscard]] std::uint64_t false_negatives() const;
   [[nodiscard]] std::uint64_t refuted_bounds() const;

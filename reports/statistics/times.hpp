@@ -39,7 +39,8 @@ class BatchTimes {
   Bins bins_;
 };
 
-/// Run times of single queries: log-spaced bins, four to an octave, from 1 ns to 2^40 ns (18 minutes).
+/// Counts run times of single queries in log-spaced bins, four to an octave, from 1 ns to 2^40 ns (18
+/// minutes).
 struct TimeHistogram {
   static constexpr int per_octave = 4;
   static constexpr std::size_t bin_count = 40 * per_octave;
@@ -68,12 +69,10 @@ struct SlowCase {
 /// Adds cases, and keeps the slowest of all: at most SubjectTimes::slow_cases.
 void add_up(std::vector<SlowCase>& own, const std::vector<SlowCase>& other);
 
-/// Batch times by kind and family.
 using BatchesByFamily = std::map<std::pair<Kind, std::string>, BatchTimes>;
 
 void add_up(BatchesByFamily& own, const BatchesByFamily& other);
 
-/// The run times of a subject.
 struct SubjectTimes {
   BatchesByFamily batches;        ///< by kind and family, because a median means something only for batches
                                   ///< of similar queries

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How long to wait while another process reads, opens or closes a store. It is short, so that a process
-/// that is told to stop does so within two seconds.
+/// How long to wait while another process reads, opens or closes a store. The wait is short, so that a
+/// process that is told to stop does so within two seconds.
 constexpr int patience_ms = 1500;
 
 /// Throws Error if the journal beside a store names another file: SQLite would delete that file when it
@@ -44,7 +44,7 @@ void expect_own_journal(const fs::path& file) {
 }
 
 /// Checks a store's journal (expect_own_journal), and returns the path by which SQLite opens the store. The
-/// path is absolute, because SQLite takes a relative path ":memory:" for no file.
+/// path is absolute, because SQLite would open no file for the relative path ":memory:".
 std::string path_for_sqlite(const fs::path& file) {
   expect_own_journal(file);
   return fs::absolute(file).string();

@@ -26,11 +26,11 @@ class FileLock {
 };
 
 /// The path of a store's log with this ending. SQLite keeps the log beside the store while a process writes
-/// it; if that process is killed, the log stays there.
+/// the store; if that process is killed, the log remains.
 std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
 
-/// Opens a store to read it. This changes the store only if a process was killed while it wrote the file
-/// itself: SQLite then rolls back the unfinished change, by the journal beside the store.
+/// Opens a store to read it. Opening changes the store only if a process was killed while it wrote the file
+/// itself: SQLite then uses the journal beside the store to roll back the unfinished change.
 SQLite::Database open_to_read(const std::filesystem::path& file);
 
 /// A connection for writing.

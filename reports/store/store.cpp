@@ -26,7 +26,7 @@ using Check = std::function<void()>;
 
 constexpr std::uint64_t only_run = 0;
 
-/// The rows that belong to runs. Runs are numbered from 0.
+// The tables whose rows belong to runs. Runs are numbered from 0.
 using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;      ///< by run and index
 using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;  ///< by run and place in the run
 using Pictures = std::map<std::pair<std::uint64_t, std::string>, json::object_t>;  ///< by run and step
@@ -72,7 +72,7 @@ std::vector<Run> read_runs(Reader& read) {
   return all;
 }
 
-/// Rows for consecutive findings of a run. `first` is the place of the first of them in the run.
+/// Rows for consecutive findings of a run. `first` is the place of the first of these findings in the run.
 Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint64_t first = 0) {
   Findings rows;
   for (const Finding& each : findings) rows.emplace(std::pair{run, first++}, each);
@@ -140,7 +140,6 @@ void count_findings(Campaign& campaign) {
   }
 }
 
-/// Reads the intact part of an open store.
 Salvage read_intact(SQLite::Database& db, const Check& check = {}) {
   Reader read(db, check);
   Salvage salvage{read_campaign(read), read.rows(), ""};
@@ -197,8 +196,8 @@ std::string locked_log(const fs::path& file, const std::exception& error) {
   return "";
 }
 
-/// Reads a store of this version. Throws Error; if the store is damaged, the message also says how much a
-/// salvage would save.
+/// Reads a store of this version. Throws Error if the store cannot be read. If it is damaged, the message
+/// also says how much a salvage would save.
 Campaign read_store(const fs::path& file, bool checks_structure, const Check& check = {}) {
   expect_regular_file(file);
   return naming(file, [&] {
@@ -231,7 +230,7 @@ void refuse_existing(const fs::path& file) {
 struct Store::Database {
   explicit Database(fs::path path) : file(std::move(path)), lock(file) {}
 
-  /// Runs `act` with the connection, in a transaction.
+  /// Runs `act` with a Save, in one transaction, and commits it.
   template <class Act>
   void change(const Act& act) {
     naming(file, [&] {
@@ -316,7 +315,7 @@ Salvage salvage_campaign(const fs::path& file) {
   expect_regular_file(file);
   return naming(file, [&] {
     SQLite::Database db = open_to_read(file);
-    db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
+    db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file with a missing end or a damaged schema
     const SQLite::Transaction one_save(db);  // another process may save meanwhile
     db.exec("PRAGMA schema_version");        // throws if the file is no database
     Salvage salvage = read_intact(db);

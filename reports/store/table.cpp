@@ -49,8 +49,8 @@ bool is_table(SQLite::Database& db, const std::string& name) {
   return result == SQLITE_OK;
 }
 
-/// Whether a table's columns are plain data in the file. In a hostile store, SQLite might have to compute
-/// them, for example by a view over an endless recursion.
+/// Whether a table exists and all its columns are plain data in the file. In a hostile store, SQLite might
+/// have to compute the columns: those of a view over an endless recursion, or generated columns.
 bool is_plain(SQLite::Database& db, const std::string& table) {
   if (!is_table(db, table)) return false;
   SQLite::Statement column(db, fmt::format("PRAGMA main.table_xinfo({})", table));

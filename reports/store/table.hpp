@@ -1,5 +1,6 @@
-// The tables of a store. Each is a map: a row has a key and a value, which are JSON, and a checksum. SQLite
-// trusts what it reads from a file, so without checksums a flipped bit would change a number unnoticed.
+// The tables of a store. Each table is a map: a row has a key and a value, which are JSON, and a checksum.
+// SQLite trusts what it reads from a file, so without checksums a flipped bit would change a number
+// unnoticed.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -17,8 +18,8 @@
 
 namespace nearmiss {
 
-/// The version of the tables and of their contents. Only stores of this version are read. Every change raises
-/// it, except a new member that rows may lack.
+/// The version of the tables and of their contents. Only stores of this version are read. Every change of the
+/// tables or contents raises the version, except a new member that rows may lack.
 inline constexpr int store_version = 25;
 
 /// Thrown if a store is not as it was written. The message says which part is damaged.
@@ -39,8 +40,8 @@ void expect_store(SQLite::Database& db);
 std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value);
 
 /// The number of rows of a table, and the sum of the rows' checksums modulo 2^64. Both numbers reveal rows
-/// that are missing, doubled, or left from an earlier save. The table `contents` has them for every other
-/// table; a save updates them without reading rows that it does not change.
+/// that are missing, doubled, or left from an earlier save. The table `contents` has both numbers for every
+/// other table; a save updates the numbers without reading rows that it does not change.
 struct Contents {
   std::uint64_t rows = 0, sum = 0;
 
@@ -97,16 +98,14 @@ class Save {
     contents_.at(table) = insert(table, rows_of(map), {}, true);
   }
 
-  /// Adds the entries of a map as rows; their keys must be new.
+  /// Adds the entries of a map as rows; the keys must be new.
   template <class Map>
   void add(const std::string& table, const Map& map) {
     contents_.at(table) = insert(table, rows_of(map), contents_.at(table), false);
   }
 
-  /// Removes all rows of a table.
   void clear(const std::string& table);
 
-  /// The number of rows of a table.
   [[nodiscard]] std::uint64_t rows(const std::string& table) const { return contents_.at(table).rows; }
 
   void commit();
@@ -122,7 +121,7 @@ class Save {
     return rows;
   }
 
-  /// Inserts rows, and returns the table's `contents` with them.
+  /// Inserts rows. Returns `contents` with these rows added.
   Contents insert(const std::string& table, const Rows& rows, Contents contents, bool replaces);
 
   SQLite::Database& db_;

@@ -23,12 +23,13 @@
 
 namespace nearmiss {
 
-/// The names of the enumerators of a type, in order.
+/// The names of the kinds, in the order of Kind.
 inline constexpr auto kind_names = [] {
   std::array<std::string_view, kinds.size()> names;
   for (const Kind kind : kinds) names[static_cast<std::size_t>(kind)] = short_name(kind);
   return names;
 }();
+/// The names of the enumerators of a type, in order.
 constexpr const auto& names_of(Kind) { return kind_names; }
 constexpr const auto& names_of(Finding::What) { return what_names; }
 constexpr const auto& names_of(QueryClass) { return class_names; }
@@ -128,7 +129,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FindingWithoutErrors, what, subject, family, 
                                    signature, shrunk, place, time, is_shrunk, query_class, simplest,
                                    simplest_class, broken_since, bound, step, certificate)
 
-/// The lines of `errors` become texts of their own, because a store has no line ends.
+/// The lines of `errors` become texts of their own, because texts in a store have no line ends.
 inline void to_json(nlohmann::json& json, const Finding& finding) {
   json = FindingWithoutErrors{finding};
   if (!finding.errors.empty()) json["errors"] = error_lines(finding);

@@ -1,6 +1,6 @@
-// The JSON library, made strict about integers, and the reading of JSON from outside: from stores, and from
-// files that one command writes and another reads. Every file that needs the library includes this header,
-// because the specialization below must be the same everywhere.
+// Includes the JSON library and makes it strict about integers. Also reads JSON that may be wrong: from
+// stores, and from files that one command writes and another reads. Every file that needs the library
+// includes this header, because the specialization below must be the same everywhere.
 #pragma once
 
 #include <concepts>
@@ -66,10 +66,9 @@ std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Parses JSON into nlohmann::json or nlohmann::ordered_json. Throws Error if the text is not JSON; if it
-/// has more than 32 levels of brackets, because functions walk JSON recursively; or if a string in it is not
-/// printable. nearmiss writes no such strings; they could change how a terminal, a page or a case shows the
-/// text around them.
+/// Parses JSON into nlohmann::json or nlohmann::ordered_json. Throws Error if the text is not JSON, has more
+/// than 32 levels of brackets (functions walk JSON recursively), or contains a string that is not printable.
+/// nearmiss never writes such a string. It could change how a terminal, a page or a case shows other text.
 template <class Json>
 Json parse_json(std::string_view text);
 

@@ -14,8 +14,8 @@ std::string shell_quoted(const std::string& argument);
 /// escapes, as in $'M\344.case'.
 std::string printable_argument(const std::string& argument);
 
-/// Whether a text is one command with arguments as the functions above quote them, so that a shell runs only
-/// this command.
+/// Whether a text is one command, and nothing else that a shell would run. The arguments must be quoted as
+/// the functions above quote them.
 bool is_one_command(std::string_view text);
 
 /// The words into which a shell divides a simple command. A blank divides words unless it is in quotes or

@@ -24,7 +24,7 @@ std::string percent(std::uint64_t part, std::uint64_t total);
 /// The number that the whole text represents; nothing if it is not a number.
 std::optional<double> number_in(std::string_view text);
 
-/// A time in ns, rounded to a whole number; "-" if there is none.
+/// A time in ns, rounded to a whole number; "-" if the time is not known.
 std::string whole_ns(const std::optional<double>& ns);
 
 /// A ratio distance / bound with three digits, or with more if a ratio below 1 would be rounded to 1. "below
@@ -46,7 +46,7 @@ std::string counted(std::uint64_t count, std::string_view one, std::string_view 
 
 /// Breaks a text into lines of at most `widest` columns, at blanks where possible. Begins each line after the
 /// first with `indent`, and cuts off what does not fit into `most_lines` lines. The default of `widest`
-/// suits test frameworks, which break longer lines even within code.
+/// suits test frameworks, which break longer lines.
 std::string wrapped(std::string text, std::string_view indent, std::size_t most_lines,
                     std::size_t widest = 79);
 
