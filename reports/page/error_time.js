@@ -173,14 +173,12 @@ function drawErrorTimeOfLadder() {
     const axis = logAxis([...known.map((row) => row[field]), ...bounds]);
     const shown = known.map((row) => ({ ...row, y: axis.at(row[field]), isFront: front.includes(row.subject) }));
     const y = { field: "y", type: "quantitative", title: null, scale: axis.scale, axis: axis.axis };
-    const [lowest, highest] = axis.scale.domain;
-    const part = (value, from, to) => Math.log(value / from) / Math.log(to / from);
     const labels = placedLabels(shown.map((row) => ({ ...row, label: isAlone(row) ? row.algorithm : row.scalar,
       ink: mixed(colorOfAlgorithm(row.algorithm), color("--ink")),
       rank: row.isFront ? 0 : !isEmulated(row) ? 1 : row.isEnd ? 2 : row.isFew ? 3 : Infinity,
-      at: [width * part(row.ns_per_query, shortest, longest), height * (1 - part(row.y, lowest, highest))] })), [width, height])
-      .map(({ place: [px, py], ...row }) => ({ ...row, ns_per_query: shortest * (longest / shortest) ** (px / width),
-        y: lowest * (highest / lowest) ** (1 - py / height) }));
+      at: [width * partOfAxis(row.ns_per_query, [shortest, longest]), height * (1 - partOfAxis(row.y, axis.scale.domain))] })), [width, height])
+      .map(({ place: [px, py], ...row }) => ({ ...row, ns_per_query: atPartOfAxis(px / width, [shortest, longest]),
+        y: atPartOfAxis(1 - py / height, axis.scale.domain) }));
     const text = (ofFront, mark, encoding) => ({ data: { values: labels.filter((row) => row.isFront === ofFront) },
       mark: { type: "text", fontSize: labelSize, fontWeight: ofFront ? "bold" : "normal", ...mark },
       encoding: { x, y, text: { field: "label" }, opacity: opacity(1), ...encoding } });

@@ -118,7 +118,7 @@ function subjectCell({ subject, finding }) {
  * subjects without failures, by their run times, and last the subjects that are asked beyond their contracts.
  */
 function inOrder(verdicts) {
-  const rates = ({ classes }) => ["ordinary", "degenerate", "extreme", "unclassified"].map((name) => -(classes[name]?.false_negative_rate ?? 0));
+  const rates = ({ classes }) => classNames.map((name) => -(classes[name]?.false_negative_rate ?? 0));
   const key = (verdict) => [verdict.beyond_contract ? 2 : verdict.clean ? 1 : 0, ...rates(verdict), -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
   return [...verdicts].sort((a, b) => {
     const [x, y] = [key(a), key(b)];

@@ -17,8 +17,6 @@ namespace nearmiss {
 
 namespace {
 
-using Logs = std::map<CountsKey, double>;
-
 /// A subject's families are compared with each other if there are at least this many pairs of family and
 /// kind.
 constexpr std::size_t fewest_families = 8;

@@ -79,7 +79,6 @@ std::uint64_t sum_of(const std::map<CountsKey, Counts>& counts, const Count& cou
 }  // namespace
 
 std::uint64_t Statistics::false_negatives() const { return sum_of(counts, &Counts::false_negatives); }
-std::uint64_t Statistics::refuted_bounds() const { return sum_of(counts, &Counts::refuted_bounds); }
 std::uint64_t Statistics::faults() const { return sum_of(counts, &Counts::faults_total); }
 
 void Extreme::merge(const Extreme& other) {

@@ -102,7 +102,6 @@ struct Statistics {
   /// The number of a subject's queries, including those without an answer.
   [[nodiscard]] std::uint64_t queries_of(const std::string& subject) const;
   [[nodiscard]] std::uint64_t false_negatives() const;
-  [[nodiscard]] std::uint64_t refuted_bounds() const;
   [[nodiscard]] std::uint64_t faults() const;
 
   bool operator==(const Statistics&) const = default;
