@@ -19,9 +19,9 @@ namespace nearmiss {
 namespace {
 
 /// Starts threads until there are `jobs` threads, including the calling thread, or until the system has none
-/// left. Ends these threads and returns their number. If the system had no thread left, returns half their
-/// number, because other processes may start threads before these threads are needed, and the system counts a
-/// thread for a while after its end.
+/// left. Ends these threads and returns their number. If the system had no thread left, returns half of that
+/// number: other processes may start threads before the caller does, and the system counts a thread for a
+/// while after its end.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;
@@ -39,8 +39,8 @@ int try_threads(int jobs) {
 }
 
 /// The number of threads, at most `jobs`, that TBB can use. TBB ends the program if it cannot start a thread.
-/// Therefore try_threads() first tries every number that is larger than all earlier ones. TBB keeps the
-/// threads that it has started, so smaller numbers need no trial.
+/// Therefore try_threads() first tries every number of threads that is larger than all earlier numbers. TBB
+/// keeps the threads that it has started, so smaller numbers need no trial.
 int usable_threads(int jobs) {
   static std::atomic<int> most = 1;
   if (most < jobs) most = std::max(most.load(), try_threads(jobs));
@@ -58,7 +58,8 @@ void expect_memory_to_start() {
   munmap(some, enough);
 }
 
-/// Runs a parallel algorithm on at most `jobs` threads. Without this, TBB starts at most one thread per core.
+/// Runs a parallel algorithm on at most `jobs` threads. Without `global_control`, TBB would start at most one
+/// thread per core.
 void on_threads(int jobs, const std::function<void()>& algorithm) {
   expect_memory_to_start();
   jobs = usable_threads(jobs);
@@ -67,8 +68,8 @@ void on_threads(int jobs, const std::function<void()>& algorithm) {
   tbb::task_arena(jobs).execute(algorithm);
 }
 
-/// Performs actions on several threads until one throws an exception, which is kept. An exception that left a
-/// pipeline of TBB would leak the items inside the pipeline.
+/// Performs actions on several threads until one of them throws an exception. Keeps this exception. An
+/// exception that left a pipeline of TBB would leak the items inside the pipeline.
 class FirstFailure {
  public:
   template <class Action>
@@ -80,7 +81,7 @@ class FirstFailure {
       if (!has_failed_.exchange(true)) failure_ = std::current_exception();
     }
   }
-  /// Throws the kept exception, if any. Called when all threads have ended.
+  /// Throws the kept exception, if any. Must be called after all threads have ended.
   void pass_on() const {
     if (failure_) std::rethrow_exception(failure_);
   }

@@ -11,15 +11,15 @@
 
 namespace nearmiss {
 
-/// Starts a thread. If the system has no thread left, returns one that is not joinable.
+/// Starts a thread. If the system has no thread left, returns a thread that is not joinable.
 std::thread start_thread(std::function<void()> work);
 
 /// Calls work(0) to work(count - 1) on `jobs` threads, or on as many as the system can start. An exception is
 /// passed on to the caller.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// Calls work(first, last) for consecutive parts [first, last) of [0, count), on all processors. If there are
-/// few items, calls work(0, count) once, on this thread. An exception is passed on to the caller.
+/// Calls work(first, last) for consecutive parts [first, last) of [0, count), on all processors. If `count`
+/// is small, calls work(0, count) once, on this thread. An exception is passed on to the caller.
 template <class PartWork>
 void in_parts(std::size_t count, const PartWork& work) {
   constexpr std::size_t part = 16384;
@@ -37,10 +37,10 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
               const std::function<void(void*)>& take);
 }  // namespace detail
 
-/// A pipeline: next() makes items until it returns nothing, work(item) runs on `jobs` threads, or on as many
-/// as the system can start, and take(item) receives each item after its work. Calls of next() and take()
-/// follow the order of the items, one at a time. At most a few items per thread exist at a time. An exception
-/// is passed on to the caller.
+/// A pipeline. next() makes items until it returns nothing. work(item) runs on `jobs` threads, or on as many
+/// as the system can start. take(item) receives each item after its work. next() and take() are called in the
+/// order of the items, and each of them for one item at a time. At most 16 items per thread exist at the same
+/// time. An exception is passed on to the caller.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

@@ -2,7 +2,7 @@
 // query.
 #pragma once
 
-#define R123_USE_SSE 0  // Philox needs no vectors, whose header takes more than a second to compile
+#define R123_USE_SSE 0  // Philox needs no SSE, whose header takes more than a second to compile
 #include <Random123/philox.h>
 
 #include <array>
@@ -49,7 +49,8 @@ class Random {
   /// A log-uniform number in [lo, hi), for positive lo and hi. The last bit depends on the C library's exp
   /// and log, which differ on processors without fused multiply-add.
   double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
-  /// An integer in [lo, hi]; the bias is below 2^-32 for ranges below 2^32.
+  /// A random integer in [lo, hi]. Each integer has the probability 1 / (hi - lo + 1), up to an error below
+  /// 2^-32.
   int integer(int lo, int hi) {
     const auto range = static_cast<std::uint64_t>(hi - lo) + 1;
     return lo + static_cast<int>(((bits() >> 32) * range) >> 32);

@@ -27,7 +27,7 @@ class Stop {
     return never;
   }
 
-  /// Gives the work this much time from now on. Must be called before other threads ask.
+  /// Makes this Stop due after `time`, counted from now. Must be called before other threads ask.
   void limit(std::chrono::duration<double> time) {
     // A time that is longer than the clock can represent is no limit.
     constexpr std::chrono::hours longest{24 * 365 * 10};
@@ -35,7 +35,7 @@ class Stop {
   }
 
   [[nodiscard]] bool is_requested() const { return requested_; }
-  /// Whether the work must end. `granted` extends the time limit, but not the time after a request.
+  /// Whether the work must end. `granted` extends the time limit; a request counts at once.
   [[nodiscard]] bool is_due(std::chrono::milliseconds granted = {}) const {
     return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + granted);
   }

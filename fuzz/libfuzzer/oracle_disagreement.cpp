@@ -14,7 +14,8 @@ const Target target{};
 
 namespace {
 
-/// Whether the filter agrees with exact arithmetic for every instruction set of this machine.
+/// Whether the filter gives the same stage with all instruction sets of this machine, and does not contradict
+/// the exact answer `collision`.
 bool filter_agrees(const Query& query, bool collision) {
   const std::span<const Query> queries(&query, 1);
   const auto contradicts = [&](FilterStage stage) {
@@ -30,7 +31,7 @@ bool filter_agrees(const Query& query, bool collision) {
   return !contradicts(first) && !contradicts(filter(query));
 }
 
-/// Shows libFuzzer the answers of all methods as numbers; each method has its own range.
+/// Shows libFuzzer the answers of all methods as numbers; each method has a range of numbers of its own.
 void show_all(Kind kind, std::span<const Answer> answers) {
   const auto number = [](std::optional<bool> said) { return said ? (*said ? 2U : 1U) : 0U; };
   std::size_t before = 0;

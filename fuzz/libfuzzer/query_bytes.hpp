@@ -11,13 +11,15 @@
 
 namespace nearmiss::libfuzzer {
 
-/// The size of an input that asks for contact: a byte for the kind, then the 24 coordinates as in memory.
+/// The number of bytes of an input without separation: one byte for the kind, then the 24 coordinates as in
+/// memory.
 inline constexpr std::size_t contact_bytes = 1 + sizeof(Query::x);
 
-/// The size of an input that has a separation h > 0 after the coordinates. No input is larger.
+/// The number of bytes of an input that has a positive separation after the coordinates. No input has more.
 inline constexpr std::size_t query_bytes = contact_bytes + sizeof(Query::separation);
 
-/// The query in an input; nothing if its size is wrong, a number is not finite, or h is negative.
+/// The query in an input; nothing if the input's size is wrong, a number is not finite, or the separation is
+/// negative.
 inline std::optional<Query> from_bytes(const std::uint8_t* data, std::size_t size) {
   if (size != contact_bytes && size != query_bytes) return std::nullopt;
   Query query{.kind = kinds[data[0] % kinds.size()]};
@@ -28,7 +30,7 @@ inline std::optional<Query> from_bytes(const std::uint8_t* data, std::size_t siz
   return is_finite(query) && is_distance ? std::optional(query) : std::nullopt;
 }
 
-/// Writes at most query_bytes bytes. Returns the size of the input.
+/// Writes a query as an input, with at most `query_bytes` bytes, and returns the size of the input.
 inline std::size_t to_bytes(const Query& query, std::uint8_t* data) {
   data[0] = static_cast<std::uint8_t>(query.kind);
   std::memcpy(data + 1, query.x.data(), sizeof query.x);

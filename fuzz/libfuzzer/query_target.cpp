@@ -32,7 +32,7 @@ namespace {
 constexpr std::size_t signals = 8;
 constexpr std::size_t values = 128;
 
-// libFuzzer clears these counters before each run, and treats each counter that is set afterwards as covered.
+// libFuzzer clears these counters before each run, and treats each counter that the run sets as covered code.
 [[gnu::used,
   gnu::section("__libfuzzer_extra_counters")]] std::array<std::uint8_t, signals * kinds.size() * values>
     counters;
@@ -60,7 +60,8 @@ void show(Signal signal, Kind kind, std::size_t value) {
 
 void show_factor(Signal signal, Kind kind, double factor) {
   if (std::isnan(factor)) return;
-  // Each halving of the exponent -log2(factor), from 2^8 down to 2^-10, is divided into four steps.
+  // The exponent -log2(factor) goes from 2^8 down to 2^-10. Each halving of the exponent is divided into four
+  // steps.
   const double exponent = std::clamp(-std::log2(factor), 0x1p-10, 0x1p8);
   show(signal, kind, static_cast<std::size_t>(4 * (std::log2(exponent) + 10)));
 }
@@ -96,8 +97,8 @@ bool keeps_contract_of_subject(const Query& query) {
   return untraced([&] { return keeps_contract(subject().rounded(query), subject().contract()); });
 }
 
-/// The query in an input, without its separation if the target or the subject takes none. Nothing if the
-/// input is not a query that the subject decides.
+/// The query in an input, without its separation if the target or the subject takes none. Returns nothing if
+/// the input is not a query, or not of a kind that the subject decides.
 std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   auto query = from_bytes(data, size);
   if (query && !subject().decides(query->kind)) return std::nullopt;
@@ -105,10 +106,10 @@ std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   return query;
 }
 
-/// The query that is asked, or a default query if the input is not a query.
+/// The query that `asked` returns, or a default query if it returns nothing.
 Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
 
-/// Throws Error if there is no such subject, or if the target cannot test it.
+/// Throws Error if the subject on trial does not exist, or if the target cannot test it.
 void expect_subject() {
   const Subject& on_trial = subject();
   if (target.needs_lower_bounds && !is_lower_bound(on_trial.time_sort()))

@@ -1,5 +1,5 @@
-// Common parts of the libFuzzer targets for queries: mutation, feedback in addition to coverage, and
-// failures.
+// Common parts of the libFuzzer targets for queries: mutation, feedback in addition to coverage, and the
+// report of failures.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace nearmiss::libfuzzer {
 
-/// The needs of a target.
+/// A target's requirements on its subject and its queries.
 struct Target {
-  const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names one
+  const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names another one
   bool needs_lower_bounds = false;  ///< whether the subject must give times that are lower bounds
-  /// Whether queries may have a separation. If not, or if the subject takes none, queries ask for contact.
+  /// Whether queries may have a separation. If the target or the subject takes none, queries ask for contact.
   bool takes_separations = false;
 };
 
-/// The needs of this target. Each target's file defines this variable.
+/// The requirements of this program's target. Each target's file defines this variable.
 extern const Target target;
 
 /// Tests one query. Each target's file defines this function.
@@ -33,21 +33,22 @@ enum class Signal {
   true_stage,    ///< the stage at which the subject decided a query that collides
   false_stage,   ///< the stage at which the subject decided any other query
   margin,        ///< the part of the subject's tolerance that a collision needs
-  distance,      ///< distance of a false positive, divided by the bound
-  agreement,     ///< how many digits a time has in common with the exact earliest time
+  distance,      ///< the distance of a false positive, divided by the bound that the subject claims
+  agreement,     ///< how many digits the subject's time has in common with the exact earliest time
   answers,       ///< the answer of each exact method of the oracle
-  details,       ///< other properties that each method reports
+  details,       ///< what else each exact method reports (`Answer::detail`)
 };
 
-/// Shows libFuzzer a value. Each kind of query has its own values. All values from 127 on count as the same.
+/// Shows libFuzzer a value. Each signal and each kind of query has values of its own, from 0 to 127. Larger
+/// values count as 127.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows libFuzzer how near a factor below 1 is to 1. Steps become finer towards 1, so that every approach
-/// reaches a new step. NaN shows nothing.
+/// Shows libFuzzer how near a factor below 1 is to 1. The steps between factors become finer towards 1, so
+/// that every approach reaches a new step. NaN shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
-/// Writes the finding as a case into the folder NEARMISS_CASES, or the current folder, prints a line, and
-/// aborts.
+/// Writes the query as a case of the failure `what` into the folder that the variable NEARMISS_CASES names,
+/// or into the current folder. Then prints a line, and aborts.
 [[noreturn]] void fail(Finding::What what, const Query& query, double ratio = 0);
 
 }  // namespace nearmiss::libfuzzer

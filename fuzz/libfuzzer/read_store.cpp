@@ -1,6 +1,6 @@
-// libFuzzer target: the reader of stores, *.db, and everything that commands do with an accepted store. The
-// input has a line for each SQL statement that makes the store, because a store whose bytes are changed at
-// random would hardly ever get past its checksums.
+// libFuzzer target: the reader of stores, *.db, and what commands do with a store that it accepts. The input
+// has a line for each SQL statement that makes the store, because a store whose bytes are changed at random
+// would hardly ever get past its checksums.
 #include "reports/store/store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -44,7 +44,7 @@ class Folder {
   fs::path path_;
 };
 
-/// A store in memory, which is being made.
+/// A store that SQL statements make in memory.
 class OpenStore {
  public:
   OpenStore() : db_(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE) {
@@ -155,7 +155,6 @@ void resume(const fs::path& file) {
   store.save(campaign.statistics, campaign.runs.front().shards.front(), campaign.runs.front().findings);
 }
 
-/// Runs a command, which may throw Error.
 template <class Command>
 void run(const Command& command) {
   try {

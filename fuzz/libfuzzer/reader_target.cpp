@@ -34,7 +34,7 @@ void expect_round_trip(const Case& each) {
   const Case again = parse_case(text, "again");
   expect(same_bits(again.query, each.query), "the same query");
   expect(again.truth == each.truth, "the same truth");
-  // Unprintable characters are not written.
+  // to_text does not write unprintable characters.
   expect(printable(again.why) == printable(each.why) && to_text(again) == to_text(each), "the same reason");
   expect(again.provenance == printable(each.provenance), "the same provenance");
   expect(same_bits(parse_line(each.query.kind, to_line(each.query), "again"), each.query), "the same line");

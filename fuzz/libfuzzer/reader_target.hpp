@@ -1,5 +1,5 @@
-// Common parts of the libFuzzer targets for readers. A reader must accept a file or throw Error, and writing
-// and reading again must not change an accepted file's content.
+// Common parts of the libFuzzer targets for readers. A reader must accept a file or throw Error. Cases,
+// queries and campaigns that it accepts must stay the same when they are written and read again.
 #pragma once
 
 #include <iosfwd>
@@ -9,7 +9,7 @@
 
 namespace nearmiss::libfuzzer {
 
-/// Reads a whole file. Each target's file defines this function.
+/// Passes a whole file to the reader that the target tests. Each target's file defines this function.
 void read(std::istream& in);
 
 /// Aborts with a line on stderr if the condition does not hold.

@@ -1,5 +1,6 @@
-// Writes the inputs that libFuzzer starts from. `fuzz_seeds FOLDER CASES...` makes FOLDER/TARGET/... for
-// every target, from the cases in the given files and folders and from some queries of each family.
+// Writes the inputs that libFuzzer starts from. `fuzz_seeds FOLDER CASES...` writes the inputs of each target
+// into FOLDER/TARGET. They come from the cases in the files and folders CASES, and from some queries of each
+// family.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmpxx.h>
@@ -44,7 +45,7 @@ std::vector<Case> cases_of(std::span<const Family> families) {
   return cases;
 }
 
-/// The cases in the folders, and queries of the families that ask for contact and of vertex_families().
+/// The cases in the folders, and some queries of families() and vertex_families().
 std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
   std::vector<Case> cases = cases_of(families());
   for (Case& each : cases_of(vertex_families())) cases.push_back(std::move(each));
@@ -79,7 +80,7 @@ std::string obj(const Query& query) {
   return text + "vn 0 0 1\nvt 0 0\nf 1 2 3\nf 5/1 6/1 7/1 8/1\nf -8//1 -7//1 -6//1\nf 1/1/1 2/1/1 5/1/1\n";
 }
 
-/// A PLY file of two triangles, with `numbers` as its text or bytes.
+/// A PLY file of two triangles. `numbers` has the text or the bytes after the header.
 std::string ply(const std::string& encoding, const std::string& numbers) {
   return "ply\nformat " + encoding +
          " 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\nelement face 2\n"
@@ -173,7 +174,8 @@ Campaign campaign() {
   return campaign;
 }
 
-/// The SQL statements that make a store, one per line, without the checksums.
+/// The SQL statements, one per line, that make the store of a campaign, with 0 for each checksum. Writes this
+/// store to `file`, and removes it again.
 std::string statements_of(const Campaign& campaign, const fs::path& file) {
   fs::remove(file);
   write_campaign(campaign, file);
@@ -214,7 +216,7 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     write("read_store", name + ".sql", statements_of(each, folder / "store.db"));
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
-  constexpr std::size_t one_in_with_meshes = 10;  // fewer meshes, since their files have equal parts
+  constexpr std::size_t one_in_with_meshes = 10;  // few meshes, since mesh files have equal parts
   for (std::size_t number = 0; const Case& each : make_cases(cases)) {
     for (const char* target : {"false_negative", "late", "refuted_bound", "oracle_disagreement"})
       write(target, each.name, bytes(each.query));

@@ -9,7 +9,6 @@
 
 namespace nearmiss::libfuzzer {
 
-/// A target, and the failures that it finds.
 struct PromiseTarget {
   std::string_view name;
   Finding::What finds;

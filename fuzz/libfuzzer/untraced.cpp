@@ -1,11 +1,11 @@
 // This file is compiled without coverage. With coverage, the compiler itself would declare the two names
-// below, and these declarations would conflict with the compiler's. If no file of the program has coverage,
-// the names are undefined, and their addresses are null.
+// below, in conflict with their declarations here. If no file of the program has coverage, the names are
+// undefined, and their addresses are null.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>
 
-// The linker's names for the ends of the section with the coverage counters.
+// The linker's names for the start and the end of the section with the coverage counters.
 extern "C" [[gnu::weak]] std::uint8_t __start___sancov_cntrs[], __stop___sancov_cntrs[];
 
 namespace nearmiss::libfuzzer {

@@ -6,7 +6,7 @@
 
 namespace nearmiss::libfuzzer {
 
-/// Calls during the lifetime of an object leave no trace in the coverage that libFuzzer sees.
+/// While an object of this class exists, calls leave no trace in the coverage that libFuzzer sees.
 class Untraced {
  public:
   Untraced();
@@ -18,9 +18,9 @@ class Untraced {
   std::vector<std::uint8_t> counters_;
 };
 
-/// Calls `ask` without a trace; use it for the oracle and all other code that is not on trial. Exact
-/// arithmetic has many branches. Without this function, libFuzzer would follow them instead of the subject's
-/// branches, and take several times longer.
+/// Calls `ask`, and hides the coverage of this call from libFuzzer. Used for the oracle and all other code
+/// that is not on trial. Exact arithmetic has many branches; libFuzzer would follow these instead of the
+/// subject's branches, and take several times longer.
 template <class Ask>
 auto untraced(const Ask& ask) {
   const Untraced guard;

@@ -9,22 +9,23 @@
 
 namespace nearmiss {
 
-/// The ending of a file in lower case, if read_mesh knows this ending (.obj, .off, .ply, .stl); else nothing.
+/// The ending of a file in lower case, if read_mesh knows this ending (.obj, .off, .ply, .stl); else an empty
+/// string.
 std::string mesh_ending(const std::filesystem::path& file);
 
 /// Reads a mesh file; its ending, in upper or lower case, gives the format. Throws Error as the reader of the
 /// format does, and if the file cannot be read, has more than 1 GiB, or has an unknown ending.
 ///
-/// In all formats, a byte order mark before text is skipped, polygons become fans of triangles, and the rest
-/// is kept as it is. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no
+/// In all formats, a byte order mark before text is skipped, and polygons become fans of triangles. A mesh is
+/// not repaired. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no
 /// primitive. A set of points without primitives is a mesh, too.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// Reads the vertices, faces and polylines of an OBJ file, and skips everything else that the format has. A
-/// line that ends in a backslash continues in the next line; a comment ends with its line. The text is the
-/// whole file, and messages call the file `name`. Throws Error, with file and line, for a number that is not
-/// finite, a primitive with too few vertices or with a vertex that does not exist, and a line that is not in
-/// the format. Throws Error for a file without a point.
+/// line that ends in a backslash continues in the next line, unless the backslash is in a comment. `text` is
+/// the whole file, and messages call the file `name`. Throws Error, with file and line, for a number that is
+/// not finite, a primitive with too few vertices or with a vertex that does not exist, and a line that is not
+/// in the format. Throws Error for a file without a point.
 Mesh parse_obj(std::string_view text, const std::string& name);
 
 /// Reads an OFF text file with a vertex or a face on each line. Comments, normals, colours and textures are

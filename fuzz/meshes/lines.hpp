@@ -1,4 +1,4 @@
-// Text formats, line by line and word by word.
+// Reads a text line by line and word by word.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace nearmiss {
 /// order mark at the beginning is skipped. The text must outlive this object.
 class Lines {
  public:
-  enum class Comments { none, hash };  ///< hash: from '#' to the end of the line
+  enum class Comments { none, hash };  ///< hash: a comment goes from '#' to the end of the line
   /// backslash: a line that ends in '\' continues in the next line, unless the '\' is in a comment.
   enum class Continuation { none, backslash };
 
@@ -30,7 +30,7 @@ class Lines {
   /// The next word of this line, or the first word of the next line; empty at the end of the text.
   std::string_view next_word();
 
-  /// Makes next_word go on after this line.
+  /// Makes next_word() continue with the next line.
   void skip_line() { read_ = words_.size(); }
 
   /// The text after this line.
@@ -61,7 +61,7 @@ class Lines {
   std::size_t read_ = 0;  ///< number of words that next_word has returned
 };
 
-/// Parses a word as a decimal number. Throws Error if the word is not a finite decimal number.
+/// Throws Error if the word is not a finite decimal number.
 double parse_decimal(std::string_view word, const Lines& lines);
 
 std::string lower_case(std::string_view word);

@@ -56,8 +56,8 @@ void expect_same_primitives(const Mesh& first, const std::string& first_name, co
 }
 
 Bodies bodies(const Mesh& mesh) {
-  // parent[i] is a point of the same body with a smaller number, or i itself: the chain of parents ends at
-  // the smallest number.
+  // parent[i] is i itself, or a point with a smaller number that belongs to the same body as i. The chain of
+  // parents ends at the smallest number found so far in the body.
   std::vector<int> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto at = [&](int point) -> int& { return parent[static_cast<std::size_t>(point)]; };

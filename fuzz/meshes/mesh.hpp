@@ -38,7 +38,7 @@ struct Bodies {
 };
 
 /// The bodies of a mesh. Points that a triangle or a line joins belong to the same body, and a point in no
-/// primitive is a body.
+/// primitive is a body of its own.
 Bodies bodies(const Mesh& mesh);
 
 /// A mesh whose points move linearly.
@@ -47,7 +47,7 @@ struct MovingMesh {
   std::vector<std::array<int, 3>> triangles;
   /// Each edge of the triangles and lines once, in ascending order; the smaller index of an edge comes first.
   std::vector<std::array<int, 2>> edges;
-  double separation = 0;  ///< of the queries of all pairs
+  double separation = 0;  ///< the separation h in the queries of all pairs
 };
 
 /// Makes a moving mesh; `mesh` is the mesh at the start, `end` has the points at the end.

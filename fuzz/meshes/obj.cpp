@@ -21,7 +21,7 @@ struct FaceOrPolyline {
 
 std::string_view name_of(bool is_face) { return is_face ? "face" : "polyline"; }
 
-/// The number of a vertex as written in the file: "v", "v/vt", "v//vn" or "v/vt/vn".
+/// The number of a vertex, as the file has it: v in "v", "v/vt", "v//vn" or "v/vt/vn".
 long parse_vertex(std::string_view word, bool is_face, const Lines& lines) {
   const auto vertex = parse_integer<long>(word.substr(0, word.find('/')));
   if (!vertex)
@@ -36,8 +36,8 @@ Vector3<double> coordinates(const Lines& lines) {
   return {parse_number(words[1], where), parse_number(words[2], where), parse_number(words[3], where)};
 }
 
-/// Adds the vertices of a face or polyline to a list, numbered from 0. `points` is the number of points
-/// defined before.
+/// Adds the vertices of a face or polyline to a list, numbered from 0. `points` is the number of points that
+/// are defined before this line.
 void add_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
   const auto& words = lines.words();
   const std::size_t least = is_face ? 3 : 2;

@@ -17,7 +17,8 @@ using Words = std::span<const std::string_view>;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
-/// Parses the number of vertices, faces or edges, or the index of a vertex: from 0 to `largest`.
+/// Parses a number of vertices, faces or edges, or the index of a vertex. Throws Error unless the result is
+/// from 0 to `largest`.
 int parse_count(std::string_view word, int largest, std::string_view what, const Lines& lines) {
   const auto count = parse_integer<int>(word);
   if (!count || *count < 0 || *count > largest)
@@ -52,7 +53,7 @@ MeshSize read_size(Lines& lines, std::string_view name) {
   return {vertices, parse_count(counts[1], largest_int, "a number of faces", lines)};
 }
 
-/// The next line of a vertex or face.
+/// The words of the next line, which has the vertex or face `index` of `count`.
 Words next_line(Lines& lines, std::string_view what, int index, int count) {
   if (!lines.next())
     throw lines.error("the end of the file", fmt::format("{} {} of {}", what, index + 1, count));

@@ -158,8 +158,8 @@ struct MeshProperties {
   const Property* face_vertices;               ///< list of the vertices of a face; null if there is no face
 };
 
-/// Finds these properties. Throws Error if one is missing, occurs twice or has a type that parse_ply does not
-/// accept, and for elements with primitives that parse_ply cannot read.
+/// Throws Error if a property is missing, occurs twice or has a type that parse_ply does not accept, or if
+/// the header has an element with primitives that parse_ply cannot read.
 MeshProperties mesh_properties(const Header& header, std::string_view name) {
   const Element* const vertex = find(header.elements, "vertex", name);
   if (!vertex) throw Error(fmt::format("{}: found no element vertex, expected one", name));
@@ -192,7 +192,7 @@ class TextNumbers {
     return type.bytes == sizeof(float) ? parse_float(word, lines_.where()) : value;
   }
 
-  /// Skips numbers of this type; false at the end of the file.
+  /// Skips `count` numbers of this type. Returns false if the file has fewer.
   bool skip(const NumberType& type, std::uint64_t count) {
     for (; count > 0; --count)
       if (!next(type)) return false;
@@ -235,7 +235,7 @@ class BinaryNumbers {
     return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
   }
 
-  /// Skips numbers of this type; false at the end of the file.
+  /// Skips `count` numbers of this type. Returns false if the file has fewer.
   bool skip(const NumberType& type, std::uint64_t count) {
     if (count > bytes_.size() / type.bytes) return false;
     bytes_.remove_prefix(count * type.bytes);
@@ -249,7 +249,7 @@ class BinaryNumbers {
   }
 
  private:
-  /// The two's complement value of an unsigned integer with the same bits.
+  /// The number whose bits, in two's complement, are those of the unsigned integer `value`.
   static long signed_value(long value, const NumberType& type) {
     return value <= type.largest ? value : value + 2 * type.smallest;
   }
@@ -302,7 +302,7 @@ Mesh to_mesh(PolygonSoup soup, std::string_view name) {
   return mesh;
 }
 
-/// Reads the items of all elements, and keeps those that a mesh needs.
+/// Reads the items of all elements, and keeps the points and polygons.
 template <class Numbers>
 class ItemReader {
  public:
@@ -333,7 +333,7 @@ class ItemReader {
     if (&element == wanted_.vertex) soup_.points.push_back(point_);
   }
 
-  /// Reads the numbers of one property; false at the end of the file.
+  /// Reads the numbers of one property of an item. Returns false if the file has fewer.
   bool read_numbers(const Property& property, std::uint64_t count) {
     if (&property == wanted_.face_vertices) return read_face_vertices(*property.type, count);
     for (std::size_t i = 0; i < 3; ++i)

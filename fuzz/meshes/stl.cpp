@@ -54,7 +54,7 @@ double read_coordinate(Lines& lines) {
   return parse_decimal(word, lines);
 }
 
-/// Reads a facet after the word "facet". The normal may be any words, because exporters write nan for a
+/// Reads a facet after the word "facet". The normal may be any three words, because exporters write nan for a
 /// degenerate facet.
 std::array<TriangleSoup::Corner, 3> read_facet(Lines& lines) {
   expect_words(lines, {"normal"});
@@ -87,7 +87,7 @@ Mesh parse_text(std::string_view text, std::string_view name) {
 constexpr std::size_t header_bytes = 80;
 constexpr std::size_t facet_bytes = 50;  ///< normal and three vertices of three floats each, and two bytes
 
-/// The size that the header of a binary file promises.
+/// The size that a binary file has according to its header.
 std::size_t promised_size(std::string_view bytes) {
   std::uint32_t facets = 0;
   if (bytes.size() < header_bytes + sizeof facets) return header_bytes + sizeof facets;

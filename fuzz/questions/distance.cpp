@@ -32,7 +32,7 @@ namespace {
 /// The largest side of the box around both primitives, at most the largest double.
 double size_of(const Query& query) { return std::min(extent(query), std::numeric_limits<double>::max()); }
 
-/// The tolerated error of an answer at a distance.
+/// The error that the judge tolerates at this distance and size.
 double tolerance(double distance, double size) {
   return std::max(DistanceError::part_of_distance * distance, DistanceError::part_of_size * size);
 }
@@ -60,7 +60,8 @@ bool are_farther(const Query& query, std::span<const double> weights, double mos
   return exact::sign(squared - Number(most) * Number(most)) > 0;
 }
 
-/// Whether weights that a subject gives are wrong. `most` is the largest distance that their points may have.
+/// Whether weights that a subject gives are wrong. `most` is the largest distance that the points with these
+/// weights may have.
 bool are_wrong(const Query& query, const std::array<double, 4>& all, double most) {
   constexpr double tiny = 1e-6;
   const std::span weights(all.data(), static_cast<std::size_t>(vertices(query.kind)));
@@ -83,7 +84,7 @@ double DistanceError::over_by_size() const { return std::min(quotient(over, size
 double DistanceError::under_by_size() const { return std::min(quotient(under, size), 1.0); }
 
 double over_limit(const Query& query, double distance) {
-  // nextafter, because subtracting 1 % does not change the smallest doubles.
+  // nextafter, because dividing by 1.01 does not change the smallest doubles.
   return std::min({distance / (1 + DistanceError::part_of_distance),
                    distance - DistanceError::part_of_size * size_of(query), std::nextafter(distance, 0)});
 }

@@ -28,7 +28,7 @@ Query at_rest(const Query& query);
 struct DistanceError {
   /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A careful
   /// function stays within this tolerance, as long as its products neither overflow nor vanish. Conservative
-  /// advancement is still safe with such errors, because it keeps a part of the distance as its margin.
+  /// advancement is still safe with such errors, because it keeps a part of the distance as a margin.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
 
   Enclosure exact;   ///< contains d; its relative width is below 2^-44, or as small as doubles allow
@@ -40,10 +40,10 @@ struct DistanceError {
   /// The weights do not add up to 1, are negative, or give points that are too far apart.
   bool wrong_weights = false;
 
-  /// The errors divided by d; an error other than 0 becomes infinite if the primitives touch.
+  /// `over` and `under`, divided by d. An error other than 0 becomes infinite if the primitives touch.
   [[nodiscard]] double over_by_distance() const;
   [[nodiscard]] double under_by_distance() const;
-  /// The errors divided by the size, at most 1; 0 for an error of 0.
+  /// `over` and `under`, divided by the size; at most 1, and 0 for an error of 0.
   [[nodiscard]] double over_by_size() const;
   [[nodiscard]] double under_by_size() const;
 };
@@ -51,15 +51,15 @@ struct DistanceError {
 /// Judges an answer without a fault. The query must be at rest, and rounded as the subject rounds it.
 DistanceError error_of(const Query& query, const DistanceAnswer& answer);
 
-/// A distance minus the error that the judge tolerates, rounded; may be negative. The distance is
-/// over-reported if the result is positive and at least d, which is decided exactly.
+/// A distance minus the error that the judge tolerates. The result is rounded, and may be negative. The
+/// distance is over-reported if the result is positive and at least d; this comparison is exact.
 double over_limit(const Query& query, double distance);
 
-/// DistanceError::over_reported of a query and an answer, in less time than error_of(). The query must be at
+/// DistanceError::over_reported for the answer `distance`, in less time than error_of(). The query must be at
 /// rest, and rounded as the subject rounds it.
 bool is_over_reported(const Query& query, double distance);
 
-/// For QuestionTrial: the question how far apart primitives are.
+/// The parameter of QuestionTrial for the question how far apart primitives are.
 struct DistanceQuestion {
   struct Judged {
     Query query;  ///< at rest, as the subject rounds it
@@ -84,8 +84,8 @@ struct DistanceQuestion {
     QueryClassCounts over_by_class{};     ///< over-reported distances by the class of the query
     QueryClassCounts under_by_class{};    ///< under-reported distances
     QueryClassCounts weights_by_class{};  ///< wrong weights
-    Histogram over_by_size, over_by_distance, under_by_size, under_by_distance;  ///< of all errors except 0
-    std::vector<FarCase> largest_over, largest_under;                            ///< by size
+    Histogram over_by_size, over_by_distance, under_by_size, under_by_distance;  ///< all errors but 0
+    std::vector<FarCase> largest_over, largest_under;                            ///< divided by the size
 
     static constexpr auto counters() {
       return std::tuple{Counter{"queries", &Counts::queries},
@@ -108,9 +108,10 @@ struct DistanceQuestion {
 
   static bool is_answered(const Subject& subject, Kind kind) { return subject.gives_distance(kind); }
   /// Asks about the primitives at the start of a query. Returns nothing if the query breaks the subject's
-  /// contract.
+  /// contract, or the subject is not asked any more.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
-  /// The closest features, such as "ee edge-edge" or "ee touching"; if the subject failed, its fault.
+  /// The closest features, such as "ee edge-edge" or "ee touching"; if the subject gave no answer, the sort
+  /// of fault.
   static std::string signature(const Subject& subject, const Judged& judged);
   /// The families "search-over-NAME" and "v-search-over-NAME": each query has the largest over_by_size() that
   /// a search found. A fault ends a search. Making a query throws Stopped when `stop` is due. The subject and

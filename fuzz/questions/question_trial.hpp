@@ -40,20 +40,20 @@ struct QuestionFinding {
   QueryClass query_class{};
   std::string provenance;        ///< "family:seed:index" of the query before shrinking
   Query query;                   ///< shrunk, and as the subject rounds it
-  std::string answer;            ///< the subject's numbers, exactly
+  std::string answer;            ///< the numbers that the subject gave, exactly
   std::string text;              ///< what is wrong, in words
   std::string certificate = {};  ///< proves the failure; "" for a fault or wrong weights
 };
 
-/// The results of a trial. `Question`, DistanceQuestion or StepQuestion, defines what is asked, and how it is
-/// judged and counted.
+/// The results of a trial. `Question` is DistanceQuestion or StepQuestion: it defines what is asked, and how
+/// answers are judged and counted.
 template <class Question>
 struct QuestionResults {
-  std::map<std::pair<std::string, Kind>, typename Question::Counts> counts;  ///< by subject
-  /// Answers by factors such as the angle. Every answer counts as a collision; an unsafe answer counts as a
-  /// missed collision.
+  std::map<std::pair<std::string, Kind>, typename Question::Counts> counts;  ///< by subject and kind
+  /// Answers by factors such as the angle. In this table, every answer counts as a collision, and an unsafe
+  /// answer as a missed collision.
   FactorTable factors;
-  std::vector<QuestionFinding> findings;  ///< one of each signature and class, ordinary ones first
+  std::vector<QuestionFinding> findings;  ///< one of each kind (see take()), ordinary ones first
 
   void merge(QuestionResults&& other) {
     for (const auto& [key, each] : other.counts) counts[key].merge(each);
@@ -71,16 +71,16 @@ struct QuestionPlan {
   std::vector<Family> families = {};
   std::set<Kind> kinds = {};
   bool search = true;       ///< whether to add directed search against each subject
-  std::uint64_t cases = 0;  ///< approximate number of queries; 0: until the stop
+  std::uint64_t cases = 0;  ///< approximate number of queries; 0: no limit
   std::uint64_t seed = 1;
   int jobs = 1;
 };
 
-/// The time after the limit in which findings may be shrunk.
+/// The time after the time limit in which findings may be shrunk.
 inline constexpr std::chrono::seconds question_grace(5);
 
-/// Puts subjects on trial: asks about all families in turn, round by round, and shrinks the findings at the
-/// end.
+/// Puts subjects on trial: in each round, asks them about some queries of every family. Shrinks the findings
+/// at the end.
 template <class Question>
 class QuestionTrial {
  public:
@@ -115,7 +115,7 @@ class QuestionTrial {
  private:
   static constexpr std::uint64_t one_in_asked_twice = 256;
 
-  /// A family; for directed search, also the only subject that is asked.
+  /// A family, and the only subject that is asked about its queries; null if all subjects are asked.
   struct Source {
     Family family;
     const Subject* only;
@@ -144,7 +144,7 @@ class QuestionTrial {
                                [&](const auto& subject) { return can_ask(source, *subject, kind); });
   }
 
-  /// The next piece of work: each family in turn, round by round.
+  /// The next piece of work: a block of the next family. After the last family, a new round begins.
   std::optional<Work> next() {
     for (std::size_t passed = 0; passed <= sources_.size(); ++passed) {
       if (stop_.is_due() || (plan_.cases != 0 && planned_ >= plan_.cases)) return std::nullopt;
@@ -156,7 +156,7 @@ class QuestionTrial {
       const auto of_kinds = static_cast<std::uint64_t>(
           std::ranges::count_if(source.family.kinds, [&](Kind kind) { return can_ask(source, kind); }));
       if (of_kinds == 0) continue;
-      // Each of a family's two kinds has half of its queries.
+      // A family has two kinds of queries, and each kind has half of the block.
       const std::uint64_t block = source.only != nullptr ? 2 : 4 * source.family.block_cases;
       const std::uint64_t first = block * round_;
       planned_ += of_kinds * block / 2;
@@ -179,11 +179,11 @@ class QuestionTrial {
         for (const auto& subject : subjects_)
           if (can_ask(*work.source, *subject, kind)) count(*subject, query, index, factors, work);
       }
-    } catch (const Stopped&) {  // answers so far count
+    } catch (const Stopped&) {  // the answers before the stop count
     }
   }
 
-  /// Asks a question again. If the answer differs, turns it into a fault.
+  /// Asks again about a query. If the second answer differs, replaces the first one by a fault.
   static void expect_the_same(const Subject& subject, const Query& query, Judged& judged) {
     const std::optional<Judged> again = Question::ask(subject, query);
     if (!again || again->answer_text() != judged.answer_text())
@@ -216,7 +216,7 @@ class QuestionTrial {
     work.results.findings.push_back(std::move(finding));
   }
 
-  /// Adds results, but keeps only the first finding of each way to fail in each class.
+  /// Adds results, but only the first finding of each failure, subject, signature and class.
   void take(Results&& results) {
     for (const auto& [key, each] : results.counts) asked_ += each.queries;
     std::erase_if(results.findings, [&](const QuestionFinding& each) {
@@ -266,9 +266,10 @@ class QuestionTrial {
   Results results_;
 };
 
-/// The sum over all classes.
+/// The sum of the counts of all classes.
 std::uint64_t sum(const QueryClassCounts& counts);
-/// The sum over all classes except extreme, whose failures are shown but do not set the exit code.
+/// The sum of the counts of all classes except extreme, whose failures are shown but do not set the exit
+/// code.
 std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 
 /// A directed search as two families: NAME for vt and ee queries, v-NAME for vv and ve queries. Each block
@@ -279,8 +280,8 @@ std::vector<Family> search_families(std::string name, std::string about,
 /// The families among which a user can choose: with `at_rest`, first the families at rest; then those of
 /// campaigns.
 std::vector<Family> families_of_questions(bool at_rest);
-/// The families that are asked by default: families_of_questions() without the extreme ones, in which a plain
-/// function overflows.
+/// The families that are asked by default: families_of_questions() without the extreme families, in which
+/// even careful functions overflow.
 std::vector<Family> usual_families_of_questions(bool at_rest);
 
 }  // namespace nearmiss

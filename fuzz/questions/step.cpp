@@ -20,7 +20,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The query whose vertices move to the positions y.
+/// The query with the positions y at t = 1.
 Query to_positions(const Query& query, const std::array<double, 12>& y) {
   Query step = query;
   std::copy_n(y.begin(), 3 * vertices(query.kind), step.x.begin() + 12);
@@ -28,8 +28,8 @@ Query to_positions(const Query& query, const std::array<double, 12>& y) {
   return step;
 }
 
-/// The part of the motion of `whole` that the motion of `step` covers, rounded. Motions are first divided by
-/// the largest component, so that nothing overflows or vanishes.
+/// The part of the motion of `whole` that the motion of `step` covers, rounded. Both motions are first
+/// divided by the largest component of the motion of `whole`, so that nothing overflows or vanishes.
 double part_of(const Query& step, const Query& whole) {
   double largest = 0;
   const auto motion = [](const Query& query, std::size_t i) { return query.x[12 + i] / 2 - query.x[i] / 2; };

@@ -1,4 +1,4 @@
-// The question which part of a step is safe. Filters of steps answer it; this file says how they are judged.
+// The question which part of a step is safe. Filters of steps answer it. StepQuestion judges their answers.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace nearmiss {
 
-/// For QuestionTrial: the question which part of a step is safe. Only primitives that are apart at t = 0 are
-/// asked about.
+/// The parameter of QuestionTrial for the question which part of a step is safe. Only primitives that are
+/// apart at t = 0 are asked about.
 struct StepQuestion {
   struct Judged {
     Query query;  ///< without a separation, as the subject rounds it
@@ -30,10 +30,11 @@ struct StepQuestion {
     /// Whether, in the filtered step, the primitives come nearer than the clearance, or touch if the
     /// clearance is 0.
     bool touches = false;
-    /// The part of the safe motion that the filter keeps, from 0 to 1, rounded: the part of the original step
-    /// that the filtered step covers, divided by the earliest time of contact (by 1 if there is no contact).
+    /// The part of the safe motion that the filter keeps, from 0 to 1, rounded. It is the part of the
+    /// original step that the filtered step covers, divided by the earliest time of contact, or by 1 if there
+    /// is no contact.
     double kept = 0;
-    bool cuts_free = false;  ///< the filter changes the original step although it has no contact
+    bool cuts_free = false;  ///< the filter changes the original step, although that step has no contact
     bool objects = false;    ///< the subject would change the filtered step again
 
     /// "unsafe" or "fault"
@@ -49,13 +50,13 @@ struct StepQuestion {
   };
 
   struct Counts {
-    std::uint64_t queries = 0;           ///< steps to filter, within the subject's contract
+    std::uint64_t queries = 0;           ///< steps asked about, within the subject's contract
     QueryClassCounts faults_by_class{};  ///< steps without an answer
     QueryClassCounts unsafe_by_class{};  ///< unsafe filtered steps
-    std::uint64_t cut_free = 0;          ///< Judged::cuts_free
-    std::uint64_t objects = 0;           ///< Judged::objects
-    Histogram kept;                      ///< Judged::kept
-    std::vector<FarCase> least_kept;     ///< by 1 - kept
+    std::uint64_t cut_free = 0;          ///< steps with Judged::cuts_free
+    std::uint64_t objects = 0;           ///< steps with Judged::objects
+    Histogram kept;                      ///< Judged::kept of all answers
+    std::vector<FarCase> least_kept;     ///< with 1 - kept as their value
 
     static constexpr auto counters() {
       return std::tuple{Counter{"queries", &Counts::queries},
@@ -73,12 +74,12 @@ struct StepQuestion {
   };
 
   static bool is_answered(const Subject& subject, Kind kind) { return subject.filters_step(kind); }
-  /// Asks about a query's step. Returns nothing if the primitives touch at t = 0, or the query breaks the
-  /// subject's contract.
+  /// Asks about a query's step. Returns nothing if the primitives touch at t = 0, the query breaks the
+  /// subject's contract, or the subject is not asked any more.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
   /// If the filtered step makes contact, the features of the first contact. If the primitives only come
-  /// nearer than the clearance, the features with which they first reach it. If the subject failed, its
-  /// fault.
+  /// nearer than the clearance, the features that first reach the clearance. If the subject gave no answer,
+  /// the sort of fault.
   static std::string signature(const Subject& subject, const Judged& judged);
   /// The families "search-step-NAME" and "v-search-step-NAME": each query is the result of a search for the
   /// filtered step that comes nearest to contact, or to the clearance, relative to the size of the

@@ -12,7 +12,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Passes on pairs of primitives, and counts those that have a common vertex.
+/// Passes on pairs of primitives without a common vertex, and counts the other pairs.
 template <class Sink>
 class CandidatePasser {
  public:
@@ -58,7 +58,8 @@ class CandidatePasser {
 
 // --- by a hierarchy of boxes ----------------------------------------------------------------------------
 
-/// Consecutive rows (candidates.hpp) that are near each other, and the partners near them.
+/// The primitives of consecutive rows (pair_rows), which are near each other, and their partners: the
+/// triangles or edges near these primitives.
 class Block {
  public:
   /// Begins the block with row `first`. The block ends before row `end`, after 16 rows, or before the box
@@ -78,7 +79,8 @@ class Block {
     return first_ + rows_.size();
   }
 
-  /// Collects the partners near the block, in the order of their numbers.
+  /// Collects the partners near the block that have the number `least` or a larger one, in the order of the
+  /// numbers.
   void collect(const CellTree& tree, const PrimitiveBoxes& partners, std::int32_t least) {
     numbers_.clear();
     tree.find(bounds_, least, [&](std::int32_t number) { numbers_.push_back(number); });
@@ -90,7 +92,7 @@ class Block {
   }
 
   /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
-  /// With `after`, calls it only for partners with a larger number than the row.
+  /// With `after`, only calls pass() for partners with a larger number than the row.
   template <class Pass>
   void compare(bool after, const Pass& pass) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -113,8 +115,8 @@ class Block {
   std::vector<CellBoxGroup> near_;
 };
 
-// The largest size of a block, in typical groups. Larger blocks cost more comparisons, smaller blocks more
-// searches of the tree.
+// The largest size of a block, as a multiple of CellTree::typical_group(). Larger blocks cost more
+// comparisons, smaller blocks more searches of the tree.
 constexpr std::int64_t block_groups = 2;
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace nearmiss {
 
-/// Four vertices of a mesh, in the order of a Query.
+/// A pair of primitives of a mesh: its four vertices, in the order of Query::x.
 struct Candidate {
   Kind kind{};
   std::array<int, 4> vertices{};
@@ -29,19 +29,17 @@ struct ReportedPair {
   double time;  ///< of impact, in [0, 1]; NaN if the subject gives none
 };
 
-/// The query of a candidate.
 Query make_query(const MovingMesh& mesh, const Candidate& candidate);
 
 /// Takes a pair of primitives without a common vertex.
 using CandidateSink = std::function<void(const Candidate&)>;
 
-/// Returns whether to end early.
+/// Returns whether the work must end early.
 using IsOver = std::function<bool()>;
 
-/// For work that never ends early.
 inline const IsOver never_over = [] { return false; };
 
-/// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
+/// Finds those pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
 /// axis (oracle/filter/box.hpp). Boxes that only touch also meet. Pairs come in the order of rows (pair_rows
 /// below). Within a row, they come in the order of the second primitive: a triangle, or an edge after the
 /// row's edge. A part consists of consecutive rows; the division into parts depends only on the number of
@@ -66,14 +64,14 @@ class CandidateFinder {
 
  private:
   [[nodiscard]] std::size_t rows_of_part() const;
-  /// The boxes of the rows' primitives.
+  /// The box of each row's vertex or edge.
   [[nodiscard]] PrimitiveBoxes rows() const;
   [[nodiscard]] PrimitiveBoxes partners() const;
 
   const MovingMesh* mesh_;
   Kind kind_;
   std::vector<CellBox> vertices_;
-  CellTree tree_;  ///< finds partners
+  CellTree tree_;  ///< finds the second primitives of pairs
   std::int64_t block_size_;
 };
 

@@ -40,7 +40,7 @@ class Grid {
     centre_ = lo_ / 2 + hi_ / 2;
     const double half = (hi_ / 2 - lo_ / 2).maxCoeff();
     constexpr double cells = 1 << 30;
-    // The cells of a mesh smaller than about 1e-299 are as large as possible without overflow.
+    // For a mesh smaller than about 1e-299, the cells are as small as possible without overflow.
     if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
   }
 
@@ -59,7 +59,7 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // boxes_meet() rounds. Even so, twice this margin exceeds every distance that it accepts.
+  // boxes_meet() rounds. Even so, twice this margin exceeds every distance that boxes_meet() accepts.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;

@@ -32,7 +32,7 @@ struct CellBox {
       hi[k] = std::max(hi[k], other.hi[k]);
     }
   }
-  /// The sum of the lengths along the three axes.
+  /// The sum of the box's lengths along the three axes.
   [[nodiscard]] std::int64_t size() const {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < 3; ++k) sum += std::int64_t{hi[k]} - lo[k];
@@ -42,14 +42,14 @@ struct CellBox {
   bool operator==(const CellBox&) const = default;
 };
 
-/// The boxes that the vertices of a mesh sweep, each moved outward by half of the mesh's separation, in
-/// cells. If the swept boxes of two primitives pass the test of boxes_meet (oracle/filter/box.hpp), the boxes
-/// around the cells of their vertices meet. The converse is nearly true, since a cell is 2^-31 of the mesh's
-/// largest extent.
+/// The boxes that the vertices of a mesh sweep, in cells. Each box is enlarged on all sides by half of the
+/// mesh's separation. If the swept boxes of two primitives pass the test of boxes_meet
+/// (oracle/filter/box.hpp), the boxes around the cells of their vertices meet. The converse is nearly true,
+/// since a cell is 2^-31 of the mesh's largest extent.
 ///
-/// This needs no bound on rounding errors: all operations that turn a coordinate into a cell are monotone
-/// even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Works on `jobs` threads. Throws
-/// Error for a coordinate that is not finite.
+/// The guarantee that boxes meet needs no bound on rounding errors: all operations that turn a coordinate
+/// into a cell are monotone even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Works on
+/// `jobs` threads. Throws Error for a coordinate that is not finite.
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
 
 /// The boxes of the vertices, edges or triangles of a mesh.

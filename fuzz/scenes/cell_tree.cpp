@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t group_size = CellBoxGroup::size;
 
-/// The number of groups for a number of boxes.
 std::size_t groups_of(std::size_t boxes) { return (boxes + group_size - 1) / group_size; }
 
 /// A box to be sorted.

@@ -1,4 +1,4 @@
-// A hierarchy of boxes that finds the boxes that meet another box.
+// A hierarchy of boxes, to find those that meet a given box.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class CellBoxGroup {
   /// The box around the group's boxes.
   [[nodiscard]] CellBox bounds() const;
 
-  /// Calls visit(place) for each box that meets the given one and has the number `least` or a larger one, in
+  /// Calls visit(place) for each box of the group that meets `box` and whose number is at least `least`, in
   /// the order of the places.
   template <class Visit>
   void for_meeting(const CellBox& box, std::int32_t least, const Visit& visit) const {
@@ -69,8 +69,8 @@ class CellBoxGroup {
 };
 
 /// A tree of groups: the lowest level groups primitives' boxes that are near each other, the next level
-/// groups the bounds of these groups, and so on. The first step of a mesh chooses the groups. Later steps
-/// move the boxes and keep the groups, until the groups' bounds have become much larger.
+/// groups the bounds of these groups, and so on. The groups are chosen at the first step of a mesh. Later
+/// steps move the boxes and keep the groups, until the groups' bounds have become much larger.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` returns true.
@@ -83,7 +83,7 @@ class CellTree {
   /// sample of them.
   [[nodiscard]] std::int64_t typical_group() const;
 
-  /// Calls visit(number) for each box that meets the given one and has the number `least` or a larger one.
+  /// Calls visit(number) for each box that meets `box` and whose number is at least `least`.
   template <class Visit>
   void find(const CellBox& box, std::int32_t least, const Visit& visit) const {
     find_below(levels_.size() - 1, 0, box, least, visit);
@@ -105,13 +105,13 @@ class CellTree {
   }
 
   void choose_groups(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
-  /// Computes the boxes of all levels. Returns, for each level, the sum of its boxes' sizes, divided by the
-  /// sum for level 0.
+  /// Computes the boxes of all levels. Returns, for each level, the sum of the sizes of the level's boxes,
+  /// divided by that sum for level 0.
   std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
 
   std::size_t count_;
   std::vector<double> looseness_;  ///< what `update` returned when the groups were chosen
-  std::vector<Level> levels_;      ///< the level of the boxes themselves comes first
+  std::vector<Level> levels_;      ///< first the level of the primitives' boxes
 };
 
 }  // namespace nearmiss

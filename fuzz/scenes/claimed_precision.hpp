@@ -1,5 +1,5 @@
-// The precision that subjects claim for a scene, the cheapest subject that is precise enough, and one bound B
-// for all pairs of a scene.
+// The precision that subjects claim for a scene, the cheapest subject that is precise enough, and the largest
+// bound B of a scene's pairs.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,10 @@
 
 namespace nearmiss {
 
-/// The precision that a subject claims for a scene, and its cost there.
 struct ClaimedPrecision {
   std::string subject;
-  /// The largest distance of a false positive that the subject claims for any asked pair, in the scene's unit
-  /// of length; infinity if it claims nothing.
+  /// The largest bound on the distance of a false positive that the subject claims for an asked pair, in the
+  /// scene's unit of length; infinity if the subject claims no bound.
   double claimed = 0;
   double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
 };
@@ -25,10 +24,10 @@ struct ClaimedPrecision {
 std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
                                                  const Subjects& subjects);
 
-/// The cheapest subject whose claim is at most the thickness of contact; null if there is none.
+/// The cheapest subject whose claimed distance is at most `thickness`; null if there is no such subject.
 const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);
 
-/// The largest bound B (§5 of the paper) of all pairs whose boxes meet, over all steps, rounded up to four
+/// The largest bound B (§5 of Wang's paper) of the pairs whose boxes meet in some step, rounded up to four
 /// digits.
 double scene_bound(const Scene& scene);
 

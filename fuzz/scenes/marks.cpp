@@ -23,7 +23,7 @@ constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
 constexpr std::uint32_t missed_by(std::size_t subject) { return 8U << (2 * subject); }
 
-/// The mark of a primitive, which is identified by its vertices.
+/// The mark of the primitive with the vertices `primitive`; 0 if it has none.
 template <class Key>
 std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& primitive) {
   const auto found = marks.find(primitive);
@@ -163,7 +163,8 @@ void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
     const auto may_be_marked = [&](int vertex) { return is_marked[static_cast<std::size_t>(vertex)]; };
     return std::ranges::all_of(primitive, may_be_marked) ? mark_of(marks, primitive) : 0;
   };
-  // The edges are sorted: those of which v is the smaller vertex are from first[v] to first[v + 1].
+  // The edges are sorted. The edges whose smaller vertex is v have the indices from first[v] to first[v + 1]
+  // - 1.
   std::vector<std::ptrdiff_t> first(size);
   for (const auto& e : mesh.edges) ++first[static_cast<std::size_t>(e[0]) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());

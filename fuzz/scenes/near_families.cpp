@@ -62,8 +62,8 @@ Query touching(const Query& query, const Aim& aim) {
   return with_first_moved(query, second - first);
 }
 
-/// The query unchanged, or changed in one of the ways of near_families(). A perturbation is as large as
-/// `size` times the extent of the query.
+/// The query, changed as near_families() says. A perturbation is as large as `size` times the extent of the
+/// query.
 Query changed(Random& random, const Query& given, double size) {
   Query query = given;
   if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));

@@ -20,7 +20,7 @@ using QueriesByKind = std::map<Kind, std::vector<Query>>;
 /// A random query of a kind. All queries of this kind have the same probability.
 const Query& drawn(Random& random, const QueriesByKind& queries, Kind kind);
 
-/// A random sample of pairs. Each pair gets a random number, and the pairs of each kind with the smallest
+/// A random sample of pairs. Each pair gets a random number. For each kind, the pairs with the smallest
 /// numbers are kept. The random number depends only on the pair's vertices and on the number of its motion,
 /// so the sample does not depend on the order of the pairs.
 class PairSample {
@@ -45,13 +45,14 @@ class PairSample {
   std::map<Kind, std::vector<Kept>> kept_;  ///< heaps
 };
 
-/// Families that draw from the given queries. A drawn query stays unchanged, is perturbed, is moved by ulps,
-/// or gets contact: one primitive is moved so that the primitives touch at a random time, up to rounding.
-/// `near` has the vt and ee queries that ask for contact, and `near-within` has the vt and ee queries with
-/// separations. v-near and v-near-within have the vv and ve queries. A family without queries is left out.
+/// Families that draw from the given queries. Half of the drawn queries get contact: one primitive is moved
+/// so that the primitives touch at a random time, up to rounding. Then a query stays as it is, is perturbed,
+/// or has some coordinates moved by ulps. `near` has the vt and ee queries that ask for contact, and
+/// `near-within` has the vt and ee queries with separations. v-near and v-near-within have the vv and ve
+/// queries. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 
-/// The family `mesh`, made like near_families() from the pairs of all steps whose swept boxes meet. At most
+/// The family `mesh`, made like near_families() from the pairs whose swept boxes meet in a step. At most
 /// `most` pairs of each kind are kept; the choice depends only on the scene. If all pairs are of one kind,
 /// only queries of that kind are asked. Throws Error if there is no pair, and Stopped if the stop is due
 /// before all pairs are known.

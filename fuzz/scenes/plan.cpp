@@ -82,7 +82,8 @@ class FateTeller {
 }  // namespace
 
 std::pair<PairFate, bool> fate(const Query& query) {
-  // With a separation, every pair is asked: meets_by_translation() can only decide whether primitives touch.
+  // With a separation, subjects are asked about every pair: meets_by_translation() can only decide whether
+  // primitives touch.
   const RelativeMotion motion = query.separation > 0 ? RelativeMotion::other : relative_motion(query);
   if (motion == RelativeMotion::other) return {PairFate::asked, false};
   const auto meets = meets_by_translation(query);

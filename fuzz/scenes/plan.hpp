@@ -16,13 +16,13 @@ namespace nearmiss {
 enum class LeaveOut : std::uint8_t {
   nothing,  ///< subjects are asked about all pairs without a common vertex
   boxes,    ///< pairs whose swept boxes do not meet
-  all,      ///< like `boxes`; for contact, also pairs at relative rest or in relative translation
+  all,      ///< like `boxes`, and if h = 0, also pairs at relative rest or in relative translation
 };
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// Decides under LeaveOut::all whether subjects are asked about a pair. The pair's swept boxes meet, or are at
-/// most the separation apart. If no subject is asked, the second value says whether the pair collides.
+/// Decides under LeaveOut::all whether subjects are asked about a pair. The pair's swept boxes must meet, or
+/// be at most the separation apart. If no subject is asked, the second value says whether the pair collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Pairs of one kind about which subjects are asked.
@@ -35,7 +35,8 @@ struct AskedPairs {
 /// Receives one or more pairs at a time.
 using AskSink = std::function<void(const AskedPairs&)>;
 
-/// Receives a pair that the plan decides itself although its boxes meet, and whether it collides.
+/// Receives a pair whose boxes meet but that the plan decides without a subject, and whether the pair
+/// collides.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
 /// Divides the pairs of a step into parts. Any thread may process any part at any time. The parts do not
@@ -54,14 +55,14 @@ class Plan {
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 
   /// Passes on the pairs of a part. `ask` receives the pairs that a subject must decide, at most 1,000 at a
-  /// time. `decided`, if given, receives the pairs that the plan decides itself. Stores no pairs. Pairs whose
-  /// boxes do not meet are in no part. Calls `is_over` now and then; if it returns true, returns early or
-  /// throws Stopped.
+  /// time. `decided`, if given, receives the pairs that the plan decides without a subject. Stores no pairs.
+  /// Pairs whose boxes do not meet are in no part. Calls `is_over` now and then; if `is_over` returns true,
+  /// returns early or throws Stopped.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                  const IsOver& is_over) const;
 
-  /// The funnels of the pairs that are in no part, because their boxes do not meet. Their time is the time to
-  /// make the parts. `parts` is the sum of the funnels of all parts.
+  /// The funnels of the pairs that are in no part, because their boxes do not meet. The time in these funnels
+  /// is the time to make the parts. `parts` is the sum of the funnels of all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:
@@ -69,7 +70,7 @@ class Plan {
   LeaveOut leave_out_;
   std::map<Kind, CandidateFinder> finders_;          ///< empty for LeaveOut::nothing
   std::map<Kind, std::uint64_t> making_ns_;          ///< the time to make or move the finders
-  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< parts of finders, or rows of all pairs
+  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< parts of finders, or else rows of all pairs
 };
 
 /// Follows all parts of a plan, one after the other.

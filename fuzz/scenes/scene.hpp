@@ -18,7 +18,7 @@ struct Scene {
   /// The points of a frame, which are read or computed on demand. Throws Error if the frame does not have the
   /// same primitives as the other frames.
   std::function<std::vector<Vector3<double>>(std::size_t frame)> points;
-  double separation = 0;  ///< of the queries of all pairs
+  double separation = 0;  ///< the separation h in the queries of all pairs
 
   [[nodiscard]] std::size_t steps() const { return frames - 1; }
 };
@@ -26,11 +26,11 @@ struct Scene {
 /// The scene with a separation h > 0, under the name NAME~H.
 Scene with_separation(Scene scene, double separation);
 
-/// One step of a scene.
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);
 
-/// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` returns true. The mesh is one
-/// object that moves from step to step, which takes less time than moving_mesh for each step.
+/// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` returns true. `mesh` is always
+/// the same object, which is moved from step to step. This takes less time than a call of moving_mesh() for
+/// each step.
 void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
                    const std::function<void(std::size_t step, const MovingMesh& mesh)>& visit);
 
@@ -48,7 +48,7 @@ Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::
 /// A scene whose frames are the mesh files of a folder, in the order of their names. Numbers in names are
 /// compared by their values: frame 2 comes before frame 10. Files without the ending of a mesh format
 /// (pictures, notes), hidden files (".frame.obj") and folders are skipped. Throws Error if there are fewer
-/// than two mesh files, or if their endings differ, since it is then unclear which are meant.
+/// than two mesh files, or if the files' endings differ, since it is then unclear which files are the frames.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
 /// The scene in which points that coincide at frame 0 (0 and -0 are equal) are merged. Files repeat points at

@@ -14,24 +14,25 @@
 
 namespace nearmiss {
 
-/// Runs trials over the steps of a scene. It stores the results of only a few parts of a step at a time.
+/// Runs trials over the steps of a scene. Holds the results of only a few parts of a step at a time.
 class SceneTrial {
  public:
   SceneTrial(const Scene& scene, LeaveOut leave_out, Trials& trials)
       : scene_(scene), leave_out_(leave_out), trials_(trials) {}
 
-  /// Asks the subjects about all pairs of a step that its plan does not leave out. `mesh` is the mesh of the
+  /// Asks the subjects about all pairs that the plan of a step does not leave out. `mesh` is the mesh of the
   /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
-  /// Asks a single subject about the pairs of a step whose boxes meet and for which `is_asked` returns true.
-  /// Counts these pairs in the family of the whole scene (scene_family), and in `counts`. Returns the pairs
-  /// that the subject reports, in the order of the plan. Throws Stopped when the trial's stop is due.
+  /// Asks a single subject about those pairs whose boxes meet in a step, and for which `is_asked` returns
+  /// true. Counts these pairs in the family of the whole scene (scene_family), and in `counts`. Returns the
+  /// pairs that the subject reports, in the order of the plan. Throws Stopped when the trial's stop is due.
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
-  /// The pictures of up to five steps, in their order: the steps with the most missed primitives first, then
-  /// those with the most marked primitives. A step without marked primitives has no picture.
+  /// The pictures of the five steps that rank highest, in the order of the steps. Steps rank by their number
+  /// of missed primitives, and if these numbers are equal, by their number of marked primitives. A step
+  /// without marked primitives has no picture.
   [[nodiscard]] std::vector<ScenePicture> pictures() const;
 
  private:
@@ -47,18 +48,18 @@ class SceneTrial {
     void merge(const PartResult& other);
   };
 
-  /// Asks about the pairs of all parts of the plan for which `is_asked` returns true; about all pairs if
-  /// `is_asked` is empty.
+  /// Goes through all parts of the plan, and asks about those pairs for which `is_asked` returns true, or
+  /// about all pairs if `is_asked` is empty.
   PartResult hold_parts(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress,
                         const IsAsked& is_asked);
   /// Asks about one part of the plan; counts and marks its pairs.
   [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask,
                                      const IsAsked& is_asked) const;
 
-  /// Keeps the picture of a step if its rank is among the highest so far.
+  /// Keeps the picture of a step if the step ranks among the five highest so far.
   void add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks);
 
-  /// Makes the plan of a step. Throws Stopped when the trial's stop is due.
+  /// Throws Stopped when the trial's stop is due.
   void make_plan(const MovingMesh& mesh);
 
   const Scene& scene_;

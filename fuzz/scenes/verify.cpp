@@ -17,7 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Identifies a set of pairs by their number and the sum of their hashes, which do not depend on the order.
+/// Identifies a set of pairs by their number and the sum of their hashes. The order of the pairs does not
+/// matter.
 struct Fingerprint {
   std::uint64_t count = 0;
   std::uint64_t sum = 0;
@@ -38,8 +39,8 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Asks the oracle and the subjects about the given pairs that a plan leaves out. Adds the pairs whose boxes
-/// meet to `meeting`.
+/// Asks the oracle and the subjects about those of `pairs` that a plan leaves out. Adds those of `pairs`
+/// whose boxes meet to `meeting`.
 Verification verify(const AskedPairs& pairs, const Subjects& subjects, Fingerprint& meeting) {
   std::vector<Query> queries;
   std::vector<bool> expected;

@@ -12,7 +12,7 @@
 namespace nearmiss {
 
 struct Verification {
-  std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out; all decided
+  std::uint64_t left_out = 0;  ///< pairs that the plan leaves out, without those that have a common vertex
   std::uint64_t wrong = 0;     ///< pairs for which the oracle contradicts the plan
   std::uint64_t wrong_searches =
       0;  ///< steps in which the pairs that the tree finds are not exactly those whose boxes meet
@@ -24,13 +24,12 @@ struct Verification {
 };
 
 /// Asks the subjects and the oracle about every pair of a step that the plan leaves out. If the boxes of a
-/// pair do not meet, the oracle must find no collision; for relative rest and translation, it must agree with
-/// the plan. The plan's tree must find exactly the pairs whose boxes meet. `progress` receives the completed
-/// share, and returns whether to continue.
+/// pair do not meet, the oracle must find no collision; if the pair is at relative rest or in relative
+/// translation, the oracle must agree with the plan. The plan's tree must find exactly the pairs whose boxes
+/// meet. `progress` receives the completed share, and returns whether to continue.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 
-/// The verification as text for the terminal.
 std::string describe(const Verification& verification);
 
 }  // namespace nearmiss

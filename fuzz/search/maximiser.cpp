@@ -12,7 +12,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr int evaluations = 300;  ///< of one optimiser
+constexpr int evaluations = 300;  ///< of one optimisation
 
 }  // namespace
 
@@ -104,7 +104,7 @@ double Maximiser::value_at(const std::vector<double>& x) {
   try {
     value = show(point_at(x));
   } catch (...) {
-    error_ = std::current_exception();  // the optimiser must not see it
+    error_ = std::current_exception();  // NLopt must not see the exception
   }
   if (over()) optimiser_->force_stop();
   return std::min(value, 1e3);  // finite, because optimisers compute with the value

@@ -15,7 +15,7 @@ class opt;
 
 namespace nearmiss {
 
-/// The value of the objective for an unwanted query, far below all others.
+/// The value of the objective for an unwanted query, far below the values of all other queries.
 inline constexpr double unwanted = -1e3;
 
 /// Maximises an objective from random starting points.
@@ -24,8 +24,9 @@ class Maximiser {
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// Step sizes are drawn between `finest_step` and 0.5. With `moves_vertices`, every second optimisation
-  /// moves vertices instead of the coordinates of SearchPoint::visit(); this breaks contacts.
+  /// With `touching`, points keep their gap. Step sizes are drawn between `finest_step` and 0.5. With
+  /// `moves_vertices`, about half of the optimisations move vertices instead of the coordinates of
+  /// SearchPoint::visit(); such moves break contacts.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective,
             bool moves_vertices = false)
       : random_(random),
@@ -44,14 +45,15 @@ class Maximiser {
   /// near the best point.
   void optimise(bool beside);
   /// Moves vertices of the best point so far. A step that improves the point is repeated, each time twice as
-  /// long. The size of steps grows after an improvement, and shrinks after a step without one.
+  /// long. The size of steps grows after an improvement, and shrinks after a step that does not improve the
+  /// point.
   void move_vertices();
   /// Draws one displacement along some axes, and applies it to one or several of the eight positions (four
   /// vertices, at t = 0 and t = 1).
   Displacements draw_step(double size);
-  /// Takes this step if it improves the best point. Returns whether it does.
+  /// Takes the step if it improves the best point, and returns whether it does.
   bool gains(const Displacements& step);
-  /// The objective in the form that the optimiser's library expects.
+  /// The objective in the form that NLopt expects.
   double value_at(const std::vector<double>& x);
   [[nodiscard]] SearchPoint point_at(const std::vector<double>& x) const;
 

@@ -19,7 +19,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The subject of some searches.
+/// A subject, with the data that its searches share.
 class Searched {
  public:
   Searched(const Subject& subject, const Stop& stop, ChooseSeparation separation)
@@ -36,9 +36,9 @@ class Searched {
     return separation_(random, query_of(kind, typical, 0));
   }
 
-  /// The objective of a query: `value` of the subject's answer; `if_slow` if the answer exceeds the time
-  /// limit; `unwanted` if the query is not finite or breaks the subject's contract, or if the subject is not
-  /// asked any more. Throws Stopped when the stop is due.
+  /// The objective of a query: value(answer) for the subject's answer, or if_slow() if the answer exceeds the
+  /// time limit. It is `unwanted` if the query is not finite or breaks the subject's contract, or if the
+  /// subject is not asked any more. Throws Stopped when the stop is due.
   template <class Value, class IfSlow>
   double objective(const Query& query, const Value& value, const IfSlow& if_slow) const {
     constexpr int most_slow_searches = 3;
@@ -49,8 +49,8 @@ class Searched {
     return answer.fault == Fault::time ? if_slow() : value(answer);
   }
 
-  /// Counts a search that ended at the time limit. After a few such searches, the subject is not asked any
-  /// more.
+  /// Counts a search that ended because the subject exceeded its time limit. After a few such searches, the
+  /// subject is not asked any more.
   void count_slow_search() const { ++slow_searches_; }
 
  private:
@@ -62,24 +62,23 @@ class Searched {
 
 // --- misses and far false positives ---------------------------------------------------------------------
 
-/// The largest possible distance of a subject's false positives: the bound that the subject claims, or wang's
-/// bound if the subject claims none.
+/// The distance that a subject's false positives may have: the bound that the subject claims, or wang's bound
+/// if the subject claims none.
 double reach(const Subject& subject, const Query& query) {
   const double claimed = subject.distance_bound(query);
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives. It is smaller than usual if the subject has a small reach. This rule does
-/// not apply to vv and ve queries, because their reach is a distance less the separation h, and may therefore
-/// be small.
+/// The smallest size of primitives in a search. It is smaller than usual if the subject's reach is small,
+/// except among vv and ve queries: their reach is a distance minus the separation h, and may be small for
+/// every subject.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical, 0)));
 }
 
-/// Counts a search in which a query exceeds the time limit. Returns the objective's value that ends the
-/// search.
+/// Counts a search in which a query exceeds the time limit. Returns infinity, which ends the search.
 double ended_by(const Searched& subject) {
   subject.count_slow_search();
   return HUGE_VAL;
@@ -88,7 +87,7 @@ double ended_by(const Searched& subject) {
 /// The weight of each property that makes a collision hard.
 struct Mixture {
   std::array<double, 6> of_contact{};
-  double of_distance = 0;  ///< for h > 0
+  double of_distance = 0;  ///< weight of a smallest distance near h, if h > 0
 
   Mixture(Random& random, double h) {
     const auto draw = [&] { return random.one_in(2) ? random.uniform() : 0; };
@@ -107,8 +106,8 @@ struct Mixture {
   }
 };
 
-/// A point whose primitives meet. With `exactly`, the point is on a grid, and the primitives touch exactly.
-/// Otherwise, they come within h, up to rounding errors.
+/// A point near `point` whose primitives meet. With `exactly`, it is on a grid, and the primitives touch
+/// exactly. Otherwise, they come within h, up to rounding errors.
 SearchPoint meeting(const SearchPoint& point, bool exactly, double h) {
   return exactly ? on_grid(point) : with_gap_within(point, h);
 }
@@ -142,7 +141,7 @@ Query search_miss(const Searched& subject, Random& random, Kind kind) {
 
 Query search_far(const Searched& subject, Random& random, Kind kind) {
   const double h = subject.separation(random, kind);
-  // The value of a collision, from -1 to 0. It grows as the smallest distance approaches the separation.
+  // The objective of a collision, from -1 to 0. It grows as the smallest distance approaches the separation.
   const auto depth_of = [&](const Query& query) {
     return h == 0 ? 0 : std::min(minimum_distance(query).hi / h - 1, 0.0);
   };
@@ -174,12 +173,13 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
 
 // --- late times, and the earliest ones ------------------------------------------------------------------
 
-/// A time of impact: that of a subject, and the exact earliest time t*.
+/// The time of impact that a subject gave, and the exact earliest time t*.
 struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// time - t*, where t* has the accuracy `rough_time`; `least` if the difference is small.
+  /// time - t*. The accuracy of t* is `rough_time`, or `least` if the two times cannot be told apart with
+  /// that.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);
@@ -239,9 +239,9 @@ Query search_time(const Searched& subject, Random& random, Kind kind) {
 
 // --- families -------------------------------------------------------------------------------------------
 
-/// A directed search, in the order of SearchFor.
+/// A directed search. The searches below are in the order of SearchFor.
 struct Search {
-  std::string_view prefix;  ///< of the family's name
+  std::string_view prefix;  ///< the start of the family's name
   std::string_view about;
   Query (*one)(const Searched&, Random&, Kind);
 };
@@ -253,9 +253,9 @@ constexpr std::array<Search, 4> all_searches{
 
 }  // namespace
 
-// A query of directed search takes about as long as a few thousand queries of other families. The subjects'
-// run times do not count, because batches are small, and the search warms the caches only for its own
-// subject.
+// A query of directed search takes about as long as a few thousand queries of other families, so a block has
+// one query. The family is not timed, because its batches are small, and the search warms the caches only for
+// its own subject.
 Family search_for(SearchFor what, const Subject& subject, const Stop& stop, std::string_view separation) {
   const Search& search = all_searches[static_cast<std::size_t>(what)];
   const std::string name = std::string(search.prefix) + subject.name();

@@ -11,11 +11,10 @@
 
 namespace nearmiss {
 
-/// A search asks the subject about at most this many queries for each query that it returns.
+/// To return one query, a search asks the subject about at most this many queries.
 inline constexpr int search_evaluations = 2000;
 
-/// The aims of directed searches. Each search gives one query to the family of its aim: the best query that it
-/// found.
+/// The aims of directed searches. A search gives one query to the family of its aim: the best that it found.
 enum class SearchFor {
   /// "search-miss-NAME": a collision that the subject misses; if the search found none, the collision that
   /// came nearest to being missed.
@@ -25,9 +24,9 @@ enum class SearchFor {
   /// finds no false positive, it returns another query.
   far,
   /// "search-late-NAME", for a subject that gives times: the collision with the latest time, compared with
-  /// t*, the exact earliest time. If some time is after t*, the query is the one with the largest time - t*,
-  /// otherwise the one with the smallest (t* - time) / t*. The search skips misses, and up to 20 queries
-  /// over the time limit.
+  /// t*, the exact earliest time. If the search found a time after t*, it returns the query with the largest
+  /// time - t*; otherwise, the query with the smallest (t* - time) / t*. The search skips misses, and up to
+  /// 20 queries over the time limit.
   late,
   early,  ///< "search-early-NAME": as `late`, but the collision with the largest t* - time
 };
@@ -37,14 +36,13 @@ enum class SearchFor {
 /// The search moves on the manifold of contacts, on which the primitives always meet. Half of the searches
 /// use a grid on which contact is exact; the others use all bits of a double, and the oracle decides whether
 /// the primitives still meet. The search for misses maximises Subject::needed_tolerance(). If the subject
-/// does not have this function, the search maximises a random mixture of properties that make a contact
-/// hard: a grazing motion, a small angle between the primitives, a small barycentric weight, unequal edges,
-/// a time near 0 or 1. The search for far false positives also moves vertices, besides contacts and gaps:
-/// plane culling compares the vertices' coordinates, and nearly any change of a contact or gap alone leaves a
-/// far pair separated by some plane. A search starts at random points and continues from the best point so
-/// far. A query over the subject's time limit ends the search; after a few such searches, the subject is not
-/// asked any more. Making a query throws Stopped when `stop` is due. The subject and `stop` must outlive the
-/// family.
+/// does not know this tolerance, the search maximises a random mixture of properties that make a contact
+/// hard: a grazing motion, a small angle between the primitives, a small barycentric weight, unequal edges, a
+/// time near 0 or 1. The search for far false positives also moves single vertices: a change of a contact or
+/// gap moves most vertices, after which wang's plane culling rejects nearly every far pair. A search starts
+/// at random points and continues from the best point so far. A query over the subject's time limit ends the
+/// search; after a few such searches, the subject is not asked any more. Making a query throws Stopped when
+/// `stop` is due. The subject and `stop` must outlive the family.
 ///
 /// With a separation (parse_family_separation), the name ends with ~SEPARATION. Each search has one
 /// separation h > 0. It moves among queries in which two points of the primitives come within h; a smallest
@@ -52,12 +50,12 @@ enum class SearchFor {
 Family search_for(SearchFor what, const Subject& subject, const Stop& stop = Stop::never(),
                   std::string_view separation = {});
 
-/// The family of the given search, among vv and ve queries: "v-search-miss-NAME~SEPARATION".
+/// The family that runs `search` among vv and ve queries: "v-search-miss-NAME~SEPARATION".
 Family among_vertices(Family search);
 
 /// All searches for a subject: for misses, far false positives, and, if it gives times, late and early ones.
-/// For a subject that decides vv or ve, the searches also run among such queries, which draw their
-/// separations if none is given: "v-search-miss-NAME~drawn".
+/// If the subject decides vv or ve, the searches also run among vv and ve queries. If `separation` is empty,
+/// each of these searches draws one: "v-search-miss-NAME~drawn".
 std::vector<Family> searches(const Subject& subject, const Stop& stop = Stop::never(),
                              std::string_view separation = {});
 

@@ -49,8 +49,9 @@ SearchPoint draw_search_point(Random& random, double smallest) {
   return m;
 }
 
-/// With vectors within 2^3 that are multiples of 2^-22, and weights and times that are multiples of 2^-10, no
-/// sum of products in `meet` has more than 3 + 3 + 22 + 20 = 48 bits.
+/// Vectors have components within 2^3 that are multiples of 2^-22; weights and times are multiples of 2^-10.
+/// A sum of products in `meet` has at most 3 bits before the point, 3 more for carries, and 22 + 2 · 10 bits
+/// after the point: 48 in all.
 SearchPoint on_grid(SearchPoint point) {
   const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
   point.visit(true, [&](Vector& v) {
@@ -60,7 +61,7 @@ SearchPoint on_grid(SearchPoint point) {
   return point;
 }
 
-Vector draw_gap(Random& random, double h) { return h * random.vector(1); }  // 2 h may overflow
+Vector draw_gap(Random& random, double h) { return h * random.vector(1); }  // vector(h) could overflow
 
 SearchPoint with_gap_within(SearchPoint point, double h) {
   if (h == 0) {

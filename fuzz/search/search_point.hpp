@@ -10,8 +10,8 @@ namespace nearmiss {
 /// How far each vertex is moved, in the order of Query::x.
 using Displacements = std::array<double, 24>;
 
-/// A contact, in the frame in which `base` is at rest at the origin, with a gap between the primitives, and
-/// displacements that are then added to the vertices.
+/// A contact whose Contact::base is at rest at the origin, a gap between the primitives, and displacements
+/// that are then added to the vertices.
 struct SearchPoint {
   Path q, r;
   Vector3<double> w;      ///< velocity of the first primitive's point of contact
@@ -19,7 +19,7 @@ struct SearchPoint {
   Vector3<double> gap;
   Displacements moved{};
 
-  /// Visits all vectors except the displacements; also skips the gap if the primitives must touch.
+  /// Calls `visit_vector` for each vector. Skips the gap if the primitives must touch (`touching`).
   template <class Visit>
   void visit(bool touching, const Visit& visit_vector) {
     for (Vector3<double>* v : {&q.start, &q.end, &r.start, &r.end, &w, &place}) visit_vector(*v);
@@ -30,28 +30,32 @@ struct SearchPoint {
 /// The lower end of the usual range of sizes and speeds.
 inline constexpr double usually_smallest = 1e-5;
 
-/// A log-uniform number from lo to hi, with the same bits with every C library.
+/// A log-uniform number from lo to hi, which does not depend on the C library.
 double search_log_uniform(Random& random, double lo, double hi);
 
 /// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some primitives are thin, move
 /// in their plane, or stay near one plane; contact may be on a border or at an end of the step.
 SearchPoint draw_search_point(Random& random, double smallest);
 
-/// Rounds to a grid on which contact is exact.
+/// Rounds a point to a grid on which contact is exact.
 SearchPoint on_grid(SearchPoint point);
 
 /// A gap whose components are uniform in [-h, h), for every finite h.
 Vector3<double> draw_gap(Random& random, double h);
 
-/// The point with its gap shortened to at most h.
 SearchPoint with_gap_within(SearchPoint point, double h);
 
 Contact contact_of(Kind kind, const SearchPoint& point);
 
-/// The query of a point, for a separation h.
 Query query_of(Kind kind, const SearchPoint& point, double h);
 
-/// log2 of six ratios. The smaller a ratio, the harder the contact.
+/// log2 of six ratios, each smaller for harder contacts:
+/// - the sine of the angle between the relative motion and the plane of q and r
+/// - the sine of the angle between q and r
+/// - the smallest weight
+/// - the shorter of q and r over the longer one
+/// - the distance of the time from 0 or 1
+/// - the longer of q and r over the relative motion
 std::array<double, 6> hardness(Kind kind, const SearchPoint& point);
 
 }  // namespace nearmiss

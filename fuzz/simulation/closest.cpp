@@ -27,7 +27,7 @@ class Nearest {
     weights_ = weights;
   }
 
-  /// Offers a vertex and the point of an edge nearest to it. The vertex gets the weight `side`.
+  /// Offers a vertex and the nearest point of an edge. The vertex gets the weight `side` (1 or -1).
   void offer_vertex_edge(std::size_t vertex, std::size_t from, std::size_t to, double side) {
     const Vector3<double> edge = x_[to] - x_[from];
     const double squared = dot(edge, edge);

@@ -11,17 +11,19 @@
 
 namespace nearmiss {
 
-/// Points with springs along the edges of a mesh and across them: between the two vertices opposite an edge,
-/// and between the neighbours of a point of a hair. All springs are at rest in the given mesh.
+/// Points and springs. Each edge of a mesh is a spring. Weaker springs, which resist bending, join the two
+/// vertices opposite an edge, and the two neighbours of a point of a hair. All springs are at rest in the
+/// given mesh.
 ///
-/// A step is one of backward Euler, solved by alternating between the directions of all springs and the
-/// positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of mass-spring systems").
-/// The equations for the positions have a constant, positive definite matrix. The implicit step is stable for
-/// any stiffness; a stiff cloth only converges more slowly.
+/// A step uses the backward Euler method. Its equations are solved by alternating between the directions of
+/// all springs and the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
+/// mass-spring systems"). The equations for the positions alone have a constant, positive definite matrix.
+/// The implicit step is stable for any stiffness; a stiff cloth only converges more slowly.
 class Cloth {
  public:
-  /// `held` says for each point whether the caller moves it. `step` is in seconds. Throws Error if a spring's
-  /// stiffness times the square of the step is more than 10^10 masses, for which double is too coarse.
+  /// `held` says for each point whether the caller moves it. `step` is in seconds. Throws Error if the
+  /// stiffness times the square of the step is more than 10^10 times the mass of a point: double is too
+  /// coarse for such springs.
   Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step);
 
   /// The positions after a step from `start` (positions and velocities in m and m/s). Held points move to

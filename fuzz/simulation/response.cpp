@@ -42,8 +42,8 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
   const auto& edges = topology(pair.kind).pqr;  // q and r, whose cross product is the normal
   const Vector3<double> u = x[edges[1].to] - x[edges[1].from];
   const Vector3<double> v = x[edges[2].to] - x[edges[2].from];
-  // If the primitives collide after t = 0, and q and r are not nearly parallel, the normal is that of q and
-  // r. Otherwise, it is the direction between the closest points.
+  // If the primitives collide after t = 0, and q and r are not nearly parallel, the normal is q × r.
+  // Otherwise, the normal is the vector between the closest points.
   const Vector3<double> cross = u.cross(v);
   constexpr double parallel = 1e-6;
   touch.normal = time > 0 && length(cross) > parallel * length(u) * length(v) ? cross : from;
@@ -113,7 +113,8 @@ void Response::move_rigidly(const std::vector<int>& zone, const PointVectors& st
       momentum += r.cross(end[index(point)] - start[index(point)] - motion);
       inertia += dot(r, r) * Eigen::Matrix3d::Identity() - r * r.transpose();
     }
-    // Points on a line have no inertia about it.
+    // Points on a line have no inertia about it. A small multiple of the identity makes the matrix
+    // invertible.
     constexpr double relative = 1e-9;
     inertia += relative * inertia.trace() * Eigen::Matrix3d::Identity();
     const Vector3<double> turn =

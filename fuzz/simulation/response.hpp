@@ -16,17 +16,17 @@ class Response {
  public:
   Response(std::vector<bool> held, const Material& material) : held_(std::move(held)), material_(material) {}
 
-  /// Repels a pair that is nearer than the thickness at the start of the step (§7.2 there): stops its
-  /// approach by an inelastic impulse, and pushes it apart by a tenth of the missing distance. Leaves
-  /// primitives that touch as they are, since no direction separates them.
+  /// Repels a pair that is nearer than the thickness at the start of the step (§7.2 of the paper). Stops the
+  /// approach of the pair by an inelastic impulse, and pushes the pair apart by a tenth of the missing
+  /// distance. Leaves primitives that touch as they are, since no direction separates them.
   void repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const;
 
-  /// Ends the approach of a pair that collides at a time in [0, 1], by an inelastic impulse along the normal
-  /// and friction (§7.4 there). If the time is NaN, uses the end of the step.
+  /// Ends the approach of a pair that collides at a time in [0, 1], by friction and an inelastic impulse
+  /// along the normal (§7.4 of the paper). If the time is NaN, uses the end of the step.
   void stop_approach(const Candidate& pair, double time, const PointVectors& start, PointVectors& end) const;
 
-  /// Moves the points of a zone rigidly, with their common linear and angular momentum (§7.5 there). A zone
-  /// with held points moves by the mean motion of its held points.
+  /// Moves the points of a zone rigidly, with their common linear and angular momentum (§7.5 of the paper). A
+  /// zone with held points moves by the mean motion of its held points.
   void move_rigidly(const std::vector<int>& zone, const PointVectors& start, PointVectors& end) const;
 
  private:

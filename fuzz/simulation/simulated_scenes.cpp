@@ -17,7 +17,7 @@ namespace {
 
 using Held = std::vector<bool>;
 
-/// The first and the last ring of a tube whose points are in rings.
+/// Holds the first and the last ring of a tube whose points are in rings.
 Held ends_of_tube(const Mesh& mesh) {
   const std::size_t ring = mesh.points.size() - mesh.triangles.size() / 2;
   Held held(mesh.points.size());
@@ -26,7 +26,7 @@ Held ends_of_tube(const Mesh& mesh) {
   return held;
 }
 
-/// The points of all bodies except the first.
+/// Holds the points of all bodies except the first.
 Held other_bodies(const Mesh& mesh) {
   Held held;
   for (const int body : bodies(mesh).of_point) held.push_back(body != 0);
@@ -42,7 +42,7 @@ Held ends_of_lines(const Mesh& mesh) {
   return held;
 }
 
-/// Two equal sheets, vertex above vertex. The corners of the lower sheet are held.
+/// Two equal sheets, vertex above vertex.
 Scene two_sheets(int size) {
   const int squares = std::max(2, nearest(std::sqrt(size / 4.0)));
   const int in_sheet = (squares + 1) * (squares + 1);
@@ -67,12 +67,12 @@ Held corners_of_first_sheet(const Mesh& mesh) {
   return held;
 }
 
-/// A built-in scene, from its first frame on.
+/// Makes the built-in scene `name` in a given size.
 std::function<Scene(int size)> built_in(const std::string& name) {
   return [name](int size) { return built_in_scene(fmt::format("{}@{}", name, size)); };
 }
 
-constexpr int largest = 20'000;  // the matrix of this size takes less than a second
+constexpr int largest = 20'000;  // factorising the matrix of this size takes less than a second
 
 }  // namespace
 

@@ -16,8 +16,8 @@
 
 namespace nearmiss {
 
-/// Asks a CCD about the pairs of a motion whose boxes meet and for which `asked` returns true. Returns the
-/// pairs that the CCD reports, in an order that is always the same.
+/// Asks a CCD about those pairs of primitives whose boxes meet in a motion, and for which `asked` returns
+/// true. Returns the pairs that the CCD reports, in an order that is always the same.
 using AskCcd = std::function<std::vector<ReportedPair>(const MovingMesh& motion,
                                                        const std::function<bool(const Candidate&)>& asked)>;
 
@@ -26,7 +26,7 @@ using AskCcd = std::function<std::vector<ReportedPair>(const MovingMesh& motion,
 /// result depends only on the arguments and the CCD's answers.
 class Simulation {
  public:
-  /// Each frame of the scene takes `steps_per_frame` steps of `step` seconds.
+  /// From one frame of the scene to the next, the simulation does `steps_per_frame` steps of `step` seconds.
   Simulation(SimulatedScene scene, const Material& material, double step, int steps_per_frame);
 
   /// The number of steps until the last frame of the scene.
@@ -51,7 +51,7 @@ class Simulation {
   Material material_;
   double step_;
   int steps_per_frame_;
-  std::shared_ptr<const Cloth> cloth_;  ///< shared by copies, because factorising its matrix takes long
+  std::shared_ptr<const Cloth> cloth_;  ///< copies share it, because factorising its matrix takes long
   Response response_;
   MovingMesh motion_;  ///< in metres
   PointVectors velocities_;

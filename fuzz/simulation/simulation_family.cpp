@@ -69,9 +69,9 @@ SimulationOptions parse_simulation_name(std::string_view name) {
 
 namespace {
 
-constexpr std::size_t most_pairs = 1 << 17;  ///< of each kind in the sample
+constexpr std::size_t most_pairs = 1 << 17;  ///< pairs of each kind in the sample
 
-/// The sample of all pairs that the simulation asks its CCD about.
+/// Runs a simulation with the oracle as its CCD. Returns a sample of the pairs about which the CCD is asked.
 PairSample simulate(Simulation simulation, const Stop& stop) {
   const auto oracle = try_make_exact("exact");
   PairSample sample(most_pairs);
@@ -93,7 +93,7 @@ PairSample simulate(Simulation simulation, const Stop& stop) {
   return sample;
 }
 
-/// The family of a simulation, by its name without a separation.
+/// The family of the simulation `name`, which must not end with a separation.
 Family simulation_family(std::string_view name, const Stop& stop) {
   const auto pairs =
       std::make_shared<QueriesByKind>(simulate(parse_simulation_name(name).simulation(), stop).pairs());

@@ -17,9 +17,9 @@ struct Piercing {
   auto operator<=>(const Piercing&) const = default;
 };
 
-/// All edges that pass through the inside of a triangle at the end of the motion, in ascending order: the
-/// edge's ends are on different sides of the triangle's plane, and the edge passes between the triangle's
-/// sides. Touching does not count. Exact signs of determinants decide this.
+/// The pairs of an edge and a triangle such that the edge passes through the inside of the triangle at the
+/// end of the motion, in ascending order. Touching does not count. Exact signs of determinants decide whether
+/// an edge passes through.
 std::vector<Piercing> find_tangled(const MovingMesh& mesh);
 
 }  // namespace nearmiss

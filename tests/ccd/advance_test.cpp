@@ -19,7 +19,6 @@ using testing::scaled;
 
 Verdict decide(const Query& query) { return make_subject("advance")->decide(query); }
 
-/// Expects that a query is reported with this separation, at a time from `time` - 1e-12 up to `time`.
 void expect_just_before(const Query& query, double separation, double time) {
   const Verdict verdict = decide(with_separation(query, separation));
   EXPECT_EQ(verdict.stage, Stage::proximity);
@@ -27,7 +26,7 @@ void expect_just_before(const Query& query, double separation, double time) {
   EXPECT_GE(verdict.time, time - 1e-12);
 }
 
-/// Two edges along x and y that are at rest, with the first at (x, y, z).
+/// Two edges at rest: from (x, y, z) along the x axis, and from the origin along the y axis.
 Query edges_at(double x, double y, double z) {
   const Vector3<double> a(x, y, z), b(x + 1, y, z), c(0, 0, 0), d(0, 1, 0);
   return make_query(Kind::edge_edge, {a, b, c, d}, {a, b, c, d});

@@ -1,4 +1,5 @@
-// Arithmetic modes that are not plain are detected, named and reset.
+// Modes of the processor that make its arithmetic differ from plain double arithmetic are detected, named and
+// reset.
 #include "ccd/query/arithmetic.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The culling of vertex-edge tests, with numbers that are exact and lie at the limits of its conditions.
+// The culling of vertex-edge tests, with exact numbers at the limits of the culling's conditions.
 #include "ccd/wang/ve_culling.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ Pair<Kind::vertex_triangle, double> unit_pair() {
   return pair;
 }
 
-/// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, whose first weight may be outside.
+/// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, and a vertex whose first weight is `weight`.
 template <class Wide = double>
 Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
   Configuration<Kind::vertex_triangle, double, Wide> configuration(unit_pair(), 0.5);
@@ -37,7 +37,7 @@ Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
 /// A linear F with this slope and with the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
-/// Tolerances with μ = 2^-40 and this h; all others are 0.
+/// Tolerances with μ = 2^-40 and with `h`; all other tolerances are 0.
 Tolerances<double> tolerances(double h) {
   Tolerances<double> tol{};
   tol.mu = 0x1p-40;
@@ -45,9 +45,9 @@ Tolerances<double> tolerances(double h) {
   return tol;
 }
 
-/// The value that |F| must exceed next to a root: μ + 2E + m.
+/// The value that |F| must exceed next to a root: μ + 2E + m, with E = 865 ε and m = 60 ε.
 constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
-/// The rounding errors of a weight and of the bound of its movement.
+/// The rounding errors of a weight, and of the bound on the weight's movement.
 constexpr double rounding = (1160 + 4400) * eps;
 
 template <VeCulling culling, class Wide = double>
@@ -87,7 +87,7 @@ TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
   }
 }
 
-// At t ± h a line has |F| = slope h.
+// At a distance h from its root, a line has |F| = slope h.
 TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
   for (const double h : {0x1p-26, 0x1p-10}) {
     const double slope = threshold / h;
@@ -141,7 +141,7 @@ TEST(Frame, IsNotNeededWhereNothingLeavesTheRange) {
   for (const float B : {0x1p-7F, 0x1p7F}) EXPECT_FALSE(in_range(B)) << B;
 }
 
-// B = (E + W)(1 + 64 ε): a triangle whose edges are within 1, and a relative velocity of 2.
+// B = (E + W)(1 + 64 ε). Here, the edges are within E = 1, and the relative velocity is W = 2.
 TEST(PairBound, HasAMarginOf64Epsilon) {
   const auto pair = make_pair<Kind::vertex_triangle, double>(testing::falling_vertex(0.25, 0.25, 1, -1));
   EXPECT_EQ(pair.E, 1);

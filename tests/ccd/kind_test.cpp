@@ -1,6 +1,6 @@
 // Tests the table of the vertices and edges of each kind. The oracle and wang both read this table, so
-// comparing their answers would not reveal an error in it. Here, each list is compared with its definition,
-// which uses only the numbers of vertices.
+// comparing their answers would not reveal an error in it. Here, each list of the table is compared with a
+// definition that uses only the numbers of vertices.
 #include "ccd/query/kind.hpp"
 
 #include <gmock/gmock.h>
@@ -49,8 +49,7 @@ std::pair<int, int> ordered(const Pair& pair) {
   return std::minmax<int>(pair.from, pair.to);
 }
 
-/// Expects that the table lists each of these elements once. `of` makes an element from an entry of the
-/// table.
+/// Expects that `listed` has each `expected` element once. `of` makes an element from an entry of the table.
 template <class Element, class Listed, class Of>
 void expect_each_once(Kind kind, std::span<const Listed> listed, const std::set<Element>& expected,
                       const Of& of) {
@@ -106,7 +105,7 @@ TEST(Topology, HasEveryVertexWithEveryEdgeOfTheOtherPrimitiveOnce) {
   }
 }
 
-// §3.3 and §3.4 of the paper: F = x01 · (x21 × x31), and x20 · (x10 × x32).
+// §3.3 and §3.4 of the paper: F = x01 · (x21 × x31) for vt, and F = x20 · (x10 × x32) for ee.
 TEST(Topology, HasTheVectorsOfThePapersF) {
   const auto vectors = [](Kind kind) {
     std::vector<std::pair<int, int>> all;

@@ -39,7 +39,7 @@ TEST(Quadratic, SmallRootDoesNotCancel) {
   EXPECT_EQ(quadratic_roots(1, 1e8, -1), (Roots{1e-8}));
 }
 
-/// Describes a random case: its index, which repeats it, and its cubic.
+/// Describes a random case by its index and its cubic.
 std::string shown(std::uint64_t index, const Cubic<double>& F) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << F.a << ' ' << F.b << ' ' << F.c << ' ' << F.d;
@@ -63,7 +63,7 @@ TEST(Cubic, ThreeRoots) {
 TEST(Cubic, NoRoot) { EXPECT_TRUE(cubic_roots({0, 1, -1, 1}, 1e-9).empty()); }
 
 TEST(Cubic, NearlyNoRootWithinTheResidual) {
-  // (t - 1/2)² + 1e-12 stays above 0, but below μ at its minimum.
+  // (t - 1/2)² + 1e-12 is above 0 everywhere, but its minimum is below μ.
   EXPECT_FALSE(cubic_roots({0, 1, -1, 0.25 + 1e-12}, 1e-9).empty());
 }
 
@@ -82,7 +82,8 @@ TEST(Cubic, EndsEvenWhereTheResidualCannotBeReached) {
   }
 }
 
-// Appendix B's claim: for a root t0 there is a t in the result with |F| <= μ on all of [t0, t].
+// The claim of the paper's Appendix B: for each root t0, the solver returns a t such that |F| <= μ from t0 to
+// t.
 TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
   const double mu = 64 * std::ldexp(1.0, -39);
   for (std::uint64_t i = 0; i < 5000; ++i) {

@@ -47,7 +47,7 @@ TEST(Stopwatch, CountsShortComputing) {
   EXPECT_GE(best_time_of(CLOCK_THREAD_CPUTIME_ID, compute_shortly), short_time);
 }
 
-/// Computes for a time, in nanoseconds.
+/// Computes for `time` nanoseconds.
 void compute_for(std::uint64_t time) {
   const std::uint64_t start = now(CLOCK_MONOTONIC);
   while (now(CLOCK_MONOTONIC) < start + time) {

@@ -63,8 +63,8 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_EQ(vertex_vertex(moving({0.5, 0, 0}, {-0.5, 0, 0}), tol), 1);
 }
 
-// The tests below have a vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. The cases that
-// the algorithm tries earlier do not report the pair.
+// The tests below have a vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. No case that
+// the algorithm tries earlier reports the pair.
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -82,8 +82,8 @@ TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
 }
 
 TEST(VertexEdge, Case2AtTheMinimumOfOnePiece) {
-  // A vertex grazes a turning edge. No component of the cross product comes near zero; otherwise this would
-  // be case 4. The pair was found by random search; its bound B is 2.64.
+  // A vertex grazes a turning edge. No component of the cross product of the edge and x0i comes near zero;
+  // otherwise, case 4 would report the pair. The pair was found by random search; its bound B is 2.64.
   const Vector vertex(-0x1.5d08p+0, 0x1.3c7p-2, 0x1.075cp-2);
   const Vector vertex_end(0x1.4418p-2, -0x1.629p-4, -0x1.50ap-4);
   const Vector edge(-0x1.ebc8p-1, 0x1.6ce8p-2, 0x1.7e48p-2);
@@ -102,7 +102,7 @@ TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
 }
 
 TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
-  // The edge turns through a diagonal of two axes at t = 1/2, where the vertex crosses its line.
+  // The edge turns through a diagonal of two axes at t = 1/2, when the vertex crosses the edge's line.
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) {
       const auto turned = [&](const Vector& v) {
@@ -117,7 +117,7 @@ TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {
-  // The vertex passes at a third of D beyond the end xj, so its projection is never inside.
+  // The vertex passes at a third of D beyond the end xj, so the vertex's projection is never inside the edge.
   const double d = std::sqrt(tol.D2) / 3;
   const auto pair = vertex_edge_pair(moving({0.5 + d, -0.5, 0}, {0, 1, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
@@ -136,7 +136,8 @@ double distance_to_edge(const VertexEdge<double>& pair, double t) {
   return (a - w * edge).norm();
 }
 
-/// A vertex at `distance` from a point of the edge at a random time, with all vectors within 1.
+/// A pair whose vertex is at `distance` from a point of the edge at a random time, `time`. All vectors are
+/// within 1.
 VertexEdge<double> pair_at_distance(Random& random, double distance, double& time) {
   const Vector edge = random.vector(random.log_uniform(1e-6, 0.5));
   const Vector edge_velocity = random.vector(random.log_uniform(1e-6, 0.5));
@@ -148,7 +149,7 @@ VertexEdge<double> pair_at_distance(Random& random, double distance, double& tim
   return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
 }
 
-/// Describes a random case: its index, which repeats it, and its vectors.
+/// Describes a random case by its index and its vectors.
 std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << "x0i " << pair.x0i.xv.transpose() << ", xji "
@@ -156,7 +157,7 @@ std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   return text.str();
 }
 
-// Algorithm 2's promise, on which VT and EE rely: every vertex that comes within R is reported.
+// Algorithm 2's promise, on which VT and EE rely: every vertex that comes within R of the edge is reported.
 TEST(VertexEdge, ReportsWhateverComesWithinR) {
   for (std::uint64_t i = 0; i < 50000; ++i) {
     Random random(3, 0, i);

@@ -102,8 +102,8 @@ TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   EXPECT_TRUE(Configuration(ee, 0.0).inside());
 }
 
-// The edges q and r are within 1, but the third edge, r - q, is (-2, s, 0), and the height over it is half as
-// large.
+// The third edge, r - q, is (-2, s, 0). The test takes s / 2 for the triangle's height over this edge, and s
+// for the heights over q and r.
 TEST(Configuration, TheHeightTestLooksAtAllThreeEdgesOfATriangle) {
   constexpr double s = 0x1p-10;
   Pair<Kind::vertex_triangle, double> pair;

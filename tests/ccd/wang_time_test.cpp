@@ -18,7 +18,6 @@ using testing::scaled;
 
 Verdict decide(const Query& query) { return make_subject("wang-time")->decide(query); }
 
-/// Expects a time from `time` - 1e-10 up to `time`.
 void expect_just_before(const Query& query, double time) {
   const Verdict verdict = decide(query);
   EXPECT_TRUE(verdict.hit);

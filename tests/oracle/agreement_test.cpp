@@ -86,7 +86,7 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The answers of all methods are right, but the decision is not.
+// The decision claims a tie where there is none, and no method is there to contradict it.
 TEST(Agreement, AWrongDecisionIsNotProved) {
   const Query far = with_separation(miss, 0.5);  // miss has the distance 1
   const Query near = with_separation(miss, 2);
@@ -100,7 +100,7 @@ TEST(Agreement, AWrongDecisionIsNotProved) {
 
 TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
   constexpr double M = std::numeric_limits<double>::max();
-  // The triangle is an edge. It is exactly M below the vertex when 2 t² = 1, and never nearer.
+  // The triangle is degenerate, a segment. It is exactly M below the vertex when 2 t² = 1, and never nearer.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
                         -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},
@@ -130,7 +130,7 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   EXPECT_TRUE(missed(true, even));
   EXPECT_FALSE(missed(true, {.collision = true, .on_boundary = false, .odd = true}));
   EXPECT_FALSE(missed(false, even));
-  EXPECT_FALSE(missed(true, {}));  // it says nothing about this query
+  EXPECT_FALSE(missed(true, {}));  // parity says nothing about this query
 }
 
 // A new method is a new entry of the table. If it gives a single wrong answer, it is caught and named.

@@ -37,11 +37,12 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
   EXPECT_EQ(found, expected);
 }
 
-/// A vertex that stays at a distance of 0x1.2p1023.
+/// A vertex that falls to a height of 0x1.2p1023 above a triangle.
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // No search ends with lo = hi, but the exact comparisons enclose the ratio as narrowly as doubles allow.
+  // Only lo = hi would be narrow enough, and no search ends with that. The exact comparisons then enclose the
+  // ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);
@@ -99,7 +100,8 @@ TEST(MinimumDistance, IsAboveTheLargestDoubleWhereItOverflows) {
   EXPECT_EQ(minimum_distance(query).hi, infinity);
 }
 
-/// Edges whose vertices are powers of two apart. Their distance falls to 2^-33 just before t = 1.
+/// Edges whose coordinates are powers of two. The distance between the edges falls to about 2^-34 just before
+/// t = 1.
 Query passing_edges() {
   return {.kind = Kind::edge_edge,
           .x = {0x0p+0,   0x0p+0,   0x1p-22,  0x0p+0,  0x1p-83, -0x1p-3,  0x1p-9,   0x0p+0,
@@ -118,7 +120,7 @@ TEST(ClosestTime, IsWhereTheyAreAboutAsNearAsTheyCome) {
 TEST(ClosestApproach, FindsANarrowMinimumFarFromBothEnds) {
   using namespace certified;
   const auto needed = [](double upper) { return 0.999 * upper; };
-  // The distance is 2^-31 of the largest difference.
+  // The distance is about 2^-31 of the largest difference of two coordinates.
   EXPECT_TRUE(closest_approach(VertexDifferences(passing_edges()), needed).enough);
 }
 

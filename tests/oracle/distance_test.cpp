@@ -85,7 +85,8 @@ TEST(Distance, NothingExceedsAnInfiniteBound) {
 }
 
 TEST(Distance, IsKnownFarBelowWhatDoublesResolve) {
-  // A vertex 2^-200 above a triangle of size 1, and a vertex that passes an edge at this distance.
+  // A vertex that ends 2^-200 above a triangle of size 1, and a vertex that passes an edge at a distance of
+  // 2^-200.
   expect_encloses(falling_vertex(0.25, 0.25, 1, 0x1p-200), 0x1p-200);
   expect_encloses(falling_vertex(-0x1p-200, 0.5, 1, -1), 0x1p-200);
   const Enclosure least = minimum_distance(falling_vertex(0.25, 0.25, 1, 0x1p-1074));
@@ -135,8 +136,8 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
-// Decisions look at the times at which the distance is h; comparisons look at the times at which the distance
-// is smallest.
+// Decisions examine the times at which the distance is h. SmallestDistance examines the times at which the
+// distance is smallest.
 TEST(SmallestDistance, IsComparedAsDecisionsAre) {
   int at_most = 0;
   int compared = 0;

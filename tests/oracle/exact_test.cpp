@@ -50,8 +50,9 @@ TEST(Exact, AnEdgeFallsOntoAnEdge) {
                                   {{0, 0, -1}, {1, 0, -1}, {1, 0, 0}, {1, 1, 0}})));
 }
 
-/// An edge at rest along the x axis, and a second edge that crosses x = 0, from y = -(1 + t) to y = 2 - t, at
-/// heights g + 4 - 8t and g + 8t - 4. It passes the first edge at height (16 t² - 16 t + 4 + 3 g) / 3.
+/// An edge at rest along the x axis, and a second edge in the plane x = 0. One end of the second edge has y =
+/// -(1 + t) and z = g + 4 - 8 t, the other end y = 2 - t and z = g + 8 t - 4. So the second edge passes above
+/// the first one at the height (16 t² - 16 t + 4 + 3 g) / 3.
 Query swinging_edge(double g) {
   return make_query(Kind::edge_edge, {{-1, 0, 0}, {1, 0, 0}, {0, -1, 4 + g}, {0, 2, -4 + g}},
                     {{-1, 0, 0}, {1, 0, 0}, {0, -2, -4 + g}, {0, 1, 4 + g}});
@@ -133,7 +134,7 @@ TEST(EarliestTime, EnclosesARationalTimeThatIsNoDoubleAndNamesIt) {
 }
 
 TEST(EarliestTime, EnclosesAnIrrationalTime) {
-  // The vertex falls and the triangle's corner x3 rises, so that the time of contact contains a square root.
+  // The vertex falls and the triangle's corner x3 rises, so that the time of contact is (√17 - 1) / 4.
   Query query = falling_vertex(0, 0.5, 1, 0);
   query.set_start(3, {0, 1, 0});
   query.set_end(3, {0, 2, 1});
@@ -159,7 +160,7 @@ TEST(EarliestTime, IsTheFirstOfSeveral) {
   EXPECT_EQ(time->rational(), "1/4");
 }
 
-// A vertex rests in the plane of its triangle. It is so near an edge that only exact arithmetic sees the gap.
+// A vertex rests in the plane of a triangle, so near an edge that only exact arithmetic sees the gap.
 TEST(EarliestTime, IsRefusedIfExactArithmeticFindsNoCollision) {
   constexpr double p = 8944394323791464, q = 5527939700884757, r = 3416454622906707;  // p r = q² - 1
   const testing::Points points{{q, r, 0}, {0, 0, 0}, {p, q, 0}, {0, p, 0}};

@@ -1,4 +1,5 @@
-// The filter and all exact methods agree on coordinates of all magnitudes, and on roots of all sorts.
+// The filter and all exact methods agree about queries with coordinates of all magnitudes, and with roots of
+// all sorts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -126,7 +127,7 @@ TEST(Extremes, SumsOfProductsThatOverflow) {
   auto time = earliest_time(crossing);
   ASSERT_TRUE(time.has_value());
   EXPECT_NEAR(time->enclosure().lo, 0.3219, 1e-4);
-  // Two points have coordinates of about 1, and two of about 2^511.
+  // The coordinates of two points are about 1; those of the other two points are about 2^511.
   constexpr double huge = 0x1p511;
   const Query mixed =
       make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 2}, {0, -huge / 2, 0}, {-1.5 * huge, 0, 0}},

@@ -26,7 +26,6 @@ struct Named {
   Query query;
 };
 
-/// A filter's answer to a query.
 struct Said {
   std::string by;
   FilterStage stage;
@@ -77,9 +76,9 @@ std::vector<Named> plain_collisions() {
   return {{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)}, {"falling edge", falling_edge(1, -1)}};
 }
 
-/// The edges meet at t = 0.3219, at an end of one of them. If the query is multiplied by 2^340, no product of
-/// three differences overflows, but F's second coefficient, a sum of such products, does. F's first and last
-/// coefficients are positive.
+/// The edges meet at t = 0.3219, at an end of one of them. If the coordinates are multiplied by 2^340, no
+/// product of three differences overflows, but F's second coefficient, a sum of such products, does. F's
+/// first and last coefficients are positive.
 Query crossing_edges() {
   return make_query(Kind::edge_edge, {{2, 0, 0}, {0, 2, 0}, {1.5, 0, -1}, {0, 0, 0}},
                     {{-1.5, -1.5, 0}, {0, 0, 0}, {0, 1.5, 1.5}, {2, 0, 0}});
@@ -92,14 +91,15 @@ Query two_far_points(double size) {
 }
 
 /// Contact in the plane x = 0, in which all vertices stay. If `size` is 2^510, the middle coefficients of the
-/// weights overflow, and F's become 0 times infinity.
+/// weights overflow, and those of F become 0 times infinity.
 Query planar_edges(double size) {
   return make_query(Kind::edge_edge, {{0, 0, size}, {0, size, 0}, {0, size, -3 * size}, {0, 3 * size, 0}},
                     {{0, 3 * size, size}, {0, size, 0}, {0, size, 3 * size}, {0, 0, 0}});
 }
 
-/// A contact. If `size` is 2^511, the weights' middle coefficients overflow along an axis. F is a sum of
-/// products with the coordinates along this axis, and does not overflow.
+/// A contact. The coordinates along one axis are small. If `size` is 2^511, the components of the weights
+/// along this axis, which are sums of products of the other coordinates, have middle coefficients that
+/// overflow. F does not overflow.
 Query flat_vertex(double size) {
   return make_query(Kind::vertex_triangle, {{0, 0, 1}, {0, 0, size}, {0, 1, 0}, {1, -2 * size, 0}},
                     {{0, 2.5, 1}, {0, 0, -1.5 * size}, {0, 1, 0}, {1, size, 0}});
@@ -109,7 +109,7 @@ Query flat_edges(double size) {
                     {{-0.75 * size, 0, 0x1p-4}, {0x1p-4, 0, 0}, {0, -2 * size, 0}, {0, 0, 0x1p-4}},
                     {{1.5 * size, 0, 0x1p-4}, {0x1p-4, 0, 0}, {0, 1.5 * size, 0}, {0, 0.25 * size, 0x1p-4}});
 }
-/// The query of flat_vertex, changed so that there is no contact.
+/// A query like that of flat_vertex, but without contact.
 Query flat_vertex_apart(double size) {
   return make_query(
       Kind::vertex_triangle,
@@ -164,7 +164,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearOverflow) {
     }
 }
 
-// F's products are 2^(3 exponent), and its error is at least 2^-1060.
+// F's products are about 2^(3 exponent), and F's error is at least 2^-1060.
 TEST(FilterRange, LeavesWhereFUnderflows) {
   for (const auto& [name, query] : plain_collisions())
     for (const int exponent : {-358, -360, -500, -537, -1000, -1060, -1074})
@@ -177,7 +177,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearUnderflow) {
       expect_decided({name + " times 2^" + std::to_string(exponent), stretched(query, exponent, exponent)});
 }
 
-/// The query with a few coordinates moved slightly.
+/// The query with up to three coordinates moved by a quarter or a half of their magnitude.
 Query neighbour(Random& random, Query query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));

@@ -136,9 +136,9 @@ TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
   EXPECT_LT(apart, queries.size() / 2);
 }
 
-// With worse guesses of where to look for contact, the filter's answers would still be right, but it would
-// leave more queries to exact arithmetic, which is slow. The limit is about the number of queries that it
-// leaves now.
+// With worse guesses of where to look for contact, the filter would still be right, but would leave more
+// queries to exact arithmetic, which is slow. The limit is about the number of queries that the filter leaves
+// now.
 TEST(Filter, LeavesAsFewQueriesAsItDid) {
   std::vector<FilterStage> stages;
   for (const Query& query : hard_queries(5, 50000)) stages.push_back(filter(query));

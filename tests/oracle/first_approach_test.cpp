@@ -32,7 +32,8 @@ Truth truth(const Query& query, double h) {
   return decision.collision ? Truth::below : decision.is_tie ? Truth::tie : Truth::above;
 }
 
-/// The enclosure of t*, in hex; "never" if the distance is always above h.
+/// The enclosure of t* as text: one number if t* is known exactly, otherwise two. "never" if the distance is
+/// always above h.
 std::string first_time(const Query& query, double h) {
   auto time = earliest_time(with_separation(query, h));
   if (!time) return "never";
@@ -58,9 +59,10 @@ TEST(Separation, ThatIsReachedAtTheEndOfTheStepIsReachedAtOne) {
 }
 
 TEST(Separation, IsThatOfTheClosestFeatures) {
-  // The vertex is beside an edge of the triangle: 3 away from it, and 4 above its plane at t = 1/2.
+  // The vertex is beside an edge of the triangle: 3 away from the edge, and at t = 1/2, 4 above the
+  // triangle's plane.
   EXPECT_EQ(first_time(falling_vertex(0.5, -3, 8, 0), 5), "0.500000");
-  // Beside the vertex (0, 0, 0): 2 and 1 away along the axes, and 2 above.
+  // The vertex is beside the corner (0, 0, 0): 2 away along x, 1 away along y, and at t = 1/2, 2 above it.
   EXPECT_EQ(first_time(falling_vertex(-2, -1, 4, 0), 3), "0.500000");
 }
 
@@ -84,8 +86,8 @@ TEST(Separation, ATieIsNeverLate) {
 }
 
 TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
-  // For t <= 1/2, the vertex is exactly 1 above the nearest point of the triangle, which is on its edge x =
-  // 0. Later, the rest of the triangle rises above this edge.
+  // For t <= 1/2, the vertex is exactly 1 above the nearest point of the triangle, which is on the edge
+  // x = 0. Later, the rest of the triangle rises above this edge.
   const Query query =
       testing::make_query(Kind::vertex_triangle, {{0, 0.5, 1}, {0, 0, 0}, {1, 0, -4}, {0, 1, 0}},
                           {{0, 0.5, 1}, {0, 0, 0}, {1, 0, 4}, {0, 1, 0}});
@@ -101,7 +103,8 @@ TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
 }
 
 // At t = 1/2, the second edge shrinks to a point at a distance of exactly h, and its direction is reversed.
-// Before that, the distance is exactly h, too, because this point is the nearest end of the edge.
+// Before t = 1/2, the distance is exactly h, too, because the point is an end of the edge, and nearest to the
+// first edge.
 TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   const Query query =
       with_separation(testing::make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {0, 0, 0}, {0, 1, -1}},

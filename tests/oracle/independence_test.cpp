@@ -1,5 +1,5 @@
-// The oracle judges the CCDs, so it shares no code with them. The test reads the includes of each folder from
-// the sources.
+// The oracle judges the CCDs, so it uses no code of ccd/ except the queries. The test reads the includes of
+// each folder from the sources.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

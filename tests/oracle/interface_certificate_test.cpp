@@ -35,8 +35,8 @@ constexpr std::array<double, 24> falling(double to) {
   return {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, to, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 }
 
-/// The distance touches 1 at the irrational time √½, between x0 and the inside of the edge x1x2, and is
-/// above 1 at all other times. The triangle is degenerate.
+/// The distance between x0 and the inside of the edge x1x2 is 1 at the irrational time √½, and above 1 at all
+/// other times. The triangle is degenerate.
 constexpr std::array<double, 24> touching_at_an_irrational_time{0, 0.5, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0,
                                                                 1, 0.5, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0};
 
@@ -48,7 +48,7 @@ std::vector<Statement> proved(const std::string& text) {
   return statements;
 }
 
-/// A statement about a vertex and a triangle in [from, to], or in [from, to).
+/// A statement about a vertex and a triangle in [from, to], or if `open`, in [from, to).
 Statement about(Coordinates x, double h, const char* claim, bool strict, double from = 0, double to = 1,
                 bool open = false) {
   return {.kind = "vt",

@@ -48,7 +48,7 @@ TEST(Neighbours, OfANumberAreTheDoublesAroundIt) {
 Rational exactly(double x) { return Rational(x); }
 Rational exactly(const DoubleWord& x) { return Rational(x.hi) + Rational(x.lo); }
 
-/// A number that is not a double, and a ball that barely contains it.
+/// A ball, and a number at the ball's centre or on its border.
 template <class Real>
 struct Sample {
   Ball<Real> ball;
@@ -94,7 +94,7 @@ TEST(Ball, HasNoSignIfItOverflows) {
   EXPECT_EQ((Ball<DoubleWord>(0x1p1000) * Ball<DoubleWord>(0x1p1000)).sign(), 0);
 }
 
-/// Whether the first time is between two neighbouring doubles, by exact arithmetic.
+/// Whether the ends of `time` are neighbouring doubles, and the exact first time is between them.
 ::testing::AssertionResult is_between(exact::Root first, const Enclosure& time) {
   exact::Root lo{exact::Number(time.lo)};
   if (std::nextafter(time.lo, 2) == time.hi && lo.is_below(first) && testing::is_before(first, time.hi))
@@ -113,7 +113,7 @@ std::vector<Query> contacts(std::uint64_t seed, std::size_t count) {
   return queries;
 }
 
-/// Compares the known times of collisions with exact arithmetic, and returns their number.
+/// Compares the known times of collisions with exact arithmetic. Returns the number of times compared.
 std::size_t check(const std::vector<Query>& queries, const std::vector<KnownTime>& times) {
   std::size_t known = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {

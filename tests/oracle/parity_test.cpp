@@ -27,7 +27,8 @@ TEST(RootParity, TheBoundaryIsACollision) {
   EXPECT_TRUE(root_parity(Query{}).on_boundary);
 }
 
-// The vertex goes through the triangle and back, so F has two roots, both inside.
+// The vertex goes through the triangle and back, so F has two roots, and the vertex is inside the triangle at
+// both.
 TEST(RootParity, EvenIsMissed) {
   const Query query =
       testing::make_query(Kind::vertex_triangle, {{-0.375, -0.3125, 0.25}, {0, 0, 0}, {1, -1, 0}, {1, 0, 1}},
@@ -37,8 +38,8 @@ TEST(RootParity, EvenIsMissed) {
   EXPECT_FALSE(root_parity(query).collision());
 }
 
-/// Checks that the exact decision fits the roots of F, and that root parity is the parity of their number,
-/// unless the origin is on the boundary.
+/// Checks that the exact decision fits the roots of F, and that root parity is the parity of the number of
+/// roots, unless the origin is on the boundary (RootParity::on_boundary).
 void expect_agreement(std::size_t index, const Query& query) {
   SCOPED_TRACE(testing::repeat(index, query));
   const testing::RootCount count = testing::count_roots(query);

@@ -103,11 +103,11 @@ TEST(Root, PartsClustersOfRoots) {
     const Polynomial at_end = times_3(Number(3) - gap) * times_3(Number(3) - Number(2) * gap) *
                               times_3(Number(3) + gap) * times_3(Number(3) + Number(7) * gap);
     EXPECT_EQ(roots_in_step(at_end * times_3(2)).size(), 3) << exponent;
-    // These have two complex roots near the real ones.
+    // The next polynomials have two complex roots near the real ones.
     const Polynomial complex = times_3(1) * times_3(1) + Polynomial({gap * gap});
     EXPECT_EQ(roots_in_step(inside * complex).size(), 3) << exponent;
     EXPECT_EQ(roots_in_step(inside * inside * complex).size(), 3) << exponent;
-    // These have very different distances from an end.
+    // The next polynomials have roots with very different distances from an end of the step.
     for (const Number& end : {Number(0), Number(1)}) {
       const Polynomial from_end({end, Number(1) - Number(2) * end});
       const auto shifted = [&](const Number& a) {

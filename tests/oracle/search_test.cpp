@@ -15,8 +15,9 @@ Query sliding() {
   return testing::make_query(Kind::vertex_triangle, {{-0.22, 0.25, 0}, o, a, b}, {{0.18, 0.25, 0}, o, a, b});
 }
 
-/// The Bernstein form of 40 u + 450 u² + 1000 u³ with u = t - 3/4 and an error of 1. It rises from -1 to 1
-/// around u = 0. It has two more roots, at u = -0.122 and u = -0.328, at which the vertex is outside.
+/// The Bernstein form of 40 u + 450 u² + 1000 u³ with u = t - 3/4 and an error of 1. The polynomial rises
+/// from -1 to 1 around the root u = 0. Its other roots are u = -0.122 and u = -0.328; there, the vertex is
+/// outside the triangle.
 Bernstein<double, 4> three_roots() {
   constexpr double r = 0.75;
   constexpr std::array c{-40 * r + 450 * r * r - 1000 * r * r * r, 40 - 900 * r + 3000 * r * r,
@@ -30,8 +31,8 @@ FilterStage search(const Bernstein<double, 4>& F) {
   return ContactSearch<double>(query.kind, whole, whole, F, 0).run();
 }
 
-// Next to the guessed root, F is negative, but within its error. The exact F may have no root where the
-// weights agree.
+// Next to the guessed root, the computed F is negative, but by less than its error. The exact F may have no
+// root at which the vertex is inside the triangle.
 TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }

@@ -48,7 +48,7 @@ namespace {
 using Rational = boost::multiprecision::mpq_rational;
 using ExactVector = std::array<Rational, 3>;
 
-/// The exact vertices of a query at a time, in the unit of its differences.
+/// The exact vertices of a query at a time t, in the unit of `differences`.
 class ExactVertices {
  public:
   ExactVertices(const Query& query, const VertexDifferences& differences, const Rational& t)
@@ -91,8 +91,8 @@ ExactVector cross(const ExactVector& v, const ExactVector& w) {
 Rational dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 ExactVector exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
-/// Queries with coordinates of one magnitude, of various magnitudes, and so large or small that differences
-/// overflow or products underflow.
+/// Queries of several sorts: with coordinates of one magnitude, of different magnitudes, or so large or small
+/// that differences overflow or products underflow.
 std::vector<Query> all_sorts(std::size_t each) {
   std::vector<Query> queries;
   for (const auto& [smallest, largest] :
@@ -125,7 +125,7 @@ struct SeparationErrors : ::testing::Test {};
 using Reals = ::testing::Types<double, DoubleWord, Wide>;
 TYPED_TEST_SUITE(SeparationErrors, Reals);
 
-/// A number with random bits, at any exponent that differences have.
+/// A number with random bits, and with any exponent that a difference of vertices may have.
 Wide random_wide(Random& random) {
   Wide x = 1;
   for (int i = 0; i < 6; ++i) x = ldexp(x, 64) + Wide(random.bits());
@@ -233,8 +233,8 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
     }
 }
 
-/// Expects each error to be at least the number of roundings times an upper bound of the sum of the products'
-/// magnitudes.
+/// Expects each error to be at least the number of roundings (the coefficient) times `sizes`, an upper bound
+/// of the sum of the products' magnitudes.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
   constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)

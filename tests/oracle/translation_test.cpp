@@ -75,7 +75,7 @@ TEST(Translation, VelocitiesAreComparedExactly) {
 }
 
 TEST(Translation, ARoundedDifferenceIsNotTheVelocity) {
-  // The rounded differences are both 1; the exact ones differ by 1e-20.
+  // x0 moves by 1 - 1e-20 along x, which is rounded to 1, and x1 moves by exactly 1.
   EXPECT_EQ(1 - 1e-20, 1.0);
   const Query query = make_query(Kind::edge_edge, {{1e-20, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}},
                                  {{1, 0, 0}, {1, 1, 0}, {0, 0, 1}, {0, 0, 2}});

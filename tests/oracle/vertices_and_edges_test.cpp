@@ -26,9 +26,10 @@ using testing::make_query;
 
 constexpr std::array of_vertices_and_edges{Kind::vertex_vertex, Kind::vertex_edge};
 
-/// A query of one of three sorts. The coordinates are small integers, so that primitives often touch (in half
-/// of these queries, one coordinate is moved by 2^-50); doubles in [-1, 1]; or doubles of very different
-/// sizes, some of them subnormal.
+/// A query of one of three sorts. In half of all queries, the coordinates are small integers, so that
+/// primitives often touch; in half of these queries, one coordinate is then moved by 2^-50. In a quarter, the
+/// coordinates are doubles in [-1, 1], and in a quarter, doubles of very different sizes, some of them
+/// subnormal.
 Query random_query(Random& random, Kind kind) {
   const int sort = random.integer(0, 3);
   Query query{.kind = kind};
@@ -44,8 +45,8 @@ Query random_query(Random& random, Kind kind) {
   return query;
 }
 
-/// The query for h = 0, for a random integer, for the rounded distance of x0 and x1 at t = 0, or for a random
-/// part of that distance.
+/// The query with one of four separations h: 0, a random integer, the rounded distance of x0 and x1 at t = 0,
+/// or a random part of that distance.
 Query with_some_separation(Random& random, const Query& query) {
   const double apart = (query.start(0) - query.start(1)).norm();
   const double size = std::isfinite(apart) ? apart : 1;

@@ -13,7 +13,6 @@ namespace {
 /// The streams of random numbers.
 enum : std::uint64_t { tumbling_motion = 301, flying_shapes, flying_places };
 
-/// The place and orientation of a body.
 struct Pose {
   Rotation rotation;
   Vector3<double> place;

@@ -1,6 +1,6 @@
 // Scenes that need no file: classic scenes of the field, computed by formulas in any size. They are not
 // simulated, but they move like simulations: the primitives of nearly all candidates are near each other, few
-// collide, and a step moves no point by much more than the length of an edge.
+// candidates collide, and a step moves no point by much more than the length of an edge.
 #pragma once
 
 #include <functional>
@@ -22,11 +22,11 @@ struct BuiltInScene {
   std::string description;
   int default_size = 0;
   int smallest = 0, largest = 0;
-  /// Makes the scene in a size of this range, without a name. The size is the approximate number of
-  /// triangles; if the scene consists of lines or points, their number.
+  /// Makes the scene, without a name, in a size from `smallest` to `largest`. The size is the approximate
+  /// number of triangles, or of lines or points if the scene consists of these.
   std::function<Scene(int size)> make;
-  /// The points that follow the frames in a simulation, while physics moves all other points; null if the
-  /// scene cannot be simulated.
+  /// Says which points follow the frames in a simulation; physics moves all other points. Null if the scene
+  /// cannot be simulated.
   std::vector<bool> (*held)(const Mesh& mesh) = nullptr;
 };
 

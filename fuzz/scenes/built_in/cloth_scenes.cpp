@@ -21,7 +21,8 @@ constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
 constexpr double pitch = 10;  // the distance between spikes, so that each has 200 triangles of cloth
 constexpr double tip = 5;     // the height of a spike
 
-/// The height of a spike, or of the cloth on it, at a distance from its axis: a cone with a round tip.
+/// The height of a spike, or of the cloth on it, at a distance from the spike's axis: a cone with a round
+/// tip.
 double spike_height(double distance) { return tip - 1.5 * (std::sqrt(distance * distance + 1) - 1); }
 
 void add_spike(Mesh& mesh, int first) {
@@ -69,10 +70,10 @@ class SpikeField {
   std::vector<double> gaps_;
 };
 
-/// A cloth falls on a square of spikes, by 0.2 in each step, from above the tips to half their height. Each
-/// spike holds up the cloth with a random gap; some gaps are too small, so collisions occur. A larger scene
-/// has more spikes of the same size and spacing, so the number of candidates per primitive does not depend on
-/// the scene's size.
+/// A cloth falls on a square of spikes, by 0.2 in each step, from above the tips to half the height of the
+/// spikes. Each spike holds up the cloth with a random gap; some gaps are too small, so collisions occur. A
+/// larger scene has more spikes of the same size and spacing, so the number of candidates per primitive does
+/// not depend on the scene's size.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
   const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));

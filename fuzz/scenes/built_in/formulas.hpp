@@ -10,14 +10,13 @@
 
 namespace nearmiss {
 
-/// Cosine and sine of an angle.
 struct CosSin {
   double cos = 1, sin = 0;
 };
 
 /// Cosine and sine of an angle of less than 2^40 turns, with errors below 4e-16; the results for multiples of
-/// a quarter turn are exact. They come from the Taylor series around the nearest quarter turn, which is at
-/// most an eighth of a turn away. The remainder of the series is below 5e-17.
+/// a quarter turn are exact. The results come from the Taylor series around the nearest quarter turn, which
+/// is at most an eighth of a turn away. The remainder of the series is below 5e-17.
 CosSin cos_sin(double turns);
 
 /// The smoothed maximum of two numbers. If they differ by less than `blend`, the result exceeds the maximum
@@ -30,9 +29,10 @@ int nearest(double x);
 double dot(const Vector3<double>& a, const Vector3<double>& b);
 double length(const Vector3<double>& a);
 
-/// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. The product is computed
-/// as a sum of columns. It is not computed row by row, as x cos - y sin and x sin + y cos, because g++ 12
-/// would use fused operations for these rows if the processor has them, even with -ffp-contract=off.
+/// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. The image of a point is
+/// computed as a sum of columns of the rotation matrix. It is not computed row by row, as x cos - y sin and x
+/// sin + y cos, because g++ 12 would use fused operations for these rows if the processor has them, even with
+/// -ffp-contract=off.
 class Rotation {
  public:
   Rotation() = default;
@@ -50,7 +50,7 @@ class Rotation {
 /// 1/20 of their length from frame to frame.
 class Waves {
  public:
-  /// Waves, each of the given height. Each pair of stream and index gives different waves.
+  /// Three waves of the given height. Each pair of stream and index gives different waves.
   Waves(std::uint64_t stream, std::uint64_t index, double height);
 
   [[nodiscard]] double at(double x, double y, double frame) const;

@@ -6,7 +6,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Two triangles with the corners a, b, c, d in this order around a square.
+/// Adds the two triangles of a square, whose corners are a, b, c and d in this order.
 void add_square(Mesh& mesh, int a, int b, int c, int d, bool other_diagonal) {
   if (other_diagonal) {
     mesh.triangles.push_back({a, b, d});
@@ -49,7 +49,7 @@ Mesh box(const std::array<int, 3>& edges) {
   const auto in_row = static_cast<std::size_t>(edges[0] + 1);
   const auto in_layer = in_row * static_cast<std::size_t>(edges[1] + 1);
   std::vector<int> number(in_layer * static_cast<std::size_t>(edges[2] + 1), -1);
-  // The number of the point at a place of the surface; adds the point if it does not exist yet.
+  // Returns the number of the point at a place of the surface. Adds the point if it does not exist yet.
   const auto point = [&](const std::array<int, 3>& at) {
     int& found = number[static_cast<std::size_t>(at[2]) * in_layer +
                         static_cast<std::size_t>(at[1]) * in_row + static_cast<std::size_t>(at[0])];

@@ -15,14 +15,14 @@ enum : std::uint64_t { hair_places = 201, mat_waves };
 
 // --- knot -------------------------------------------------------------------------------------------------
 
-/// The centre line of an overhand knot, by arc length from its middle. The line is a trefoil, cut open at the
-/// outer end of a lobe, with straight lines added to both cut ends. The smallest distance between its strands
-/// is 1.415, and its smallest radius of curvature is 1.1.
+/// The centre line of an overhand knot, as a function of the arc length from its middle. The line is a
+/// trefoil, cut open at the outer end of a lobe, with straight lines added to both cut ends. The smallest
+/// distance between strands of the line is 1.415, and the smallest radius of curvature is 1.1.
 class KnotLine {
  public:
   KnotLine() {
     constexpr int pieces = 4096;
-    constexpr double cut = 0.095;  // fraction of a turn that is cut on both sides
+    constexpr double cut = 0.095;  // fraction of a turn that is cut off at each end
     for (int i = 0; i <= pieces; ++i) {
       const double turns = 0.5 + cut + (1 - 2 * cut) * i / pieces;
       const CosSin once = cos_sin(turns);
@@ -50,8 +50,8 @@ class KnotLine {
   std::vector<double> lengths_;
 };
 
-/// The points of a tube around a line, in rings. From ring to ring, the first points turn no more than the
-/// line does, so that the tube is not twisted.
+/// The points of a tube around a line, in rings. The first points of the rings do not turn about the line
+/// (parallel transport), so the tube is not twisted.
 PointList tube(const PointList& line, double radius, int sides) {
   PointList points;
   Vector3<double> normal(0.6, 0, 0.8);
