@@ -1,5 +1,5 @@
 // Queries in which the primitives just reach the separation h > 0, or reach it at a time that is hard to
-// find. Numbers have few bits, so that distances and times are exactly those that a family promises.
+// find. In most families, numbers have few bits, so that distances and times are exact.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -54,8 +54,9 @@ Query near_separation(Random& random, Kind kind, double x) {
   }
 }
 
-/// The smallest distance is exactly h. The closest features rest or move sideways, or the distance grows from
-/// h at t = 0, or falls to h at t = 1. Half of the queries then move h by x ulps.
+/// The smallest distance is exactly h. In one of three queries, the primitives part after t = 0, or approach
+/// each other until t = 1; in the others, their relative motion is sideways or zero. In half of the queries,
+/// h is then moved by x ulps.
 Query tied_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const bool is_at_end = random.one_in(3);
@@ -94,7 +95,8 @@ struct Sides {
 
 /// The distance falls below h at a time inside the step. At a time about 2^x earlier, a closest point moves
 /// from an end of a side into its interior, or from the interior to an end. If it moves into the interior, it
-/// has weight 2^x when the distance is h. If it moves to an end, the slope of the side is about 2^x.
+/// has weight 2^x when the distance is h. If it moves to an end, the slope of the side relative to the plane
+/// z = 0 is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);
@@ -134,11 +136,11 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 
 // --- other sizes of h -----------------------------------------------------------------------------------
 
-/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of the pairs come within h. The primitives of the
-/// other pairs pass each other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at a distance
-/// of h, 2 h or 0.
+/// Primitives of size 1 to 4, and h about 4 * 10^x. In half of the queries, the primitives come within h. In
+/// the others, they pass each other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at a
+/// distance of h, 2 h or 0.
 Query sized_separation(Random& random, Kind kind, double x) {
-  constexpr double least_that_turns = 0x1p-42;  // so that 53 bits are enough
+  constexpr double least_that_turns = 0x1p-42;  // so that turned() needs at most 53 bits
   const double h = 4 * power_of_ten(x);
   const double time = sixteenths(random, 1, 15);
   const Contact contact = facing_contact(random, kind, draw_closest(random, kind), time);

@@ -1,5 +1,5 @@
-// Each rule is one template over several number types. Intervals decide nearly all queries, and exact
-// arithmetic decides the others.
+// Each rule is a template, which is instantiated with intervals and with exact numbers. Intervals decide
+// nearly all queries, and exact arithmetic decides the others.
 #include "fuzz/families/classify.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -32,11 +32,11 @@ using exact::Number;
 using exact::Polynomial;
 using exact::Root;
 
-/// Intervals, for code that runs in the rounding mode `upward`. Converting an undecided comparison to bool
-/// throws.
+/// An interval; operations must run in the rounding mode `upward`. Converting an undecided comparison of
+/// intervals to bool throws.
 using Interval = CGAL::Interval_nt<false>;
 
-/// The answer of interval arithmetic. If intervals do not decide, the answer of exact arithmetic.
+/// Returns the answer of `in_intervals` or, if intervals do not decide, that of `exactly`.
 template <class InIntervals, class Exactly>
 bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
   try {
@@ -50,7 +50,7 @@ bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
 template <class Real>
 using Points = std::array<Vec<Real>, 4>;
 
-/// The vertices at t = 0 or t = 1.
+/// The vertices at t = `time`, which is 0 or 1.
 template <class Real>
 Points<Real> points(const Query& query, std::size_t time) {
   const auto x = coordinates(query);
@@ -70,8 +70,9 @@ Real largest_component(const Vec<Real>& v) {
   return largest;
 }
 
-/// Lengths of the edges at t = 0 and t = 1, and of the vertices' displacements. The length of a vector is the
-/// largest magnitude of its components. Two vertices have no edges; the gap between them counts as an edge.
+/// The lengths of the longest and of the shortest edge, at t = 0 or t = 1, and of the longest displacement of
+/// a vertex. The length of a vector is the largest magnitude of its components. Two vertices have no edges;
+/// the vector from one to the other counts as an edge.
 template <class Real>
 struct Lengths {
   Real longest = 0;
@@ -125,7 +126,8 @@ bool is_extreme(const Query& query) {
 constexpr double nearly = 1e-6;
 constexpr std::string_view extreme = "extreme";
 
-/// The vertices at a time, their velocities, and the square of a small length.
+/// The vertices at a time, their velocities, and the square of the length up to which is_near() says that a
+/// vector is short.
 template <class Real>
 struct Moment {
   Kind kind{};
@@ -158,7 +160,8 @@ Moment<Polynomial> exact_moment(const Query& query, double length) {
   return moment;
 }
 
-/// Whether a rule holds at a time. `find_root` finds the exact time if the enclosure does not decide.
+/// Whether a rule holds at a time. If the enclosure `time` does not decide the rule, `find_root` finds the
+/// exact time.
 template <class Rule, class FindRoot>
 bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& query, double length,
               const Rule& rule) {
@@ -174,7 +177,7 @@ bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& que
       });
 }
 
-/// The sum of the squared distances of some pairs of points.
+/// The sum of the squared distances between the two vertices of each pair.
 template <class Real>
 Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   const auto square = [&](VertexPair pair) {
@@ -185,9 +188,10 @@ Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   return sum;
 }
 
-/// Squares of the three lengths with which F is compared: for two edges, the length of each; for a triangle,
-/// twice the length of its sides; then the gap between the primitives. The squares are sums instead of means,
-/// so their product is too large by the factor `excess`.
+/// The squares of three lengths, whose product is compared with F². For two edges, `first` and `second`
+/// belong to one edge each; for a triangle, both are the sum of its squared sides. `gap` is the sum of the
+/// squared distances from each vertex of one primitive to each vertex of the other. README.md has means
+/// instead of these sums, so the product of the sums is too large by the factor `excess`.
 template <class Real>
 struct Squares {
   Real first, second, gap;
@@ -212,7 +216,6 @@ std::array<Vec<Real>, 3> spans(Kind kind, const Points<Real>& x) {
   return {difference(q), difference(r), difference(p)};
 }
 
-/// x² times a factor.
 template <class Real>
 Real multiple_of_square(double factor, const Real& x) {
   if constexpr (std::is_same_v<Real, Polynomial>)
@@ -221,7 +224,7 @@ Real multiple_of_square(double factor, const Real& x) {
     return Real(factor) * x * x;
 }
 
-constexpr double squared_inverse = 1e12;  // 1 / nearly², without rounding
+constexpr double squared_inverse = 1e12;  // 1 / nearly², exactly
 
 template <class Real, class AtMost>
 bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
@@ -231,7 +234,7 @@ bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
   return at_most(multiple_of_square(squared_inverse * excess(moment.kind), F), first * second * gap);
 }
 
-/// Whether F' almost vanishes at this moment. The moment must be a root of F.
+/// Whether F' almost vanishes. The time of `moment` must be a root of F.
 template <class Real, class AtMost>
 bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
   const auto [p, q, r] = spans(moment.kind, moment.x);
@@ -244,7 +247,8 @@ bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
                      size.first * size.second * speed.gap);
 }
 
-/// Whether a vertex is near an edge: near an end, or near its line and between the planes through the ends.
+/// Whether a vertex is near an edge: near an end of it, or near its line and between the two planes through
+/// its ends that are perpendicular to it.
 template <class Real, class AtMost>
 bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost& at_most) {
   const Vec<Real> from_a = moment.x[pair.vertex] - moment.x[pair.from];
@@ -259,8 +263,8 @@ bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost
          !at_most(squared, dot(from_b, ba));
 }
 
-/// Whether the place of contact is near an edge of the triangle, or near an end of an edge. The primitives
-/// must touch.
+/// Whether the place of contact is near an edge of the triangle or, for two edges, near an end of one of
+/// them. The primitives must touch.
 template <class Real, class AtMost>
 bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
   const auto& pairs = topology(moment.kind).vertices_and_edges;
@@ -268,7 +272,7 @@ bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
                      [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
 }
 
-/// Whether t* <= time. This differs from EarliestTime::is_before only if t* is exactly this double.
+/// Whether t* <= time. This differs from EarliestTime::is_before only if t* is exactly `time`.
 bool is_at_most(EarliestTime& first, double time) {
   if (first.is_before(time)) return true;
   return first.is_before(std::nextafter(time, 2.0)) && first.enclosure() == Enclosure{time, time};
@@ -280,7 +284,6 @@ bool comes_within(const Query& query, double h) {
   return decision.collision || decision.is_tie;
 }
 
-/// Whether the four vertices are nearly in one plane at t = 0 or at t = 1.
 bool is_coplanar_at_an_end(const Query& query, double length) {
   const auto rule = [](const auto& moment, const auto& at_most) { return is_coplanar(moment, at_most); };
   for (const int time : {0, 1}) {

@@ -114,8 +114,8 @@ void move_to_origin(Kind kind, Contact& contact, const Vector& velocity) {
   contact.base = passing(-contact.place(kind), velocity, contact.time);
 }
 
-// Each product has a factor below 2^20 and two multiples of 1/16. A sum of at most three products has at most
-// 20 + 8 + 3 bits, far below 53.
+// In meet(), each product has a factor below 2^20 and two multiples of 1/16: a weight and a time. A sum of at
+// most three products has at most 20 + 8 + 3 bits, far below 53.
 Contact integer_contact(Random& random, Kind kind) {
   const auto path = [&](int bits, int velocity_bits) {
     const Vector start = random.integer_vector((1 << bits) - 1);

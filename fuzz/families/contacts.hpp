@@ -1,4 +1,4 @@
-// Primitives that touch at a chosen time and place. Most families are built from these.
+// Primitives that touch at a chosen time and place. Most families make their queries from such contacts.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,6 @@ struct Path {
 /// The path that passes `place` at `time` with this velocity.
 Path passing(const Vector3<double>& place, const Vector3<double>& velocity, double time);
 Path scaled(const Path& path, double factor);
-/// The path of a point at rest.
 inline Path still(const Vector3<double>& at) { return {at, at}; }
 
 /// The weights of the point of contact, as in Contact, and the time of contact.
@@ -36,19 +35,19 @@ struct Contact {
   double alpha, beta;
   double time;
 
-  /// The second primitive's point of contact, relative to base.
+  /// The second primitive's point of contact at `time`, relative to base.
   [[nodiscard]] Vector3<double> place(Kind kind) const;
   /// The velocity of the second primitive's point of contact.
   [[nodiscard]] Vector3<double> velocity(Kind kind) const;
 };
 
 /// The query in which the first primitive passes the place c of contact with velocity w: the vertex, or the
-/// point at weight α of the first edge, is at c + (t - time) w. If all numbers are multiples of a power of
-/// two with few bits, every operation is exact in double, and the primitives touch exactly at `time`.
+/// point at weight α of the first edge, is at c + (t - time) w. If all numbers are small multiples of one
+/// power of two, every operation is exact in double, and the primitives touch exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
-/// Draws the parts of contacts of size 1. Half of the samplers draw multiples of 1/16, so that short sums and
-/// products stay exact in double; the others draw arbitrary numbers.
+/// Draws contacts of primitives of size 1, and parts of such contacts. Half of the samplers draw multiples of
+/// 1/16, so that short sums and products stay exact in double; the others draw arbitrary numbers.
 class ContactSampler {
  public:
   explicit ContactSampler(Random& random) : random_(random), exact_(random.one_in(2)) {}
@@ -61,12 +60,13 @@ class ContactSampler {
   double fraction(int bits) { return std::ldexp(1.0, -random_.integer(0, bits)); }
   /// The speed of primitives of size 1: 0, or between 2^-12 and 1 per step.
   double speed() { return random_.one_in(3) ? 0 : fraction(12); }
-  /// A velocity whose size is drawn by `fraction`.
+  /// A velocity of a size drawn by fraction(12).
   Vector3<double> velocity();
   /// A weight or time in [0, 1], often 0 or 1. One in eight is outside this interval, by a power of two that
   /// may be as small as ε.
   double weight();
-  /// A place inside, on an edge, at a vertex or slightly outside, and a time drawn by weight().
+  /// The weights of a point inside the primitives, on an edge, at a vertex or slightly outside, and a time.
+  /// All three numbers are drawn by weight().
   Aim aim(Kind kind);
   /// Primitives of size 1; aim() draws the contact. The sides change at the given speed, and base stays at 0.
   Contact contact(Kind kind, double speed);
@@ -76,10 +76,10 @@ class ContactSampler {
   bool exact_;
 };
 
-/// Gives base the velocity, and moves the contact to the origin, where doubles are densest.
+/// Gives `contact.base` this velocity, and moves the contact to the origin, where doubles are densest.
 void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity);
 
-/// Primitives of any size on an integer grid, with multiples of 1/16 as weights and time. With an integer
+/// Primitives of random size on an integer grid, with multiples of 1/16 as weights and time. With an integer
 /// velocity below 2^17, meet() turns the result into a query with exact contact.
 Contact integer_contact(Random& random, Kind kind);
 
@@ -94,15 +94,17 @@ Query with_first_moved(Query query, const Vector3<double>& by);
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);
 
-/// Moves one query in four by an integer vector, which is exact if coordinates are integers, then calls
+/// Moves one query in four by an integer vector; this is exact if coordinates are integers. Then calls
 /// `rescaled`.
 Query placed(Random& random, Query query);
 
 /// Turns or mirrors a query with an integer matrix, which multiplies all lengths by 1, 3, 5, 7 or 9, and
-/// multiplies the separation by the same number. This is exact if four bits of every coordinate are free.
+/// multiplies the separation by the same number. This is exact if the coordinates are integers below 2^49,
+/// times one power of two.
 Query turned(Random& random, Query query);
 
-/// The query with the vertices of each primitive in a random order.
+/// The query with the vertices of each primitive, and the primitives if they are of the same sort, in a
+/// random order.
 Query shuffled(Random& random, const Query& query);
 
 /// The double that is `ulps` doubles above c, or below it if `ulps` is negative, but never beyond the last
@@ -112,28 +114,25 @@ double moved_by_ulps(double c, int ulps);
 /// Moves `count` random coordinates by 1 to `most` ulps each, up or down.
 Query nudged(Random& random, Query query, int count, int most);
 
-/// The last step of the extreme families: shuffles the query, and nudges one in four.
+/// The last step of the extreme families: shuffles the query, and nudges one query in four.
 Query finished(Random& random, const Query& query);
 
-/// The largest side of the box that the primitives sweep.
+/// The longest side of the bounding box of the primitives' motion.
 double extent(const Query& query);
 
 /// The power of two nearest to 10^x. Multiplying by it is exact.
 double power_of_ten(double x);
 
-/// 2^x for a whole number x.
 inline double power_of_two(double x) { return std::ldexp(1.0, static_cast<int>(x)); }
 
-/// One of the values, drawn at random.
 template <class Range>
 auto one_of(Random& random, const Range& values) {
   return values[static_cast<std::size_t>(random.integer(0, static_cast<int>(values.size()) - 1))];
 }
 
-/// 1 or -1.
 inline double random_sign(Random& random) { return random.one_in(2) ? -1 : 1; }
 
-/// A time from first / 16 to last / 16.
+/// A random multiple of 1/16 from first / 16 to last / 16.
 inline double sixteenths(Random& random, int first, int last) { return random.integer(first, last) / 16.0; }
 
 }  // namespace nearmiss

@@ -45,7 +45,7 @@ struct Occurrences {
   }
 };
 
-/// The text of the combination of two or three values whose flag is at a place.
+/// The text of the combination of `values` values whose flag is at `place`.
 std::string text_of(const Numbering& numbering, std::size_t place, int values) {
   const std::size_t size = numbering.name.size();
   const std::string& last = numbering.name[place % size];
@@ -67,7 +67,7 @@ Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
   return result;
 }
 
-/// The pairs and triples of values in all levels that the family makes.
+/// The pairs and triples of values that occur together in queries of the family.
 Occurrences occurrences_made(const Numbering& numbering) {
   Occurrences made(numbering);
   std::size_t all = 1;

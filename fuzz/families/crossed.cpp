@@ -38,8 +38,8 @@ bool is_free(Motion motion) {
   return motion == Motion::deforming || motion == Motion::fast || motion == Motion::slow;
 }
 
-/// Whether the family makes queries of this shape and motion with these roots of F. With p = α q + β r + τ w
-/// for τ = t - time, F is τ det(w, q, r).
+/// Whether the family makes queries of this shape and motion with these roots of F. F is τ det(w, q, r), with
+/// the names of crossed_family.cpp.
 bool has_roots(Shape shape, Motion motion, Roots roots) {
   if (roots == Roots::all) return true;
   if (motion == Motion::rest) return false;  // F is constant

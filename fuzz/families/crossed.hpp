@@ -12,13 +12,12 @@
 
 namespace nearmiss::crossed {
 
-/// A factor and the names of its values.
 struct Factor {
   std::string_view name;
   std::span<const std::string_view> values;
 };
 
-// The values of each factor, in the order of Factor::values. README.md says what the values mean.
+// The values of the first five factors, in the order of Factor::values. README.md says what the values mean.
 enum class Shape : std::uint8_t { ordinary, sliver, needle, tiny, parallel, zero_edge, point };
 enum class Motion : std::uint8_t { translation, rotation, collapse, deforming, fast, slow, along, rest };
 enum class When : std::uint8_t { at_0, after_0, inside, before_1, at_1, outside };
@@ -27,7 +26,8 @@ enum class Roots : std::uint8_t { one, two, three, double_root, triple, all };
 
 inline constexpr std::size_t factor_count = 7;
 
-/// For each factor, the number of its value: shape, motion, when, where, roots, scale, offset.
+/// The levels of a query: for each factor, the number of the query's value among Factor::values. The order of
+/// the factors is shape, motion, when, where, roots, scale, offset.
 struct Levels : std::array<std::uint8_t, factor_count> {
   [[nodiscard]] Shape shape() const { return static_cast<Shape>((*this)[0]); }
   [[nodiscard]] Motion motion() const { return static_cast<Motion>((*this)[1]); }
@@ -41,10 +41,9 @@ struct Levels : std::array<std::uint8_t, factor_count> {
 /// All factors, in the order of Levels.
 std::span<const Factor> factors();
 
-/// Whether the family makes queries with these levels.
 bool is_made(const Levels& levels);
 
-/// Draws every level independently; draws all again if the family makes no query with these levels.
+/// Draws every level independently. If the family makes no query with these levels, draws all of them again.
 Levels draw_levels(Random& random);
 
 /// The levels of query `index` of the family, without making the query.
@@ -53,17 +52,16 @@ Levels levels_of(std::uint64_t seed, std::uint64_t index);
 /// "shape=sliver", "motion=rest" and so on, in the order of the factors.
 std::vector<std::string> to_texts(const Levels& levels);
 
-/// A query with these levels.
 Query make_query(Random& random, Kind kind, const Levels& levels);
 
-/// The combinations of the values of two factors, or of three.
+/// Counts the combinations of the values of two factors, or of three.
 struct Combinations {
   std::uint64_t made = 0;  ///< number of combinations that the family makes
   std::uint64_t seen = 0;
-  std::vector<std::string> missing;  ///< made but not seen, as "shape=sliver when=at-1"
+  std::vector<std::string> missing;  ///< made, but not in these queries, such as "shape=sliver when=at-1"
 };
 
-/// The combinations in queries first .. first + count - 1 of the family.
+/// The combinations that occur in some queries of the family.
 struct Coverage {
   Combinations pairs, triples;
   std::vector<std::string> pairs_not_made;

@@ -52,7 +52,6 @@ std::pair<Vector, Vector> two_sides(Random& random) {
   }
 }
 
-/// The sides at the contact.
 std::pair<Vector, Vector> sides(Random& random, Kind kind, Shape shape) {
   auto [q, r] = two_sides(random);
   const Vector zero = Vector::Zero();
@@ -82,7 +81,7 @@ std::pair<Vector, Vector> sides(Random& random, Kind kind, Shape shape) {
 
 // --- motion and roots -------------------------------------------------------------------------------
 
-/// Two vectors that span a plane with both sides in it, even if the sides are zero or parallel.
+/// Two vectors that span a plane which contains both sides, even if the sides are zero or parallel.
 std::pair<Vector, Vector> plane(Random& random, const Draft& draft) {
   if (!draft.q.cross(draft.r).isZero()) return {draft.q, draft.r};
   const Vector side = draft.q.isZero() ? draft.r : draft.q;
@@ -96,7 +95,8 @@ double shrinking(double time) {
   return left < 1.0 / 16 ? 16 : (std::ceil(16 / left) - 1) / 16;
 }
 
-/// Sides turn around an axis, or shrink. F has one root, has a double root at the contact, or is zero.
+/// Draws w, and makes the sides turn around an axis, shrink or stay as they are. F has one root, has a double
+/// root at the contact, or is zero.
 void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double time) {
   const bool in_the_plane = levels.roots() != Roots::one;
   const auto [a, b] = plane(random, draft);
@@ -116,10 +116,12 @@ void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double t
   }
 }
 
-/// The time of another root, relative to the contact: `distance` towards the farther end of the step.
+/// The time of another root of F, minus the time of contact. The root is `distance` away from the contact,
+/// towards the farther end of the step.
 double other_time(double time, double distance) { return time < 0.5 ? distance : -distance; }
 
-/// Sides change in any way. The points of contact pass each other with `speed` times the usual speed.
+/// Draws w, and makes the sides change in any way. The points of contact pass each other at `speed` times the
+/// usual speed.
 void deform(Random& random, Draft& draft, Roots roots, double time, double speed) {
   const auto [a, b] = plane(random, draft);
   draft.w = speed * small(random);
@@ -198,7 +200,8 @@ bool has_planned_roots(const Draft& draft, Roots roots) {
 
 // --- place and time ---------------------------------------------------------------------------------
 
-/// The weights of the point of contact: multiples of 1/16, or outside by 2^-10 to 2^-52.
+/// The weights of the point of contact: multiples of 1/16; if the point must be outside, one weight is beyond
+/// its limit by 2^-10 to 2^-52.
 std::pair<double, double> weights(Random& random, Kind kind, Where where) {
   const bool is_edges = !has_triangle(kind);
   const int first = random.integer(1, is_edges ? 15 : 14);
@@ -247,7 +250,7 @@ double time_of(Random& random, When when, int bits) {
   return 0;
 }
 
-/// The exponent of the lowest bit that is set in any component, or `lowest` if that is lower or v is 0.
+/// The exponent of the lowest bit that is set in any component, or `lowest` if this is lower, or if v is 0.
 int lowest_bit(const Vector& v, int lowest) {
   for (const double c : v) {
     if (c == 0) continue;

@@ -15,7 +15,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The query of x0 - x1 and x2 - x1, with a random x1.
+/// The query in which x0 - x1 follows `to_vertex` and x2 - x1 follows `edge`. The path of x1 is random.
 Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path& edge, double size = 1) {
   const Path from = Path{random.vector(size), random.vector(size)};
   Query query{.kind = kind};
@@ -37,14 +37,15 @@ Query with_separation_beside(Random& random, const Query& query, double x) {
   return with_separation(query, d > 0 ? d + off * d : exp2_of(x));
 }
 
-/// x0 - x1 and x2 - x1: each at t = 0, and its change during the step.
+/// The vectors x0 - x1 and x2 - x1 at t = 0, and their changes during the step.
 struct Motion {
   Vector to_vertex, vertex_moves, edge, edge_moves;
 };
 
 constexpr double rounded_to = 1e-6;
 /// Motions found by random search. If h is at most 1.09 times the smallest distance (1.22 times for the first
-/// four motions), the vertex is within h of the edge at no candidate time except the minimum of a piece.
+/// four motions), the vertex is within h of the edge at no candidate time of Algorithm 2 except the minimum
+/// of a piece of G (vertex_edge.hpp).
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -68,9 +69,9 @@ const std::array<Motion, 5> at_minima{{
      {2.345900, 1.582981, 0.115942}},
 }};
 
-/// A vertex comes within h of an edge only near the minimum of a piece of G (vertex_edge.hpp); no other
-/// candidate time of Algorithm 2 detects this. Axes change places and directions, and time may run backwards.
-/// The difference of h and the smallest distance is at most 2^x times the smallest distance.
+/// One of the motions `at_minima`, changed slightly. The axes are permuted and reversed at random; in half of
+/// the queries, start and end are exchanged. The difference of h and the smallest distance is at most 2^x
+/// times the smallest distance.
 Query at_minimum(Random& random, Kind kind, double x) {
   const Motion& motion = one_of(random, at_minima);
   const int turn = random.integer(0, 2);
@@ -96,11 +97,9 @@ Query at_minimum(Random& random, Kind kind, double x) {
 }
 
 /// A vertex drifts slowly through an edge that grows; in one of four queries, it passes beside the edge, and
-/// in one of four, it meets the edge's end x1. The components of the cross product of x0 - x1 and x2 - x1
-/// have equal magnitudes, and are small at all times; h is far smaller.
+/// in one of four, it meets the edge's end x1. The three components of the cross product of x0 - x1 and x2 -
+/// x1 have nearly equal magnitudes and are small at all times; h is far smaller than the edge.
 Query drifting(Random& random, Kind kind, double x) {
-  // Each number is drawn in its own statement, since the compiler chooses the order in which it evaluates
-  // arguments.
   const double x_of_normal = random.one_in(2) ? 1 : -1;
   const double y_of_normal = random.one_in(2) ? 1 : -1;
   const Vector normal(x_of_normal, y_of_normal, 1);

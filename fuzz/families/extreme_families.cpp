@@ -16,8 +16,8 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// The first primitive has the speed 10^x. In some queries, the second primitive also moves with this speed,
-/// or the shapes change with it.
+/// The first primitive has the speed 10^x. In some queries, the second primitive has this speed, too, or the
+/// shapes change at this speed.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   ContactSampler sampler(random);
@@ -28,8 +28,9 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter than the other. In half of the queries, the contact is at most about
-/// the length of the short side away from the corner x1 of the triangle, or from an end of the long edge.
+/// One of the sides q and r is shorter than the other. In half of the queries, the distance of the contact
+/// from the corner x1 of the triangle, or from an end of the long edge, is at most about the length of the
+/// short side.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -64,9 +65,9 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, multiplied by 2^1022 along one or more axes; along these, about half of the differences of
-/// coordinates overflow. Most primitives start in a plane normal to such an axis, and half of the coordinates
-/// are at rest.
+/// Small integers, which are multiplied by 2^1022 along one axis or along random axes. Along these axes, many
+/// differences of coordinates overflow. Most primitives start in a plane normal to such an axis, and half of
+/// the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
@@ -86,8 +87,8 @@ Query overflow(Random& random, Kind kind) {
   return finished(random, query);
 }
 
-/// Each vertex and each axis has its own exponent. The primitives touch at the origin, so multiplying a
-/// vertex or an axis keeps the contact.
+/// Each vertex and each axis has its own exponent. The primitives touch at the origin, so they still touch
+/// after all coordinates of a vertex, or all coordinates along an axis, are multiplied by a number.
 Query mixed_scale(Random& random, Kind kind, double x) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
@@ -123,7 +124,7 @@ Query static_pair(Random& random, Kind kind, double x) {
 
 // --- directions -------------------------------------------------------------------------------------
 
-/// The other edge, or the motion of the vertex, is nearly a multiple of the side q.
+/// The second edge, or the relative velocity of the vertex, is nearly a multiple of the side q.
 Query near_parallel(Random& random, Kind kind, double x) {
   const double angle = power_of_ten(x);
   ContactSampler sampler(random);
@@ -141,7 +142,7 @@ Query near_parallel(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, contact.velocity(kind) + w));
 }
 
-/// Rotates by the angle 2 atan(size / 2). If `size` is small, this angle is about `size`.
+/// The rotation about `axis` by the angle 2 atan(size / 2). If `size` is small, this angle is about `size`.
 Eigen::Matrix3d rotation(const Vector& axis, double size) {
   const double length = axis.norm();
   const Vector part = (length == 0 ? 0 : size / 2 / length) * axis;
@@ -171,9 +172,9 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Each vertex moves linearly between its places in two placements of a rigid body, so the body is mapped
-/// affinely at every time. Points that coincide stay together, and only the relative motion of the primitives
-/// separates them.
+/// Both primitives turn as one rigid body between t = 0 and t = 1, except that each vertex moves in a
+/// straight line. So the body is mapped affinely at every time, and points of it that coincide stay together;
+/// only the relative motion `apart` separates the primitives.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };

@@ -40,8 +40,8 @@ bool is_closest(Kind kind, Closest closest, bool is_side_q) {
 
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level) {
   const bool rests = random.one_in(2);
-  // In a query with a triangle, q and r are two sides of the triangle, the second primitive. In an edge-edge
-  // query, q is the first edge.
+  // In a query with a triangle, q and r are sides of the triangle, which is the second primitive. In an
+  // edge-edge query, q is the first edge, and r the second.
   const auto side = [&](bool is_q) {
     const double away = is_q && !has_triangle(kind) ? level : -level;
     const auto draw = [&] {

@@ -1,4 +1,4 @@
-// Primitives on both sides of a plane or a slab, with chosen closest features.
+// Primitives on opposite sides of a plane or of a slab, with chosen closest features.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ Closest draw_closest(Random& random, Kind kind);
 /// A vector in the plane z = 0 whose components are integers from -4 to 4.
 Vector3<double> vector_in_plane(Random& random);
 
-/// Whether side q (if `is_side_q`) or side r is part of the closest features.
+/// Whether side q, or side r if not `is_side_q`, is part of the closest features.
 bool is_closest(Kind kind, Closest closest, bool is_side_q);
 
 /// A contact of primitives on opposite sides of the plane z = 0, up to a common translation. During the whole
@@ -33,10 +33,10 @@ bool is_closest(Kind kind, Closest closest, bool is_side_q);
 /// and 0 as the weight of any other side. In half of the contacts, sides keep their length and direction.
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level = 1);
 
-/// At the time of contact, the first point of contact is at (0, 0, gap) relative to the second point of
-/// contact, and moves with velocity w relative to that point. At that time, the distance of the primitives is
-/// the gap; at any time t, it is at least gap + (t - time) w[2]. If the numbers have few bits, all of this is
-/// exact.
+/// The query in which, at the time of `contact`, the first primitive's point of contact is at (0, 0, gap)
+/// relative to the second primitive's point of contact, and moves with velocity w relative to that point. At
+/// that time, the distance of the primitives is `gap`; at any time t, it is at least gap + (t - time) w[2].
+/// If the numbers have few bits, all of this is exact.
 Query facing(Kind kind, const Contact& contact, const Vector3<double>& w, double gap);
 
 }  // namespace nearmiss

@@ -25,7 +25,6 @@ double draw(Random& random, const Parameter& parameter) {
   return random.uniform(parameter.lo, parameter.hi);
 }
 
-/// "FACTOR=2^x"
 std::string power_text(const Parameter& parameter, double x) {
   return fmt::format("{}=2^{}", parameter.factor, x);
 }
@@ -168,7 +167,6 @@ std::span<const Family> separation_families() {
 
 namespace {
 
-/// The family with repeat_vertices() as the last step of making a query.
 Family without_other_vertices(Family family) {
   return with_last_step(std::move(family), [](Random& /*random*/, Query& query) { repeat_vertices(query); });
 }

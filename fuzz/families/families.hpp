@@ -1,4 +1,4 @@
-// Families of queries for the hunt. Each query is a pure function of (family, seed, index).
+// Families of queries. Each query is a pure function of the family, a seed and an index.
 #pragma once
 
 #include <array>
@@ -21,31 +21,29 @@ struct Parameter {
   double lo, hi;
   bool whole = false;  ///< whether x must be a whole number
   std::function<Query(Random&, Kind, double)> make;
-  std::string factor = "";  ///< if set, reports count queries by whole x, as FACTOR=2^x
+  std::string factor = "";  ///< if set, reports count the queries of each whole x, as FACTOR=2^x
 };
 
-/// A way of making queries.
 struct Family {
   std::string name;  ///< NAME, or NAME@VALUE if the parameter has a fixed value
   std::string about;
   bool planted = false;  ///< whether every query is a collision by construction
   std::function<Query(Random&, Kind)> make;
-  std::optional<Parameter> parameter{};         ///< each query draws its own value, uniformly
+  std::optional<Parameter> parameter{};         ///< each query draws its own x, uniformly
   std::uint64_t block_cases = 25;               ///< queries in the first round of a campaign
-  bool timed = true;                            ///< whether the subjects' times count
+  bool timed = true;                            ///< whether trials time the subjects
   bool compare_all = false;                     ///< whether all methods of the oracle decide every query
   bool has_separation = false;                  ///< whether the queries have a separation h > 0
-  std::array<Kind, 2> kinds = kinds_of_meshes;  ///< the kinds of queries with even and with odd indices
+  std::array<Kind, 2> kinds = kinds_of_meshes;  ///< the kind of queries with even indices, then with odd ones
   std::optional<Kind> only{};                   ///< if set, campaigns ask only the queries of this kind
-  /// Draws the value of each factor for a query, as texts "FACTOR=VALUE"; `make` starts with the same draws.
-  /// Null if the family has no factors.
+
+  /// Draws the values of a query's factors, as texts "FACTOR=VALUE". `make` starts with the same draws. Null
+  /// if the family has no factors.
   std::function<std::vector<std::string>(Random&)> factors{};
 };
 
-/// A family with a parameter.
 Family with_parameter(std::string name, std::string about, Parameter parameter);
 
-/// The family, marked as one whose queries are all collisions by construction.
 Family with_collisions(Family family);
 
 /// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so only the parameter
@@ -58,41 +56,42 @@ Family at_value(const Family& family, double value);
 /// has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// The text in place of a number that makes each query draw its own separation.
+/// If this text is given instead of a number, each query draws its own separation.
 inline constexpr std::string_view drawn_separation = "drawn";
 
 /// Returns the separation of a query. Takes random numbers only if separations are drawn.
 using ChooseSeparation = std::function<double(Random&, const Query&)>;
 
 /// Parses the separation of all queries: a positive number, or `drawn`. A drawn separation is between 1e-6
-/// and 1 times the extent of the query's primitives; one in four is a power of two. Throws an Error that
-/// starts with `where` for any other text.
+/// and 1 times extent(query); one in four is then rounded down to a power of two. Throws an Error that starts
+/// with `where` for any other text.
 ChooseSeparation parse_family_separation(std::string_view text, std::string_view where);
 
-/// The family NAME~SEPARATION: the queries of NAME with a separation, which each query draws after everything
-/// else if it is `drawn`. Throws Error if parse_family_separation() refuses the text, or if the family has
-/// separations of its own.
+/// The family NAME~SEPARATION: the queries of NAME with this separation. If it is `drawn`, each query draws
+/// its separation after everything else. Throws Error if parse_family_separation() refuses the text, or if
+/// the family has separations of its own.
 Family with_separation(const Family& family, std::string_view separation);
 
-/// All families that ask for contact, in the order of lists and campaigns; the extreme families come last.
+/// The families of vertex-triangle and edge-edge queries that ask for contact, in the order in which lists
+/// and campaigns show them. The families of extreme queries come last.
 std::span<const Family> families();
 
-/// The families whose queries have separations of their own.
+/// The families of vertex-triangle and edge-edge queries that have separations of their own.
 std::span<const Family> separation_families();
 
-/// Families of vv and ve queries. Each query is a query of another family without its last vertices: those of
-/// "v-uniform" come from "uniform". In such a query, contact happens only by coincidence, so campaigns give
-/// these families separations.
+/// The families of vertex-vertex and vertex-edge queries. Most queries are those of another family without
+/// their last vertices: "v-uniform" takes its queries from "uniform". Such primitives touch only by
+/// coincidence, so campaigns give the queries separations.
 std::span<const Family> vertex_families();
 
-/// The family as campaigns ask it by default: families of vv and ve queries draw separations, unless they
-/// have their own.
+/// The family as campaigns use it by default: vertex-vertex and vertex-edge queries draw separations, unless
+/// the family has its own.
 Family as_asked(const Family& family);
 
-/// families() and separation_families(), whose queries are pairs of triangle meshes.
+/// families() and separation_families(): all families of vertex-triangle and edge-edge queries.
 std::span<const Family> mesh_families();
 
-/// Families whose primitives are at rest, for all four kinds. `nearmiss distance` asks them; campaigns do
+/// Families whose primitives are at rest, for all four kinds. `nearmiss distance` uses them; campaigns do
 /// not.
 std::span<const Family> families_at_rest();
 
@@ -107,13 +106,12 @@ Family find_family(std::string_view name, std::span<const Family> known = all_fa
 /// vertex-edge for an odd index.
 inline Kind kind_of(const Family& family, std::uint64_t index) { return family.kinds[index % 2]; }
 
-/// Whether the family has queries of a kind.
 bool has_kind(const Family& family, Kind kind);
 
 /// Throws an Error that starts with `where` if the family has no queries of a kind.
 void expect_kind(const Family& family, Kind kind, std::string_view where);
 
-/// The kinds of the family's queries that campaigns ask: Family::only if it is set, otherwise both.
+/// The kinds about which campaigns ask: Family::only if it is set, otherwise both kinds of the family.
 inline std::span<const Kind> kinds_asked(const Family& family) {
   return family.only ? std::span(&*family.only, 1) : std::span<const Kind>(family.kinds);
 }
@@ -135,7 +133,6 @@ Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index);
 class QueryMaker {
  public:
   QueryMaker(const Family& family, std::uint64_t seed);
-  /// Query number `index`.
   [[nodiscard]] Query operator()(std::uint64_t index) const {
     Random random(seed_, stream_, index);
     return family_.make(random, kind_of(family_, index));

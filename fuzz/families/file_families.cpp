@@ -15,8 +15,9 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Primitives of a size and speed, in general position around the origin. They are aimed at each other, but
-/// the place where their planes or lines meet may be outside the primitives, and the time outside the step.
+/// Primitives of the given size and speed, in general position around the origin. They are aimed at each
+/// other, but the place where their planes or lines meet may be outside the primitives, and the time outside
+/// the step.
 Query everyday(Random& random, Kind kind, double size, double speed) {
   const auto path = [&](double length) {
     const Vector start = random.vector(length);
@@ -50,8 +51,8 @@ Query decimals(Random& random, Kind kind, double x) {
     for (std::size_t i = 0; i < 12; ++i) query.x[i] = random.integer(-unit, unit);
     for (std::size_t i = 12; i < 24; ++i) query.x[i] = query.x[i - 12] + random.integer(-unit / 2, unit / 2);
   } else {
-    // Sides and velocities are multiples of 100 / 10^x, and weights and times are multiples of 1/10. So the
-    // coordinates of places have x digits.
+    // Sides and velocities are multiples of 100 / 10^x, and weights and times are multiples of 1/10. So all
+    // coordinates have x digits behind the point.
     const int most = std::max(unit / 100, 1);
     const auto hundreds = [&]() -> Vector { return 100 * random.integer_vector(most); };
     const auto path = [&]() {
@@ -83,12 +84,12 @@ Query kilometres(Random& random, Kind kind) {
   return moved(query, random.vector(scene));
 }
 
-// The values of the factors of `metres`, in metres and in lengths of an edge.
+// The values of the factors of `metres`: lengths of edges and sizes of scenes in metres, motions in lengths
+// of an edge.
 constexpr std::array edges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array steps{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array scenes{1.0, 10.0, 100.0};
 
-/// The size of a scene, of the primitives in it, and of their motion in a step, in metres.
 struct Metres {
   double edge, step, scene;
 
@@ -114,15 +115,15 @@ Query everyday_of_size_1(Random& random, Kind kind) {
   return everyday(random, kind, 1, speed);
 }
 
-/// A query of size 1, multiplied by 2^x.
+/// A query of everyday_of_size_1(), with all coordinates multiplied by 2^x.
 Query units(Random& random, Kind kind, double x) {
   Query query = everyday_of_size_1(random, kind);
   for (double& c : query.x) c = std::ldexp(c, static_cast<int>(x));
   return query;
 }
 
-/// A query of size 1, moved away from the origin. The motion is exact: all numbers are multiples of 2^-22
-/// below 2^28.
+/// A query of everyday_of_size_1(), moved away from the origin. The translation is exact: all coordinates are
+/// multiples of 2^-22 below 2^28.
 Query distant(Random& random, Kind kind, double x) {
   constexpr double grid = 0x1p-22;
   const auto on_grid = [](double c) { return grid * std::round(c / grid); };

@@ -14,7 +14,6 @@ using Vector = Vector3<double>;
 
 // --- contact at an end of a long motion ---------------------------------------------------------------
 
-/// A vector of integers from -2^bits to 2^bits.
 Vector wide_vector(Random& random, int bits) {
   const Vector v = random.vector(std::ldexp(1.0, bits));
   return v.array().floor();
@@ -61,7 +60,6 @@ Query far_end(Random& random, Kind kind, double x) {
   return shuffled(random, query);
 }
 
-/// A query of far_end, with start and end exchanged.
 Query far_start(Random& random, Kind kind, double x) {
   Query query = far_end(random, kind, x);
   std::rotate(query.x.begin(), query.x.begin() + 12, query.x.end());
@@ -70,9 +68,10 @@ Query far_start(Random& random, Kind kind, double x) {
 
 // --- contact hardly after t = 0 -------------------------------------------------------------------------
 
-/// The second primitive always contains the origin. The first one moves from -2^x w to w, and meets it at t =
-/// 2^x / (1 + 2^x). If w is in the plane of the primitives, they may touch earlier. Edges move along an axis,
-/// so that adding a tiny number to their coordinates is exact.
+/// The second primitive always contains the origin. The first primitive's point of contact moves from -2^x w
+/// to w, and is at the origin at t = 2^x / (1 + 2^x). If w is in the plane of the primitives, they may touch
+/// earlier. A moving edge has no extent along the axis along which it moves, so that adding a tiny number to
+/// its coordinates is exact.
 Query first_moment(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   const Vector axis = Vector::Unit(random.integer(0, 2));
@@ -102,7 +101,8 @@ Query first_moment(Random& random, Kind kind, double x) {
 // --- no motion and no size ------------------------------------------------------------------------------
 
 /// All vertices of a primitive are one point at rest. Both primitives are the same point, or one coordinate
-/// of the second differs by up to four ulps. All bounds that grow with sizes or motions are 0.
+/// of the second differs by up to four ulps. Error bounds of a CCD that are proportional to sizes or motions
+/// are 0.
 Query one_point(Random& random, Kind kind) {
   const double size = power_of_ten(random.uniform(-3, 3));
   const Vector point = random.vector(size);

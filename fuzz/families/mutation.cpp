@@ -58,7 +58,6 @@ Moments some_moments(Random& random) {
 
 // --- coordinates ------------------------------------------------------------------------------------
 
-/// Moves some coordinates by a few ulps.
 Query by_ulps(Random& random, const Query& query) {
   const int ulps = random.one_in(4) ? 64 : 4;
   return nudged(random, query, random.integer(1, 4), ulps);
@@ -80,7 +79,8 @@ Query by_a_fraction(Random& random, const Query& query) {
   return result;
 }
 
-/// Multiplies some coordinates by powers of two, or moves them to the ends of their range.
+/// Multiplies some coordinates by powers of two, or replaces them with zero or with a number at an end of the
+/// range of double.
 Query exponents(Random& random, const Query& query) {
   Query result = query;
   const std::array extremes{0.0, std::numeric_limits<double>::denorm_min(),
@@ -96,7 +96,7 @@ Query exponents(Random& random, const Query& query) {
   return result;
 }
 
-/// Replaces some coordinates by other coordinates, or by their negation.
+/// Replaces some coordinates with other coordinates of the query, or with the negatives of those.
 Query coordinate_copied(Random& random, const Query& query) {
   Query result = query;
   for (int count = random.integer(1, 3); count > 0; --count) {
@@ -108,7 +108,8 @@ Query coordinate_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Rounds all coordinates to small multiples of a power of two that is near the largest coordinate.
+/// Rounds all coordinates, or those of one position, to multiples of a power of two: the coordinates become
+/// integers of at most 6 bits or, in one of four queries, at most 30 bits, times this power.
 Query rounded(Random& random, const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -145,15 +146,16 @@ Place anywhere_in_planes(Random& random) {
   return {alpha, beta, random.uniform()};
 }
 
-/// Moves a position so that the vertices are in a plane at some time.
+/// Moves a position so that all vertices are in one plane at some time.
 Query coplanar_once(Random& random, const Query& query) {
   Place place = anywhere_in_planes(random);
   if (random.one_in(2)) place.time = random.integer(0, 16) / 16.0;
   return joined_somehow(random, query, place);
 }
 
-/// Keeps a vertex at one place of the plane or line of the other vertices, or keeps all vertices in a plane
-/// normal to an axis.
+/// Keeps all vertices in one plane during the whole step. Either both positions of one vertex are moved, so
+/// that the two points of a place coincide at all times; or all vertices are moved into one plane normal to
+/// an axis.
 Query coplanar_always(Random& random, const Query& query) {
   if (random.one_in(2)) {
     Query result = query;
@@ -172,7 +174,7 @@ Query coplanar_always(Random& random, const Query& query) {
 
 // --- primitives and motion -----------------------------------------------------------------------------
 
-/// Moves a vertex towards another vertex by a factor, or onto it.
+/// Multiplies the distance between two vertices by a factor below 1, often 0.
 Query edge_shrunk(Random& random, const Query& query) {
   const int fixed = random.integer(0, 3);
   const int moving = (fixed + random.integer(1, 3)) % 4;
@@ -185,7 +187,8 @@ Query edge_shrunk(Random& random, const Query& query) {
   return result;
 }
 
-/// A velocity that is zero, the velocity of a vertex, or a sum of multiples of the edges from a vertex.
+/// A velocity: zero, that of a vertex, or a sum of multiples of one or two vectors that go from one vertex to
+/// others.
 Vector aligned_velocity(Random& random, const Query& query) {
   const int base = random.integer(0, 3);
   switch (random.integer(0, 3)) {
@@ -204,7 +207,7 @@ Vector aligned_velocity(Random& random, const Query& query) {
   }
 }
 
-/// Some vertices get an aligned velocity.
+/// Gives one vertex, or all vertices of a primitive, an aligned_velocity().
 Query velocity_aligned(Random& random, const Query& query) {
   const Vector velocity = aligned_velocity(random, query);
   const VertexRange vertices = some_vertices(random, query.kind);
@@ -243,7 +246,6 @@ Query reversed(Random& random, const Query& query) {
 
 // --- the whole --------------------------------------------------------------------------------------
 
-/// Multiplies everything by a power of two.
 Query scaled(Random& random, const Query& query) {
   const int exponent = random.one_in(4) ? random.integer(-1000, 1000) : random.integer(-20, 20);
   Query result = query;
@@ -252,7 +254,7 @@ Query scaled(Random& random, const Query& query) {
   return result;
 }
 
-/// Translates by a random multiple of the extent, or moves a position to the origin.
+/// Translates the query by a random vector, or so that one position moves to the origin.
 Query translated(Random& random, const Query& query) {
   const Vector offset = random.one_in(4)
                             ? Vector(-position(query, random.integer(0, 7)))
@@ -269,7 +271,7 @@ constexpr std::array<Apply, 16> mutations{by_ulps,         by_a_fraction, expone
                                           coplanar_always, edge_shrunk,   velocity_aligned, vertex_copied,
                                           reversed,        scaled,        translated,       shuffled};
 
-/// The changed query if it is finite; else the given one.
+/// Applies a mutation; returns the given query if the mutated query is not finite.
 Query applied(Apply apply, Random& random, const Query& query) {
   const Query result = apply(random, query);
   return is_finite(result) && std::isfinite(result.separation) ? result : query;

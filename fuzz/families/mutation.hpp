@@ -6,15 +6,16 @@
 
 namespace nearmiss {
 
-/// Applies one to three mutations of the list in mutation.cpp. Half of these mutations move something by a
-/// fraction, to improve a query step by step; the others are drawn from the whole list, to explore. Half of
-/// the calls then restore contact where the primitives nearly touch, so that chains of mutations stay near
-/// collisions. One call in four also changes a separation h > 0; h = 0 never changes. The result is finite if
-/// `query` is.
+/// Applies one to three mutations of the list in mutation.cpp. Half of these mutations move coordinates by a
+/// fraction of a distance, to improve a query step by step; the others are drawn from the whole list, to
+/// explore. Half of the calls then make the primitives touch where they nearly touch, so that chains of
+/// mutations stay near collisions. One call in four also changes a separation h > 0; h = 0 never changes. The
+/// result is finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
-/// Takes some vertices, axes, times or single coordinates from one query, and the rest from the other. The
-/// separation is that of one of the two queries.
+/// Combines two queries. One of them gives the coordinates of some vertices, along some axes, at one end of
+/// the step, or some single coordinates; the other query gives all other coordinates. The kind and the
+/// separation are each taken from one of the two.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

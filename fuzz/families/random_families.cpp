@@ -169,7 +169,6 @@ Query small_integer(Random& random, Kind kind) {
   return query;
 }
 
-/// A family without a parameter.
 Family plain(std::string name, std::string about, Query (*make)(Random&, Kind), bool is_planted = false) {
   return {std::move(name), std::move(about), is_planted, make, std::nullopt};
 }

@@ -20,7 +20,6 @@ using Vector = Vector3<double>;
 
 // --- queries of small numbers -----------------------------------------------------------------------
 
-/// A query before it is scaled.
 struct Draft {
   Query query;
   bool scales_vertices = false;  ///< whether scaled_to() may scale single vertices
@@ -145,8 +144,8 @@ Differences differences(const Query& query) {
 constexpr std::size_t none = 3;  ///< stands for no axis
 
 /// The sum of the magnitudes of the products in F. Each product has three factors: a difference along each
-/// axis. If an axis is left out, the sum of the magnitudes of the products in W's component along that axis,
-/// each of two differences.
+/// axis. If an axis is left out: the sum of the magnitudes of the products in W's component along that axis.
+/// Each of these products has two factors.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -163,17 +162,18 @@ void scale_axis(Query& query, std::size_t axis, int exponent) {
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] = std::ldexp(query.x[i], exponent);
 }
 
-/// Multiplies an axis by the largest multiple of 1/8 that keeps the exponent of the sum of products. With the
-/// sum near the top of its binade, a value two or three times as large is likely to overflow.
+/// Multiplies the coordinates along an axis by the largest multiple of 1/8 that keeps the exponent of the sum
+/// of products. Then the sum is near the top of its binade; if its exponent is 1023, two or three times the
+/// sum overflows.
 void fill_binade(Query& query, std::size_t axis, double sum) {
   const double mantissa = std::ldexp(sum, -std::ilogb(sum));
   const double factor = (std::ceil(16 / mantissa) - 1) / 8;
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] *= factor;
 }
 
-/// Scales the axes that are not left out, so that the sum of products is in [2^x, 2^(x + 1)), unless it is
-/// zero. All axes are multiplied by the same power of two, as far as x allows, or by powers that differ by up
-/// to 2^spread.
+/// Scales the coordinates along the axes that are not left out, so that the sum of products is in [2^x, 2^(x
+/// + 1)), unless it is zero. If `spread` is 0, the exponents of the axes' factors differ by at most 1;
+/// otherwise, they differ by random numbers of about this size.
 void scale_products(Random& random, Query& query, std::size_t left_out, int x, int spread) {
   const double sum = sum_of_products(query, left_out);
   int exponent = x;
@@ -193,7 +193,8 @@ void scale_products(Random& random, Query& query, std::size_t left_out, int x, i
   }
 }
 
-/// Makes two vertices up to 2^512 times larger or smaller than the others, or gives each vertex its own size.
+/// Makes the coordinates of two vertices up to 2^512 times larger or smaller than those of the others, or
+/// scales each vertex by its own power of two.
 void scale_vertices(Random& random, Query& query) {
   const int half = random.integer(-256, 256);
   std::array<int, 4> exponents{-half, -half, half, half};
@@ -203,8 +204,8 @@ void scale_vertices(Random& random, Query& query) {
   for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], exponents[i / 3 % 4]);
 }
 
-/// Scales products of two differences. Scales the third axis so that F also overflows or underflows, or so
-/// that F stays inside the range by a factor of up to 2^60.
+/// Scales two axes so that the products of two differences in a component of W add up to about 2^x. Scales
+/// the third axis so that F also overflows or underflows, or so that F stays inside the range of double.
 void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   const auto left_out = static_cast<std::size_t>(random.integer(0, 2));
   scale_products(random, query, left_out, x, spread);
@@ -212,8 +213,9 @@ void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   scale_axis(query, left_out, random.one_in(4) ? x / 2 : x > 0 ? -inward : inward);
 }
 
-/// In half of the queries, all coordinates have about the same size. In the other half, the vertices or the
-/// axes have different sizes.
+/// Scales a draft so that products of two, three, four or six differences add up to about 2^x. In half of the
+/// queries, all coordinates have about the same size. In the other half, the vertices or the axes have
+/// different sizes.
 Query scaled_to(Random& random, const Draft& draft, int x) {
   Query query = shuffled(random, draft.query);
   const bool mixed = random.one_in(2);

@@ -10,8 +10,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Primitives of about size 1, with a point of each at random weights, often on a border. The two points are
-/// `gap` apart; half of the gaps are along the normal.
+/// Primitives of about size 1, and a point on each, often on a border. The vector `gap` goes from the second
+/// primitive's point to the first one's; half of these vectors are along the normal.
 struct Draft {
   Contact contact;
   Vector gap;
@@ -27,7 +27,7 @@ struct Draft {
     if (random.one_in(2)) gap = length * contact.q.start.cross(contact.r.start);
   }
 
-  /// The query; the origin of its coordinates is moved away from the drawn points.
+  /// The query, with the drawn primitives at a random place.
   [[nodiscard]] Query query(Random& random, Kind kind) const {
     Contact at = contact;
     at.base = still(random.vector(1));
@@ -61,7 +61,7 @@ Query rest_distant(Random& random, Kind kind, double x) {
   return moved(query, power_of_two(x) * random.vector(1));
 }
 
-/// The sides are turned until the angle between them has the tangent 2^x.
+/// The tangent of the angle between the sides q and r is 2^x.
 Query rest_angle(Random& random, Kind kind, double x) {
   Draft draft(random, kind);
   const Vector q = draft.contact.q.start;
@@ -77,7 +77,7 @@ Query rest_angle(Random& random, Kind kind, double x) {
   return draft.query(random, kind);
 }
 
-/// One side is shorter than the other.
+/// One side is multiplied by 2^x.
 Query rest_ratio(Random& random, Kind kind, double x) {
   Draft draft(random, kind);
   Path& shorter = random.one_in(2) ? draft.contact.q : draft.contact.r;

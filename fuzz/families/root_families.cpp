@@ -22,12 +22,12 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// A point with weights that change at the rates α' and β' follows a curve. The first primitive moves along a
-/// tangent of this curve, so F has a double root. The curve departs from its tangent by (β' r' + sign α' q')
-/// (t - time)². If the first primitive is shifted by this vector for t = time ± h, it meets the curve at
-/// these two times; if it is shifted the opposite way, it never does. Half of the primitives lie in a
-/// coordinate plane at the contact time and leave it along its normal, so that even the smallest shift is
-/// exact.
+/// A point whose weights change at the rates α' and β' follows a curve. The first primitive moves along a
+/// tangent of this curve, so F has a double root. The curve departs from its tangent by (β' r' + s α' q') (t
+/// - time)² with s = alpha_sign(kind). If the first primitive is shifted by the value of this vector at t =
+/// time ± h, it meets the curve at these two times; if it is shifted the opposite way, it never meets the
+/// curve. In half of the queries, both sides lie in a coordinate plane at the contact time and leave it along
+/// its normal, so that even the smallest shift is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
   ContactSampler sampler(random);
@@ -55,10 +55,11 @@ Query even_roots(Random& random, Kind kind, double x) {
   return finished(random, with_first_moved(query, shift));
 }
 
-/// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
-/// for a nilpotent J, F(t) is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives touch if M0 maps
-/// the vector (1, -sign α, -β) to 0. It does, because all rows of C except the first are orthogonal to this
-/// vector, and J ignores the first row. Finally, q and r are moved slightly, and the contact moves with them.
+/// F(t) = det(M0 + s M1) with s = t - time. The columns of M0 + s M1 are x0 - base, q and r. With M1 = G C
+/// and M0 = G J C for a nilpotent J, F(t) is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives
+/// touch if M0 maps the vector (1, -alpha_sign(kind) α, -β) to 0. M0 does, because all rows of C except the
+/// first are orthogonal to this vector, and J C does not contain the first row of C. Finally, q and r are
+/// moved slightly, and the contact moves with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
   ContactSampler sampler(random);

@@ -1,4 +1,4 @@
-// The tables of families. Each theme has a file; families() lists all families.
+// The tables of families. Each theme has a file with one table.
 #pragma once
 
 #include <vector>

@@ -23,9 +23,9 @@ struct Factor {
   static Factor constant() { return {1, 1}; }
 };
 
-/// A point on the plane or line of each primitive: its weights, as in Contact, are α / whole and β / whole.
-/// If whole is 0, no such point exists: at the root of the factor, sign α q = -β r, so the sides are
-/// parallel.
+/// The weights, as in Contact, of a point in the plane or on the line of each primitive: α / whole and β /
+/// whole. If `whole` is 0, no such point exists: at the root of the factor, s α q = -β r with s =
+/// alpha_sign(kind), so the sides are parallel.
 struct Weights {
   int whole, alpha, beta;
 
@@ -46,22 +46,22 @@ struct PlannedRoot {
 
 double determinant(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
 
-/// Whether both the directions and the weights are linearly independent. If one of them were not, F would be
-/// 0 at all times.
+/// Whether the three directions are linearly independent, and the three columns of weights are, too.
+/// Otherwise, F would be 0 at all times.
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
   const auto& [a, b, c] = roots;
   return determinant(a.direction, b.direction, c.direction) != 0 &&
          determinant(a.weights.column(kind), b.weights.column(kind), c.weights.column(kind)) != 0;
 }
 
-/// The vertices at t = 0 or t = 1 of a query in which F is a multiple of the product of the factors. At the
-/// root of a factor, the two points with its weights coincide, so the primitives touch if the weights are
-/// inside.
+/// The vertices, at t = 0 or at t = 1, of a query in which F is a multiple of the product of the factors. At
+/// the root of a factor, the two points with the weights of this root coincide, so the primitives touch if
+/// these weights are inside.
 ///
 /// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
-/// the factors on its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is
-/// det(M). Row i of adj(K) is the cross product of K's other two columns. All operations are exact if numbers
-/// have few bits.
+/// has the factors on its diagonal, and K has the columns (whole, -s α, -β) with s = alpha_sign(kind). So M K
+/// = det(K) U L, and F is det(M). Row i of adj(K) is the cross product of K's other two columns. All
+/// operations are exact if numbers have few bits.
 std::array<Vector, 4> vertices_with_roots(Kind kind, const Vector& base,
                                           const std::array<PlannedRoot, 3>& roots, double Factor::*at) {
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
@@ -83,7 +83,7 @@ Weights inside(Random& random, Kind kind) {
   return {whole, alpha, beta};
 }
 
-/// Weights of a point that is outside by at most 2/5 of each side.
+/// Weights, each from -2/5 to 7/5, of a point outside the primitives.
 Weights outside(Random& random, Kind kind) {
   for (;;) {
     const int whole = random.integer(5, 8);
@@ -118,8 +118,8 @@ Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& 
   return rescaled(random, query);
 }
 
-/// Two or three roots of F whose neighbours are 1 to 3 times 2^x apart. At some of these roots, the points
-/// that coincide are outside of the primitives.
+/// Two or three roots of F; neighbouring roots are 1 to 3 times 2^x apart. At some of these roots, the points
+/// that coincide are outside the primitives.
 Query close_roots(Random& random, Kind kind, double x) {
   const double gap = power_of_two(x);
   const bool has_third = !random.one_in(3);
@@ -166,8 +166,8 @@ Query border_first(Random& random, Kind kind, double x) {
 }
 
 /// Contact at t = 0, or at t = 2^x / (1 + 2^x); then the primitives separate, and touch again later. At the
-/// first contact, the points of contact pass each other along an axis on which everything else is at rest, so
-/// that the tiny numbers are exact.
+/// first contact, the points of contact pass each other along an axis along which nothing else moves, so that
+/// the tiny numbers are exact.
 Query return_later(Random& random, Kind kind, double x) {
   const Factor first{random.one_in(2) ? 0 : -power_of_two(x), 1};
   const double second = sixteenths(random, 4, 16);
@@ -195,17 +195,17 @@ Query return_later(Random& random, Kind kind, double x) {
 
 // --- touching at one time -------------------------------------------------------------------------------
 
-/// Tangential contact. If the first primitive is moved by δ `inward`, the primitives meet at two times near
-/// the contact; if the first primitive is moved the opposite way, they never meet.
+/// Tangential contact. If the first primitive is moved a little along `inward`, the primitives meet at two
+/// times near the contact; if it is moved the opposite way, they never meet.
 struct Graze {
   Contact contact;
   Vector w;  ///< velocity of the first point of contact relative to the second
   Vector inward;
 };
 
-/// The sides q and r lie in the plane z = 0 at the contact, and leave it with velocities q' and r'. The
-/// weights change at rates α' and β', so that F = N (δ - (β' r' + sign α' q') (t - time)²), where N is the
-/// normal.
+/// The sides q and r lie in the plane z = 0 at the contact, and leave it with velocities q' and r'. The point
+/// of contact moves as if the weights changed at rates α' and β'. If the first primitive is moved by δ along
+/// z, F is N_z (δ - (β' r' + s α' q') (t - time)²) with N = q × r and s = alpha_sign(kind).
 Graze graze_face(Random& random, Kind kind, double time) {
   for (;;) {
     const Vector q = vector_in_plane(random);
@@ -252,8 +252,8 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
 }
 
-/// In half of the queries, the primitives touch at one time. In the other half, the first primitive is moved
-/// by 2^x from this position, towards the second primitive or away from it.
+/// In half of the queries, the primitives touch at one time. In the other half, the first primitive of such a
+/// query is moved by about 2^x, towards the second primitive or away from it.
 Query touch_once(Random& random, Kind kind, double x) {
   const double time = sixteenths(random, 1, 15);
   auto [contact, w, inward] =

@@ -40,7 +40,7 @@ constexpr double inside_ee_far = 540;  // p within 2B
 
 std::string_view first_broken(const Tolerances<double>& tol, double eps,
                               const RoundingErrors<double>& errors) {
-  const double E = 4 * std::sqrt(eps);  // the edge lengths of the paper's (2) and (3)
+  const double E = 4 * std::sqrt(eps);  // E in (3) of the paper; E in (2) is 21/16 of it
   for (const auto& each : constraints(tol, 21 * E / 16, E, errors))
     if (!(each.more >= each.less)) return each.about;
   return "";
@@ -105,7 +105,7 @@ std::vector<RoundingConstant> rounding_consequences() {
   const double root_eps = std::sqrt(eps);
   const auto paper = paper_tolerances(1.0);
   const double mu = cubic_residual(eps / 2) / eps;
-  const double psi = least_psi(eps / 2, paper.S, paper.rho) / root_eps;  // the error of G is part of it
+  const double psi = least_psi(eps / 2, paper.S, paper.rho) / root_eps;  // includes the error of G
 
   return {
       {"VV: quotient", "4.2", "eps (B/b + 1)", 10, 9},
@@ -128,8 +128,8 @@ std::vector<RoundingConstant> rounding_consequences() {
       {"EE: distance of a false positive, far p", "4.5.1", line, 1448, 4 * inside_ee_far,
        4 * proven::inside_ee_far, beyond},
       {"distance bound", "4.4.1", "B eps^1/4", 41, std::sqrt(34.0 * 34 + 522)},
-      // A weight is linear in p, so it changes by at most ‖N‖ ‖edge‖ √3 B h. Here, ‖N‖ <= 3B² and ‖edge‖ <=
-      // √3 B.
+      // A weight is linear in p, so it changes within the time h by at most ‖N‖ ‖edge‖ √3 B h. Here, ‖N‖ <=
+      // 3B² and ‖edge‖ <= √3 B.
       {"VE culling: spread of a weight", "5", "B^4 h", 9, 3 * 3},
       {"critical points", "node_error, ccd/wang/ve_culling.hpp", b3, node_error, 3 * 18, none,
        "derived in ccd/wang/cubic.hpp"},

@@ -18,6 +18,7 @@ struct RoundingConstant {
   std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
   std::string_view unit;
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
+
   /// For a bound: the first-order bound that Theorem 4.1 gives for the operations in ccd/ on exact vectors.
   /// For a consequence (rounding_consequences): the value that follows from other rows.
   double derived = none;

@@ -1,4 +1,4 @@
-// The power of a hunt: how soon it finds a known defect.
+// The power of a campaign: how soon it finds a known defect.
 #pragma once
 
 #include <atomic>
@@ -19,9 +19,9 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// The families about which to ask a subject: the families in `of_contact`. If the subject takes separations
-/// for mesh queries, also these families with drawn separations. If the subject takes separations for vv and
-/// ve queries, also as_asked() of each family in `of_vertices`.
+/// The families with which to look for a subject's defects: `of_contact`. If the subject takes separations
+/// for vertex-triangle queries, also `of_contact` with drawn separations. If it takes separations for
+/// vertex-vertex or vertex-edge queries, also `of_vertices`, changed by as_asked().
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
                                  std::span<const Family> of_vertices);
 

@@ -8,14 +8,13 @@
 
 namespace nearmiss {
 
-/// Counts of the queries of one kind.
 struct RandomPairs {
   std::uint64_t queries = 0;
   std::uint64_t boxes_meet = 0;   ///< pairs whose swept boxes meet
   std::uint64_t not_culled = 0;   ///< pairs that no plane separates
-  std::uint64_t vertex_edge = 0;  ///< all vertex-edge tests of these pairs, without the culling of §5
+  std::uint64_t vertex_edge = 0;  ///< vertex-edge tests after all earlier tests, without §5's culling
   std::uint64_t candidates = 0;   ///< all times in [0, 1] in the sets T of these tests (Algorithm 2)
-  double bounds = 0;              ///< sum of B divided by the longest edge at t = 0
+  double bounds = 0;              ///< sum over the queries of B / (longest edge at t = 0)
 
   [[nodiscard]] double part(std::uint64_t some) const {
     return static_cast<double>(some) / static_cast<double>(queries);

@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// A group of tests with which wang accepts queries. `subject` measures the group: `subject` is wang without
-/// the tests that accept pairs farther apart than this group accepts.
+/// A group of tests with which wang accepts queries. `subject` names the CCD that measures the group: wang
+/// without the tests that accept pairs farther apart than this group does.
 struct Tests {
   std::string_view name, subject;
 };
@@ -139,7 +139,7 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
       std::vector<Extreme> parts(wave, gauge.nothing);
       try {
         in_parallel(plan.jobs, wave, [&](std::size_t i) {
-          const std::uint64_t number = round * (wave / 2) + i / 2;  // index among blocks of its source
+          const std::uint64_t number = round * (wave / 2) + i / 2;  // of the block in its source
           const std::uint64_t families = plan.families.size();
           parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4, ending)
                                 : read_block(gauge, plan.families[number % families], plan.seed,

@@ -19,7 +19,7 @@ namespace nearmiss {
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 0;  ///< total, divided in proportion to `block_cases`; 0 for a campaign without end
+  std::uint64_t cases = 0;  ///< of all families, in proportion to `block_cases`; 0 for a campaign without end
   std::uint64_t first =
       0;  ///< in a campaign without end: the number of the shard's cases to decide; 0 is no limit
   Comparison comparison;
@@ -32,7 +32,6 @@ struct CampaignPlan {
   std::vector<Finding> findings_before;  ///< findings that earlier runs kept
 };
 
-/// The progress of a campaign.
 struct CampaignProgress {
   std::uint64_t cases = 0;         ///< decided in this shard
   std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed

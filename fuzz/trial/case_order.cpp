@@ -9,7 +9,6 @@ namespace nearmiss {
 
 namespace {
 
-/// The sum of the families' `block_cases`.
 std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
   std::uint64_t sum = 0;
   for (const Family& family : plan.families) sum += family.block_cases;
@@ -104,13 +103,13 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 
 namespace {
 
-/// The index of query `number` among the family's queries that are asked.
+/// The index in the family of case `number`, where cases are the family's queries that are asked.
 std::uint64_t index_of_case(const Family& family, std::uint64_t number) {
   if (!family.only) return number;
   return family.kinds.size() * number + (family.kinds.front() == *family.only ? 0 : 1);
 }
 
-/// The number of query `index` among the family's queries that are asked.
+/// The inverse of index_of_case().
 std::uint64_t case_of_index(const Family& family, std::uint64_t index) {
   return family.only ? index / family.kinds.size() : index;
 }

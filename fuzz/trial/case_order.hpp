@@ -34,7 +34,7 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
 /// The number of cases in a plan's shard; in a campaign without end, plan.first.
 std::uint64_t cases_of_shard(const CampaignPlan& plan);
 
-/// The number of a campaign's cases, without shards, up to and including query `index` of a family.
+/// In a campaign without shards: the number of cases up to and including query `index` of a family.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
 /// The cases of a plan's shard, in order. The plan must outlive this object.

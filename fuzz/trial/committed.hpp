@@ -11,7 +11,7 @@ namespace nearmiss {
 /// coordinate is rounded to double, or to float if `in_float`. Nothing if a coordinate overflows.
 std::optional<Query> committed_step(const Query& query, double time, bool in_float);
 
-/// What happens in a step. `touches`: contact before its end; for h > 0, a distance below h before its end.
+/// Where a step has contact. `touches`: contact before its end; for h > 0, a distance below h before its end.
 /// `touches_at_end`: contact only at its end; for h > 0, a distance of at most h at its end, or of exactly h
 /// before.
 enum class StepEnd { free, touches_at_end, touches };

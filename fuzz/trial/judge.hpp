@@ -32,13 +32,13 @@ class Judge {
   /// fails to give its bound.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
-  /// Compares an answer with the truth about the query, after the subject's rounding. If the smallest
-  /// distance is exactly the separation h > 0, any answer is right, and a reported pair counts as a
-  /// collision. A subject that claims bounds must give a number >= 0 for a false positive; anything else is a
-  /// fault. The answer "cannot tell" claims nothing about the distance. The ratio of a false positive is
-  /// Truth::Distance::ratio. It is accurate to 1/1000 if a finding stores it, or if it is at least
-  /// `least_kept` (Known). The ratio is 0 if the unit is infinite, since no distance is larger. `known` is
-  /// the answer of ask_unit(), if the caller has it already.
+  /// Compares an answer with the truth about the query. If the subject rounds coordinates, `truth` must be
+  /// about the rounded query. If the smallest distance is exactly the separation h > 0, any answer is right,
+  /// and a reported pair counts as a collision. A subject that claims bounds must give a number >= 0 for a
+  /// false positive; anything else is a fault. The answer "cannot tell" claims nothing about the distance.
+  /// The ratio of a false positive is Truth::Distance::ratio. It is accurate to 1/1000 if a finding stores
+  /// it, or if it is at least `least_kept` (Known). The ratio is 0 if the unit is infinite, since no distance
+  /// is larger. `known` is the answer of ask_unit(), if the caller has it already.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 
@@ -48,12 +48,13 @@ class Judge {
   /// Asks the subject about a query. Returns how the subject fails, or nothing if it does not fail. Throws
   /// Error as the subject does.
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
-  /// How the subject fails on a query with this answer.
+  /// How the subject fails if its answer to the query is `verdict`; nothing if it does not fail.
   [[nodiscard]] std::optional<Failure> failure(const Query& query, const Verdict& verdict) const;
 
  private:
-  /// The outcome of an answer, without the distance of a false positive, and the unit in which to measure
-  /// this distance. The distance needs to be measured only if needs_unit() holds and the unit is finite.
+  /// The outcome of an answer, and the unit in which to measure the distance of a false positive. The outcome
+  /// does not contain this distance. The distance needs to be measured only if needs_unit() holds and the
+  /// unit is finite.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(
       const Verdict& verdict, Truth& truth, const std::optional<BoundAnswer>& known = {}) const;
   /// The error of a true positive's time of impact; nothing if the subject gives no time.

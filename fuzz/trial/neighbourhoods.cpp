@@ -26,7 +26,6 @@ constexpr Set axis_set(std::size_t k) { return 0x249249U << k; }
 constexpr Set vertex_set(std::size_t vertex) { return 0x7007U << path(vertex, 0); }
 constexpr Set everything = 0x1ffffffU;
 
-/// magnitudes() of the numbers in a set.
 std::vector<double> magnitudes_in(Set set, const Numbers& x) {
   std::vector<double> some;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -54,8 +53,8 @@ void exchange(Numbers& x, std::size_t v, std::size_t w) {
 }
 
 /// Scales all axes together, or each axis by itself, so that the largest magnitude is in [2^exponent,
-/// 2^(exponent + 1)), and rounds to integers. A separation, which is scaled only with all axes, becomes at
-/// least 1, since 0 would ask another question.
+/// 2^(exponent + 1)), and rounds to integers. The separation is scaled only together with all axes, and
+/// becomes at least 1 if it is positive, because h = 0 would ask another question.
 void round(Numbers& x, int exponent, bool each_axis) {
   const bool has_separation = x[separation] != 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -70,8 +69,8 @@ void round(Numbers& x, int exponent, bool each_axis) {
   }
 }
 
-/// Moves a vertex to the origin, at t = 0 or at all times. Then scales the query by powers of two, and rounds
-/// all coordinates to small or somewhat larger integers.
+/// Moves nothing, or moves all vertices so that one of them is at the origin at t = 0 or at all times. Then
+/// scales the query by powers of two, and rounds all coordinates to integers of at most 7 bits.
 Neighbourhood round_all(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (const int exponent : {0, 1, 2, 3, 4, 6})
@@ -87,8 +86,9 @@ Neighbourhood round_all(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Sets all coordinates of an axis to 0, or subtracts from them the coordinate of a fixed point (at t = 0, at
-/// t = 1 or at both times) or of a moving point. An exact subtraction keeps every contact.
+/// Sets all coordinates along an axis to 0, or subtracts one number from those at t = 0, and one from those
+/// at t = 1. Each number is 0, or a vertex's coordinate along the axis at t = 0 or t = 1. An exact
+/// subtraction keeps every contact.
 Neighbourhood move_axes(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -119,7 +119,8 @@ Neighbourhood shear_axes(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Copies the motion of one vertex to another vertex, or one point to another point.
+/// Copies one position to another position, or the motion of one vertex to another vertex. A position is the
+/// place of a vertex at t = 0 or t = 1.
 Neighbourhood join_vertices(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t to = 0; to < 8; ++to)
@@ -134,7 +135,7 @@ Neighbourhood join_vertices(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Moves a vertex by the vector between two other vertices, or by half or twice that vector. Vertices of a
+/// Moves a vertex by the vector from one vertex to another, or by half or twice that vector. Vertices of a
 /// triangle or of coplanar edges stay in their plane.
 Neighbourhood combine_vertices(const Numbers& /*x*/) {
   Neighbourhood changes;
@@ -164,8 +165,8 @@ Neighbourhood change_times(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Divides all numbers, or the coordinates of an axis, a vertex or a path, by one of the divided numbers, by
-/// a power of two near one of them, or by a small number.
+/// Divides all numbers, those along an axis, those of a vertex, or those of a path. The divisor is -1, 3, 5,
+/// the magnitude of one of the divided numbers, or a power of two between 1 and such a magnitude.
 Neighbourhood scale(const Numbers& numbers) {
   std::vector<Set> sets{everything};
   for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -217,7 +218,7 @@ Alternatives replacements(const Numbers& numbers, Set set) {
   return changes;
 }
 
-/// Simplifies numbers of one magnitude: all these numbers, the numbers of an axis or of a path, or a single
+/// Simplifies numbers of one magnitude: all of them, those along one axis, those of one path, or a single
 /// number.
 Neighbourhood change_numbers(const Numbers& x) {
   Neighbourhood changes;
@@ -236,7 +237,7 @@ Neighbourhood change_numbers(const Numbers& x) {
   return changes;
 }
 
-/// Sets a coordinate to 0, or copies another coordinate or its negative.
+/// Sets a path to 0, or copies another path or its negative.
 Neighbourhood copy_paths(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t to = 0; to < paths; ++to)
@@ -248,7 +249,7 @@ Neighbourhood copy_paths(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Exchanges axes, vertices, and start and end.
+/// Exchanges two axes, two vertices of a primitive, two edges, or start and end.
 Neighbourhood reorder(Kind kind) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k)

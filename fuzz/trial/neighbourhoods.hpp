@@ -16,11 +16,11 @@ using Change = std::function<void(Numbers&)>;
 /// failing.
 using Alternatives = std::vector<Change>;
 
-/// The entries are tried one after the other.
+/// The shrinker tries the entries one after the other.
 using Neighbourhood = std::vector<Alternatives>;
 
-/// The functions that make the neighbourhoods of a query from its present numbers, in the order in which they
-/// are tried.
+/// Functions that each make one neighbourhood of a query from its present numbers. The shrinker tries the
+/// neighbourhoods in this order.
 std::vector<std::function<Neighbourhood(const Numbers&)>> neighbourhoods(Kind kind);
 
 }  // namespace nearmiss

@@ -28,7 +28,6 @@ class Pace {
     return known == cases_.end() ? first : known->second;
   }
 
-  /// Notes how long a slice took.
   void took(const std::string& family, std::size_t cases, Duration time) {
     constexpr Duration wanted{0.1};
     constexpr std::size_t growth = 8;

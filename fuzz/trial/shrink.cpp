@@ -20,7 +20,6 @@ int words(const Numbers& x) {
   return 1 + (std::ilogb(all.back()) - lowest) / 64;
 }
 
-/// Simplifies a failing query, neighbourhood by neighbourhood.
 class Shrinker {
  public:
   Shrinker(const Query& query, const FindFailing& find_failing)
@@ -91,8 +90,8 @@ class Shrinker {
   }
 
   /// Whether a candidate is simpler than the best query so far. Notes the candidate's complexity. If two
-  /// queries are equally complex, the query with smaller coordinates counts as simpler, so that no step
-  /// undoes another step.
+  /// queries are equally complex, the query whose numbers come first in lexicographic order counts as
+  /// simpler, so that no step undoes another step.
   bool is_simpler(Candidate& candidate) const {
     Numbers& x = candidate.numbers;
     for (double& c : x) c += 0.0;  // turns -0 into 0

@@ -15,11 +15,10 @@ using FindFailing = std::function<std::optional<std::size_t>(std::span<const Que
 
 /// Simplifies a failing query step by step, while it still fails. The steps are those of neighbourhoods.hpp:
 /// all numbers together become small integers; single numbers become 0, small or equal to others, or get
-/// fewer bits; vertices come to rest or coincide; the query is moved, sheared and scaled. A separation
-/// changes with the coordinates, or by itself. The search is greedy, asks about many changes at once, and
+/// fewer bits; vertices come to rest or coincide; the query is moved, sheared and scaled. A step changes the
+/// separation together with coordinates, or alone. The search is greedy, asks about many changes at once, and
 /// ends when no step makes the query simpler, so shrinking the result again changes nothing. The result is a
-/// pure function of both arguments, and takes at most some seconds. A query that does not fail is returned
-/// unchanged.
+/// pure function of both arguments. A query that does not fail is returned unchanged.
 Query shrunk(const Query& query, const FindFailing& find_failing);
 
 }  // namespace nearmiss

@@ -31,7 +31,7 @@ class Shrinking {
   Shrinking& operator=(const Shrinking&) = delete;
   ~Shrinking();
 
-  /// Takes on a finding, and gives it the next number, from 0 on.
+  /// Queues a finding to be shrunk, and gives it the next number, from 0 on.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
   /// Keeps in a result only the first findings of each signature and class (FirstFindings), gives them
@@ -45,8 +45,8 @@ class Shrinking {
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t left() const;
 
-  /// Shrinks the remaining findings on all cores, until `stop` and its grace are over. Calls `report` several
-  /// times a second.
+  /// Shrinks the remaining findings on all cores, until Stop::grace after `stop` at the latest. Meanwhile,
+  /// calls `report` several times a second.
   void finish(const std::function<void()>& report);
 
  private:
@@ -61,12 +61,13 @@ class Shrinking {
     Finding finding;
   };
 
-  /// Starts a thread that works; returns false if the system has no thread left.
+  /// Starts a thread that calls work(); returns false if the system has no thread left.
   bool start();
   /// Shrinks the waiting findings, and waits for more unless all queries have been asked.
   void work();
   void shrink(Task& task);
-  /// While queries are being asked, waits until the thread has worked no more than its share of the time.
+  /// While queries are being asked, waits until the shrinking thread has used no more than a tenth of all
+  /// processors' time.
   void rest();
 
   FindingShrinker shrinker_;

@@ -44,11 +44,11 @@ bool ends_process(const Verdict& verdict) {
 }
 
 /// Refuses further queries when a limit is reached, and after a query over the subject's time limit. A
-/// subject that has exceeded its time limit once is asked one query at a time, so that the other queries of a
-/// batch are not asked again and again.
+/// subject that has exceeded its time limit once is asked one query at a time, so that the queries after a
+/// slow one are not asked in vain.
 class Limited final : public ForwardingSubject {
-  /// Asks the subject, which counts as the work of this many queries, and returns its answer. Throws Error if
-  /// a limit is reached.
+  /// Calls `ask`, which asks the subject, and returns its answer. This uses up the work of one call and of
+  /// `queries` queries. Throws Error if a limit is reached.
   template <class Ask>
   auto asked(std::size_t queries, const Ask& ask) const {
     if (work_ <= 0 || is_slow_) throw Error("the subject has answered as many queries as it may");
@@ -120,15 +120,14 @@ class SameFailure {
   SameFailure(Failure failure, const Subject& subject, std::function<void()> check)
       : failure_(std::move(failure)), subject_(subject), judge_(subject), check_(std::move(check)) {}
 
-  /// From now on, only these queries count as failing.
+  /// From now on, only queries that `queries` accepts count as failing.
   void only(const NoMoreExotic& queries) { only_ = queries; }
 
   /// From now on, only queries that `before` answers rightly count as failing. `before` must outlive this
   /// object.
   void only_since(const Subject& before) { before_.emplace(before); }
 
-  /// The first query that fails. All queries are asked at once; if each may end a process, only a few at a
-  /// time.
+  /// The first query that fails. Asks all queries at once or, if each may end a process, a few at a time.
   std::optional<std::size_t> operator()(std::span<const Query> queries) const {
     const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
     for (std::size_t first = 0; first < queries.size(); first += at_once) {
@@ -196,7 +195,7 @@ class FindingShrinker::OfSubject {
 
  private:
   /// The simplest query that fails as the finding does. If `among` is given, only queries that it accepts
-  /// count. If `before` is not null, that version answers the query rightly.
+  /// count. If `before` is not null, that version must answer the query rightly.
   [[nodiscard]] Query shrunk_of(const Finding& finding, const std::optional<NoMoreExotic>& among,
                                 const OfSubject* before, const std::function<void()>& check) const {
     const Limited limited = limited_subject();
@@ -214,12 +213,13 @@ class FindingShrinker::OfSubject {
     return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));
   }
 
-  /// The subject for one search.
+  /// The subject with the limits of one search.
   [[nodiscard]] Limited limited_subject() const {
     return {subject_, limits_.work / 2, limits_.time / 2, has_been_slow_};
   }
 
-  /// The small queries on which the subject fails, of the finding's kind.
+  /// The small queries on which the subject fails: of the kind of `query`, with or without a separation like
+  /// `query`.
   const SmallFailures& small_failures(const Query& query, const std::function<void()>& check) const {
     const bool apart = query.separation != 0;
     const std::lock_guard lock(mutex_);
@@ -231,8 +231,8 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces a number that the subject gave for the original query by its number for the shrunk query, if it
-  /// gives one.
+  /// Replaces what the subject gave for the original query with what it gives for the shrunk query, if it
+  /// gives anything.
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
   }

@@ -16,20 +16,21 @@
 
 namespace nearmiss {
 
-/// How much the search for the simplest query may ask of a subject.
+/// How much work and time the search for the simplest query may demand of a subject.
 struct ShrinkLimits {
-  static constexpr std::int64_t of_call = 10;       ///< the work of a call, in queries
-  static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may end the process
+  static constexpr std::int64_t of_call = 10;       ///< the work of a call, in addition to its queries
+  static constexpr std::int64_t of_process = 1000;  ///< that of a fault that may end the process
 
-  /// The number of queries to ask, including the work of calls and processes. This limit does not depend on
-  /// time, so it ends the search at the same query on every machine.
+  /// The work of all queries, calls and ended processes together; a query has the work 1. This limit does not
+  /// depend on time, so it ends the search at the same query on every machine.
   std::int64_t work = 1'200'000;
-  /// The time limit for all answers. Only a slow subject reaches it.
+  /// The time limit for all answers together. Only a slow subject reaches it.
   std::chrono::milliseconds time = std::chrono::minutes(1);
 };
 
-/// Limits for a campaign, whose subjects should spend their time on cases. The time limit ends a search
-/// before the work does only if an answer takes more than 1 ms, or the start of a process more than 100 ms.
+/// Limits for a campaign, whose subjects should spend their time on cases. A search reaches the time limit
+/// before the limit of work only if an answer takes more than 1 ms, or the start of a process more than 100
+/// ms.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(12)};
 
 /// Shrinks findings of some subjects. Many threads may use a FindingShrinker at once.
@@ -44,13 +45,13 @@ class FindingShrinker {
   FindingShrinker& operator=(const FindingShrinker&) = delete;
   ~FindingShrinker();
 
-  /// Sets `simplest`, the simplest query that fails in the same way, and `shrunk`, the simplest such query
-  /// that has the finding's class and is no more exotic than the finding's query: for example, its vertices
-  /// coincide only if those of the finding's query do. If the finding is `broken_since` an earlier version of
-  /// the CCD, that version answers both queries rightly. The result depends only on the finding and the
+  /// Sets `simplest`, the simplest query that fails in the same way. Also sets `shrunk`, the simplest such
+  /// query that has the finding's class and is no more exotic than the finding's query: for example, vertices
+  /// coincide only if vertices of the finding's query do. If the finding is `broken_since` an earlier version
+  /// of the CCD, that version answers both queries rightly. The result depends only on the finding and the
   /// subjects, unless the time limit ends a search. A query that the subject refuses does not fail. A
   /// contradiction to a recorded truth is not shrunk, because the truth is known only for the finding's own
-  /// query. If the stop and its grace are over, throws Stopped and leaves the finding as it is.
+  /// query. If Stop::grace is over after a stop, throws Stopped and leaves the finding as it is.
   void shrink(Finding& finding, const Rest& rest = {}) const;
 
  private:

@@ -11,9 +11,9 @@
 
 namespace nearmiss {
 
-/// The signature of a missed collision: the features of its first contact, such as "vt simple-root inside
-/// on-edge"; for h > 0, of its first approach to h. If exact arithmetic finds no contact or approach, "vt
-/// no-contact" or "vt no-approach".
+/// The signature of a missed collision: the features of its first contact or, for h > 0, those of the first
+/// approach to h, such as "vt simple-root inside on-edge". If exact arithmetic finds neither, the signature
+/// is "vt no-contact" or "vt no-approach".
 std::string contact_signature(const Query& query);
 
 /// The signature of a report beyond the bound: the stage that accepted the pair, such as "ee ve-minimum".
@@ -23,7 +23,7 @@ std::string report_signature(Kind kind, Stage stage);
 /// time", "vt invalid time NaN" or "vt exception no root in [#, #]". `text` is what an exception said; its
 /// numbers become #, so that exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
-/// The signature of a subject's fault with this code.
+/// The signature of a subject's fault, given by its sort and its code.
 std::string fault_signature(const Subject& subject, Kind kind, Fault fault, std::int32_t code);
 
 /// Whether a signature is that of a collision with a time outside [0, 1], or NaN.

@@ -17,12 +17,12 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t paths = 12;  // a path has coordinate i at t = 0 and coordinate i + 12 at t = 1
+constexpr std::size_t paths = 12;  // path i is coordinate i at t = 0 and coordinate i + 12 at t = 1
 constexpr std::array values{0, 1, -1, 2};
 constexpr int most_numbers = 3;  // the list has all queries with at most this many nonzero numbers
 using Integers = std::array<int, 24>;
 
-/// A symmetry of queries: coordinate i of the copy is coordinate from[i], times a sign.
+/// A symmetry of queries: coordinate i of the copy is sign[i] times coordinate from[i] of the original.
 struct Symmetry {
   std::array<std::size_t, 24> from;
   Integers sign;
@@ -62,14 +62,14 @@ std::vector<Symmetry> symmetries(Kind kind) {
 /// The place of an integer in the order that decides which symmetric copy comes first: 0, 1, -1, 2, -2.
 constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
 
-/// Whether a copy has only numbers that the list uses, which excludes -2.
+/// Whether the copy of x under a symmetry has only numbers that the list uses, so no -2.
 bool is_listed(const Integers& x, const Symmetry& symmetry) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;
   return true;
 }
 
-/// Whether no symmetric copy comes before the query.
+/// Whether no symmetric copy of x that the list may contain comes before x.
 bool is_first_copy(const Integers& x, const std::vector<Symmetry>& symmetries) {
   return std::none_of(symmetries.begin(), symmetries.end(), [&](const Symmetry& symmetry) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -80,7 +80,6 @@ bool is_first_copy(const Integers& x, const std::vector<Symmetry>& symmetries) {
   });
 }
 
-/// Makes the list of a kind.
 class Maker {
  public:
   explicit Maker(Kind kind) : kind_(kind), symmetries_(symmetries(kind)) {}
@@ -104,8 +103,9 @@ class Maker {
     list_.push_back({query, complexity(query)});
   }
 
-  /// Adds all queries that have the present coordinates in the paths before `path`, and at most `numbers`
-  /// nonzero numbers (Complexity::numbers) in the remaining paths.
+  /// Adds the queries whose paths before `path` are those in `x_`, and whose other paths have at most
+  /// `numbers` nonzero numbers (Complexity::numbers). A path is one coordinate at t = 0 and t = 1. Of
+  /// symmetric copies, only the first is added.
   void extend(std::size_t path, int numbers) {
     if (path == paths) {
       if (is_first_copy(x_, symmetries_)) add();
@@ -140,7 +140,7 @@ class Maker {
     }
   }
 
-  /// Replaces every query by copies with each of the separations.
+  /// Replaces every query with four copies, which have the separations 1, 2, 1/2 and 1/4.
   void separate() {
     std::vector<SmallQuery> separated;
     for (const SmallQuery& each : list_)
@@ -208,7 +208,6 @@ SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
   }
 }
 
-/// Asks the subject about some queries, and notes how the subject fails.
 void SmallFailures::ask(const Subject& subject, const Judge& judge, std::span<const SmallQuery> asked) {
   std::vector<Query> queries;
   for (const SmallQuery& each : asked) queries.push_back(each.query);

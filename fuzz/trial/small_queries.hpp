@@ -24,11 +24,12 @@ struct SmallQuery {
   bool collision = false;
 };
 
-/// All queries of a kind with at most three nonzero numbers (Complexity::numbers) in {-1, 1, 2}, and 4096
-/// random queries with more nonzero numbers; simplest first. Queries that differ only by the order or the
-/// direction of axes, by the numbering of vertices or by the direction of time occur once. With `apart`, the
-/// list has each query with h = 1, 2, 1/2 and 1/4, unless the smallest distance is exactly h. The first call
-/// makes the list.
+/// All queries of a kind with at most three nonzero numbers (Complexity::numbers) in {-1, 1, 2}, and those of
+/// 4096 random queries that have more nonzero numbers; simplest first. The list is empty for vertex-vertex
+/// and vertex-edge queries. Of several queries with at most three such numbers that differ only by the order
+/// or the direction of axes, by the numbering of vertices or by the direction of time, only one is in the
+/// list. With `apart`, the list has each query with h = 1, 2, 1/2 and 1/4, unless the smallest distance is
+/// exactly h. The first call makes the list.
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart = false);
 
 /// The small queries of a kind on which a subject fails.

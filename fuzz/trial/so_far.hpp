@@ -1,4 +1,5 @@
-// What earlier cases decide for later cases: which subjects are set aside, and which distances are kept.
+// What earlier cases decide for later cases: which subjects are set aside, and which distances of false
+// positives need not be precise.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +18,12 @@ namespace nearmiss {
 /// queries of the same family and kind.
 inline constexpr std::uint64_t most_slow = 3;
 
-/// Whether a subject with these counts is set aside.
 inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fault::time) >= most_slow; }
 
 /// What earlier cases show about one subject, for one kind and family.
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries over the time limit
+
   /// A false positive with at least this ratio is kept as one of the farthest. The distance of any other
   /// false positive need not be precise.
   double least_kept = 0;
@@ -41,7 +42,6 @@ class SoFar {
     return {slow, farthest.size() < Counts::far_cases ? 0 : farthest.back()};
   }
 
-  /// Adds the counters of further cases.
   void take(const std::map<CountsKey, Counts>& all) {
     const std::lock_guard lock(mutex_);
     for (const auto& [key, counts] : all) {

@@ -21,7 +21,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The queries on which a subject is judged: rounded if the subject rounds coordinates.
+/// The queries on which a subject is judged: rounded if the subject rounds coordinates, otherwise as given.
 class Judged {
  public:
   /// The queries, and the oracle's decisions about them, must outlive this object.
@@ -51,9 +51,9 @@ class Judged {
   std::vector<Decision> decisions_;
 };
 
-/// For each query whose answer is a false positive, the bound that the subject claims. All bounds are asked
-/// at once, because a call of a plug-in's process takes longer than an answer. Empty if the subject claims no
-/// bound.
+/// For each query whose answer is a false positive, the bound that the subject claims. The subject is asked
+/// for all bounds at once, because a call of a plug-in's process takes longer than an answer. Empty if the
+/// subject claims no bound.
 std::vector<std::optional<BoundAnswer>> bounds_of(const Subject& subject, const Judged& judged,
                                                   const std::vector<Verdict>& answers) {
   if (!subject.claims_bound()) return {};
@@ -71,7 +71,7 @@ std::vector<std::optional<BoundAnswer>> bounds_of(const Subject& subject, const 
   return all;
 }
 
-/// For each query, whether the filter decides it near its bounds.
+/// For each query, whether the filter decides it near the filter's error bounds.
 std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& decisions) {
   std::vector<FilterStage> cautious(batch.queries.size());
   filter_with_caution(batch.queries, Comparison::caution, cautious);
@@ -107,7 +107,6 @@ struct Sample {
   }
 };
 
-/// Times the subject on a sample, one query at a time.
 void time_sample(const Subject& subject, const Batch& batch, const Sample& sample, SubjectTimes& times) {
   std::vector<std::optional<std::uint64_t>> each(sample.queries.size());
   subject.time_each(sample.queries, each);
@@ -115,7 +114,7 @@ void time_sample(const Subject& subject, const Batch& batch, const Sample& sampl
     if (each[k]) times.add(*each[k], sample.queries[k], [&] { return batch.provenance(sample.numbers[k]); });
 }
 
-/// Asks the subject, in the same way for all queries of a batch. Returns the time if it counts.
+/// Asks the subject about the queries, and returns the time if `timed`.
 BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed,
               std::vector<Verdict>& verdicts) {
   verdicts.resize(queries.size());
@@ -124,9 +123,10 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Asks the subject about a sample once more: fewer queries at once, in another order. If its decision is
-/// different this time, that is a fault; if it has a fault this time, that fault counts. Times of impact may
-/// differ, because rounding may depend on a query's place in a vector.
+/// Asks the subject about a sample once more: fewer queries at once, in another order. If the second decision
+/// differs from the first, the verdict becomes the fault `inconsistent`; if the second answer is a fault,
+/// this fault replaces the first answer. Times of impact may differ, because rounding may depend on a query's
+/// place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again;
   ask(subject, sample.queries, timed, again);
@@ -137,8 +137,8 @@ void ask_again(const Subject& subject, const Sample& sample, bool timed, std::ve
   }
 }
 
-/// Decides a batch, and a sample of its queries a second time. If times count, also measures the time of the
-/// whole batch, and of each query in the sample.
+/// Decides a batch, and a sample of its queries a second time. If the batch is timed, also measures the time
+/// of the whole batch, and of each query in the sample.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts;
   const bool timed = batch.timed && !batch.queries.empty();
@@ -163,7 +163,6 @@ namespace {
 
 constexpr Verdict not_asked{.fault = Fault::not_asked};
 
-/// Judges the answers to a batch, query by query.
 class Judging {
  public:
   using Verdicts = std::vector<std::vector<Verdict>>;
@@ -259,7 +258,6 @@ class Judging {
     return "";
   }
 
-  /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
     Known& known = known_[s];
     const Verdict& answer = known.is_set_aside() ? not_asked : answers_[s][i];

@@ -34,11 +34,13 @@ struct Batch {
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths =
       {};  ///< recorded truths, or empty; for a tie, either value is right
-  /// The queries have the numbers first, first + step and so on in their family or stream. These numbers
-  /// choose samples.
+
+  /// Query i has the number first_number + step * i in its family or stream. Samples of queries are chosen by
+  /// these numbers.
   std::uint64_t first_number = 0, step = 1;
-  bool timed = true;         ///< whether the subjects' run times count
+  bool timed = true;         ///< whether to time the subjects
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
+
   /// Returns the origin of query i of the batch. Called only for kept queries.
   std::function<std::string(std::size_t)> provenance = {};
   /// If set, returns the place of query i in the order of a campaign. If not set, findings are passed on in
@@ -46,18 +48,16 @@ struct Batch {
   std::function<std::uint64_t(std::size_t)> place = {};
   /// If set, returns the values of the factors with which query i was made.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
-  /// If set, receives the outcome of every query i for every subject, which is given by its index.
+  /// If set, receives the outcome of each query i for each subject that can be asked about the batch.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 
-  /// The number of query i of the batch.
   [[nodiscard]] std::uint64_t number(std::size_t i) const { return first_number + step * i; }
-  /// Whether a subject can answer these queries.
+  /// Whether the subject decides queries like those of this batch.
   [[nodiscard]] bool can_ask(const Subject& subject) const {
     return subject.is_asked(kind, !queries.empty() && queries.front().separation > 0);
   }
 };
 
-/// The result of a trial.
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
@@ -72,7 +72,7 @@ using TrialSink = std::function<void(TrialResult&&)>;
 
 /// Selects the queries on which all methods of the oracle are compared, and the versions of a CCD to compare.
 struct Comparison {
-  /// Hard queries, which the filter leaves undecided, are sampled this many times as often.
+  /// Queries that the filter leaves undecided are sampled this many times as often as others.
   static constexpr std::uint64_t more_of_undecided = 64;
   /// A query counts as decided near the filter's bounds if the filter would leave it undecided with all error
   /// bounds multiplied by this factor.
@@ -82,6 +82,7 @@ struct Comparison {
   bool near_bounds = false;     ///< also compares every query that the filter decides near its bounds
   bool certify_truths =
       false;  ///< also demands a certificate of each recorded truth that the oracle confirms
+
   /// Empty, or the names of two subjects: the second is compared with the first (versions.hpp).
   std::vector<std::string> versions = {};
 
@@ -92,9 +93,9 @@ struct Comparison {
 
 /// Puts the subjects on trial over a batch: times each over the whole batch, separately from the oracle, and
 /// judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is
-/// also the query that is kept. `known` is empty, or has one entry for each subject, from earlier queries. A
-/// subject that is set aside (so_far.hpp) is not asked; if it is set aside within the batch, its later
-/// answers do not count. Throws Error for a coordinate that is not finite.
+/// also the query that is kept. `known` is empty, or says for each subject what earlier queries have shown
+/// (so_far.hpp). A subject that is set aside is not asked; if it exceeds its time limit too often in this
+/// batch, its later answers in the batch do not count. Throws Error for a coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
                        std::vector<Known> known = {});
 

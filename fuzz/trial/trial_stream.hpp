@@ -14,14 +14,14 @@
 namespace nearmiss {
 
 /// Collects queries into batches by kind, by family, and by whether they have a separation, and runs the
-/// trials. It stores only a few batches at any time. Nothing is timed: a handful of queries says nothing
-/// about a subject's speed.
+/// trials. It stores only a few batches at any time. Subjects are not timed, because a few queries say
+/// nothing about a subject's speed.
 class TrialStream {
  public:
   explicit TrialStream(Trials& trials) : trials_(trials) {}
 
-  /// Adds a query; returns false after a request to stop. `provenance` is called, in finish() at the latest,
-  /// only if the query is kept. Throws Error as hold_trial does.
+  /// Adds a query; returns false after a request to stop. `provenance` is called only if the query is kept,
+  /// and never after finish(). Throws Error as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 

@@ -41,7 +41,8 @@ Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
   return own;
 }
 
-/// The largest number of queries that any of the subjects wants at once, within limits.
+/// The largest number of queries that any of the subjects wants at once, but at least Pace::usual and at most
+/// `most`.
 std::size_t largest_batch_of(const Subjects& subjects) {
   constexpr std::size_t most = 1 << 16;
   std::size_t largest = Pace::usual;
@@ -51,14 +52,13 @@ std::size_t largest_batch_of(const Subjects& subjects) {
   return std::min(largest, most);
 }
 
-/// The number of cases of a slice: `usual`, or more for a plug-in, so that calls of its process take little
-/// of the time.
+/// The largest number of cases in a slice: `usual`, or more if some subject is a plug-in, so that calls of
+/// its process take little of the time.
 std::size_t largest_slice(const Subjects& subjects, std::size_t usual) {
   const auto is_plugin = [](const auto& each) { return plugin_info(*each) != nullptr; };
   return std::ranges::any_of(subjects, is_plugin) ? std::max(usual, 4 * Pace::usual) : usual;
 }
 
-/// The number of queries over the time limit that the statistics count under this key.
 std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
   const auto found = statistics.counts.find(key);
   return found == statistics.counts.end() ? 0 : found->second.without_answer(Fault::time);

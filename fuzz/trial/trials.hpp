@@ -40,14 +40,14 @@ class Trials {
   [[nodiscard]] const Stop& stop() const { return stop_; }
   [[nodiscard]] int jobs() const { return jobs_; }
   /// The number of queries that a batch should have, so that subjects get as many queries at once as they
-  /// want. The number is at most 2^16, because each thread judges a batch of its own.
+  /// want. The number is at most 2^16, because each thread stores a batch of its own.
   [[nodiscard]] std::size_t batch_size() const { return batch_size_; }
-  /// How many queries of a family to make at once.
+  /// Chooses how many queries of a family to make at once.
   [[nodiscard]] const Pace& pace() const { return pace_; }
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t to_shrink() const { return shrinking_.left(); }
 
-  /// Takes on the results of earlier runs. The sink does not receive them.
+  /// Takes over the results of earlier runs. The sink does not receive these results.
   void resume(const Statistics& before, const std::vector<Finding>& findings);
 
   /// Does all pieces of work that next() returns, until next() returns nothing or the stop is due.
@@ -56,11 +56,11 @@ class Trials {
   /// Adds a result that is known without a trial.
   void add(TrialResult&& result);
 
-  /// Passes on the results that have come since the last call.
+  /// Passes the results that have come since the last call on to the sink.
   void pass_on();
 
-  /// Shrinks the findings that are not shrunk yet, and passes them on. Meanwhile, calls `report` several
-  /// times a second.
+  /// Shrinks the findings that are not shrunk yet, and passes them on to the sink. Meanwhile, calls `report`
+  /// several times a second.
   void finish(const std::function<void()>& report = [] {});
 
  private:

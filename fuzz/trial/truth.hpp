@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// The oracle's answers about one query. The constructor gets the decision; each further answer is computed
-/// at most once. The query must outlive this object.
+/// The oracle's answers about one query. The constructor gets or computes the decision; each further answer
+/// is computed at most once. The query must outlive this object.
 class Truth {
  public:
   explicit Truth(const Query& query);
@@ -24,17 +24,16 @@ class Truth {
   [[nodiscard]] const Decision& decision() const { return decision_; }
   [[nodiscard]] bool collision() const { return decision_.collision; }
 
-  /// The answers of all exact methods.
   [[nodiscard]] Answers ask_methods() const;
 
   /// Whether t* exists: for a collision, or if the smallest distance is exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// The signature of a disagreement. The methods disagree if these answers differ from the decision, or if a
-  /// tie or an earliest time is not proved. "" if they agree.
+  /// Returns the signature of a disagreement, or "" if the methods agree. They disagree if these answers
+  /// differ from the decision, or if a tie or an earliest time is not proved.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
-  /// Whether both answers are right, because the smallest distance is exactly h > 0.
+  /// Whether both possible answers are right, because the smallest distance is exactly h > 0.
   [[nodiscard]] bool is_tie() const { return decision_.is_tie; }
 
   /// The signature of the first contact.
@@ -45,10 +44,10 @@ class Truth {
   /// The earliest time at which the distance is at most h, for a collision or a tie.
   EarliestTime& time();
   /// The largest speed of a vertex of one primitive relative to a vertex of the other primitive, divided by
-  /// the pair's distance bound B; rounded.
+  /// the pair's distance bound B. The result is rounded.
   [[nodiscard]] double relative_speed() const;
 
-  /// The distance of a false positive, less the separation, divided by a unit of length.
+  /// The smallest distance in a false positive, minus the separation, divided by a unit of length.
   struct Distance {
     double ratio;  ///< an upper bound in the right bin of a Histogram
     bool exceeds;  ///< whether the ratio is above 1, decided exactly
@@ -57,7 +56,8 @@ class Truth {
   /// Returns Distance::exceeds for this unit, without computing the ratio.
   [[nodiscard]] bool exceeds(double unit) const;
 
-  /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.
+  /// Improves `ratio`, which is that of distance(unit), to an accuracy of 1/1000. A ratio in the first bin of
+  /// a Histogram is returned unchanged.
   [[nodiscard]] double precise_ratio(double unit, double ratio) const;
 
  private:

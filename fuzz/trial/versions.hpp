@@ -29,8 +29,8 @@ class VersionComparison {
     if (has_versions_) answers_[subject] = {is_asked(outcome.verdict.fault), finding};
   }
 
-  /// Counts the present query. If a version fails and the version before it does not, names the version
-  /// before in the finding (`broken_since`). Then goes on to the next query.
+  /// Counts the present query. If a version fails and the earlier version does not, the finding gets the name
+  /// of the earlier version (`broken_since`). The next query then becomes the present one.
   void finish_query(std::vector<Finding>& findings);
 
   /// Adds the counters of all queries to a table; the queries are of this kind and family. Versions without a

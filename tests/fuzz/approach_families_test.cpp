@@ -1,4 +1,4 @@
-// Families that choose separations keep their promises exactly.
+// Families that choose separations keep exactly what they promise about distances and times.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ using testing::expect_more;
 using testing::first_queries;
 using testing::first_time;
 
-/// Expects that the distance first reaches h at `time`, and is below h immediately after.
+/// Expects that the distance first reaches h at `time`, and is below h immediately after that time.
 void expect_above_before_and_below_after(const Query& query, double time) {
   const Span before{0, time, true};
   if (time > 0) {

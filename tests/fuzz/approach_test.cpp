@@ -22,7 +22,7 @@ TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
     for (const Query& query : first_queries(family, 200, seed)) {
       if (collides(query)) continue;
       ++apart;
-      // For a distance below 2^-300, the lower end may be 0.
+      // For a distance below 2^-300, the lower end of the enclosure may be 0.
       const Approach approach = closest_approach(
           VertexDifferences(query), [](double upper) { return upper < 0x1p-300 ? 0 : 0.999 * upper; });
       EXPECT_TRUE(approach.enough) << family;
@@ -40,7 +40,7 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
   }
 }
 
-/// A query for which intervals of double once gave a distance of 4.85e-08 times its bound.
+/// Intervals of double once gave a far larger distance for this query: 4.85e-08 times the bound of a CCD.
 TEST(DistanceInUnits, ASliversDistanceIsKnown) {
   const Query query = make_query(find_family("sliver"), 77, 454);
   const Enclosure distance = minimum_distance(query);

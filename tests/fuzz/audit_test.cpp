@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// The names of the rows with a property in both tables of rounding constants.
+/// The names of the rows that have a property, in both tables of rounding constants.
 std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() const) {
   std::vector<std::string_view> names;
   for (const auto& rows : {rounding_bounds(), rounding_consequences()})
@@ -37,9 +37,10 @@ TEST(Audit, KnowsWhatIsProvenThoughTheTheoremDoesNotShowIt) {
   EXPECT_THAT(names_of(&RoundingConstant::needs_proof), ElementsAre("VV of EE: delta"));
 }
 
-// §4.1 says that "B is also an upper bound on the relative positions at any time", where x20 belongs to the
-// closest pair of end points. Here x1 and x2 are the closest end points at t = 0, at distance 1.5. At t = 1
-// their distance is 5. B is 1 + 3.5.
+// §4.1 of the paper says that "B is also an upper bound on the relative positions at any time", where x20 is
+// the position of one of the two closest end points relative to the other. In this query, x1 and x2 are the
+// closest end points at t = 0, at a distance of 1.5. At t = 1, their distance is 5, which is more than B = 1
+// + 3.5.
 TEST(Audit, EdgesMayMoveOutOfTheBoundOfTheirClosestPair) {
   const auto x = [](double a) { return Vector3<double>(a, 0, 0); };
   const Query query =

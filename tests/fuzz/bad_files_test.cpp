@@ -1,4 +1,4 @@
-// Mesh files of all formats that are refused, and the messages about them.
+// Bad mesh files of all formats are refused with a message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -165,15 +165,14 @@ TEST_F(BadFilesTest, BadObjIsNamedWithItsLine) {
 
 using Parse = Mesh (*)(std::string_view, const std::string&);
 
-/// Expects that every cut file is refused, unless at most `last` bytes are missing, when it may still be
-/// complete.
+/// Expects that a file is refused if more than `last` bytes are missing at its end.
 void expect_refused_when_cut(Parse parse, const std::string& text, std::size_t last) {
   for (std::size_t size = 0; size + last < text.size(); ++size)
     EXPECT_THROW(parse(text.substr(0, size), "cut"), Error) << size << " bytes of " << text;
 }
 
-// A file may lack its last newline, and an STL file the name of the solid at its end. Any other cut is
-// noticed.
+// The last newline of a file may be missing, and so may the name of the solid at the end of an STL file. Any
+// other cut is noticed.
 TEST(CutFileTest, ACutFileIsRefused) {
   expect_refused_when_cut(parse_off, off, 1);
   expect_refused_when_cut(parse_ply, text_ply, 1);

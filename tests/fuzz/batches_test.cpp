@@ -1,4 +1,5 @@
-// Large batches: how many queries detectors get at once, in which layout, and what becomes of a failure.
+// Large batches: how many queries detectors get at once, in which layout, and which verdicts follow from a
+// failure.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -34,7 +35,6 @@ std::unique_ptr<Subject> wanting(const std::string& detector, std::uint64_t byte
                           {.time = std::chrono::minutes(10), .bytes = bytes});
 }
 
-/// Different queries with coordinates in [0, 1].
 std::vector<Query> in_unit_cube(Kind kind, std::size_t count) {
   std::vector<Query> queries(count, Query{.kind = kind});
   for (std::size_t i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ std::vector<Query> in_unit_cube(Kind kind, std::size_t count) {
   return queries;
 }
 
-/// The time that the detectors `rows` and `arrays` of batches.c give.
+/// The time of impact that the detectors `rows` and `arrays` of batches.c give.
 double mean(const Query& query) {
   const std::vector<double> x = coordinate_list(query);
   double sum = 0;
@@ -109,7 +109,8 @@ TEST(Batches, HaveTheLimitOfOneQueryAndAThousandthForEachOther) {
   EXPECT_EQ(isolation::limit_of_batch(batch), 10);
 }
 
-// The whole call crashes, then a part of it, but no query of this part crashes by itself.
+// The call with the whole batch crashes, then a call with a part of it; but no query of this part crashes
+// when it is asked by itself.
 TEST(Batches, ACrashThatDoesNotRepeatCounts) {
   const auto verdicts = answers_of(*wanting("wearing"), std::vector<Query>(20'000));
   const auto crashes =

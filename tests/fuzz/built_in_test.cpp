@@ -16,7 +16,6 @@
 
 namespace nearmiss {
 
-/// Prints a parameter in a test's name.
 void PrintTo(const BuiltInScene& scene, std::ostream* out) { *out << scene.name; }
 
 namespace {
@@ -30,7 +29,7 @@ class EveryScene : public ::testing::TestWithParam<BuiltInScene> {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scenes()),
                          [](const auto& each) { return each.param.name; });
 
-/// A hash of the points in the first, a middle and the last frame, and of the triangles and lines.
+/// A hash of a scene's triangles and lines, and of its points in the first, a middle and the last frame.
 std::uint64_t fingerprint(const Scene& scene) {
   testing::BitHash hash;
   for (const std::size_t frame : {std::size_t{0}, scene.frames / 2, scene.frames - 1})
@@ -150,7 +149,6 @@ TEST(Spikes, CandidatesGrowAsTrianglesDo) {
   EXPECT_NEAR(candidates_per_triangle(built_in_scene("spikes@64000")), few, 0.15 * few);
 }
 
-/// The number of pairs with each PairFate, over all steps.
 std::map<PairFate, std::uint64_t> fates(const Scene& scene) {
   std::map<PairFate, std::uint64_t> found;
   for (std::size_t step = 0; step < scene.steps(); ++step) {

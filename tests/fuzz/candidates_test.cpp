@@ -19,7 +19,7 @@
 namespace nearmiss {
 namespace {
 
-/// The candidates of a mesh, in the order in which a new finder passes them on.
+/// The candidates of a mesh, in the order in which a new finder finds them.
 std::vector<Candidate> found_candidates(const MovingMesh& mesh) {
   std::vector<Candidate> found;
   find_candidates(mesh, [&](const Candidate& candidate) { found.push_back(candidate); });
@@ -43,8 +43,8 @@ std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
 using Points = std::vector<Vector3<double>>;
 using Point = std::function<Vector3<double>(Random&)>;
 
-/// Compares the finder with brute force, without a separation and with each of the given separations. Returns
-/// the number of candidates.
+/// Expects that the finder finds the same as brute force, without a separation and with each of the given
+/// separations. Returns the number of candidates.
 std::size_t expect_brute_force(MovingMesh mesh, const std::vector<double>& separations = {}) {
   const auto expected = candidates_by_brute_force(mesh);
   EXPECT_TRUE(found_candidates(mesh) == expected);
@@ -108,7 +108,7 @@ MovingMesh vertex_beside_triangle(int axis, double height) {
   return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
 }
 
-// Tests the coordinate of each side of the box, and the doubles next to it.
+// The vertex is exactly at a side of the box, or one double away from it.
 TEST(Candidates, BoxesThatTouchMeet) {
   for (int axis = 0; axis < 3; ++axis)
     for (const auto& [height, expected] :
@@ -117,7 +117,6 @@ TEST(Candidates, BoxesThatTouchMeet) {
           << axis << ' ' << height;
 }
 
-/// A mesh of n points, with n triangles and n lines between random points.
 MovingMesh any_mesh(std::uint64_t seed, int n, const Point& point) {
   Random random(seed, 0, 0);
   Mesh mesh;
@@ -132,7 +131,7 @@ MovingMesh any_mesh(std::uint64_t seed, int n, const Point& point) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// Distances between two coordinates of a mesh, and the doubles next to them, as separations.
+/// Separations: distances between two coordinates of a mesh, and the doubles next to these distances.
 std::vector<double> distances(const MovingMesh& mesh, std::uint64_t seed) {
   Random random(seed, 1, 0);
   const auto any = [&](const Points& points) {
@@ -171,8 +170,8 @@ TEST(Candidates, FindsTheSameAsBruteForceWithCoordinatesOfAllSizesAtOnce) {
   }
 }
 
-// All coordinates are a few ulps from 1, where the spacing of doubles changes by a factor of two. Adding a
-// separation rounds, and cells are smaller than an ulp.
+// All coordinates are a few ulps from 1, where the spacing of doubles changes by a factor of two. The sum of
+// a coordinate and a separation is rounded, and cells are smaller than an ulp.
 TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   const double ulp = 0x1p-53;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
@@ -183,8 +182,8 @@ TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   }
 }
 
-// The distance between a vertex and a triangle rounds to the separation. Their midpoint lies on the border of
-// two cells, because the grid extends from -2 to 2 times the midpoint.
+// The separation is the distance between a vertex and a triangle, rounded to a double. The midpoint between
+// the two lies on the border of two cells, because the grid extends from -2 to 2 times the midpoint.
 TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
   std::size_t found = 0;
   Random random(1, 0, 0);
@@ -213,7 +212,8 @@ TEST(Candidates, FindsAllPairsOfEqualBoxes) {
   EXPECT_GT(expect_brute_force(point, {1.0, 1e308}), 1000);
 }
 
-// A group holds four boxes, so these meshes have one group, two groups, a group of groups, and so on.
+// A group holds four boxes. So the smallest of these meshes have one group, and the larger ones have two
+// groups, a group of groups, and so on.
 TEST(Candidates, FindsTheSameAsBruteForceInMeshesOfFewPrimitives) {
   std::size_t found = 0;
   for (int n = 1; n <= 40; ++n)
@@ -232,7 +232,7 @@ std::vector<Candidate> all_of(const CandidateFinder& finder) {
   return found;
 }
 
-/// Moves each tetrahedron to another place, at most `way` away along each axis.
+/// Moves each tetrahedron by a random vector, whose components have magnitudes of at most `way`.
 void displace(Points& points, Random& random, double way) {
   for (std::size_t first = 0; first < points.size(); first += 4) {
     const Vector3<double> displacement = random.vector(way);

@@ -20,7 +20,7 @@ CampaignPlan plan_of(std::uint64_t cases) {
   return plan;
 }
 
-/// The blocks of a plan's shard, in order. Joins the slices of a block again.
+/// The blocks of a plan's shard, in order, joined from the slices that CasesOfShard gives.
 class Blocks {
  public:
   explicit Blocks(const CampaignPlan& plan, std::uint64_t done = 0) : cases_(plan, done) {

@@ -1,4 +1,5 @@
-// Every answer of the oracle has a certificate. A checker that shares no code with the oracle accepts it.
+// Every answer of the oracle has a certificate, which is accepted by a checker that shares no code with the
+// oracle.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +36,6 @@ void expect_meets(const Query& query, const Span& span, bool is_strict) {
   EXPECT_EQ(certificates::check(*text), statement_about(query, "meets", span, is_strict));
 }
 
-/// Calls a function with `count` queries of every family.
 template <class Function>
 void for_queries(std::uint64_t count, const Function& f) {
   for (const Family& family : all_families())
@@ -57,7 +57,7 @@ TEST(CertificateOfEveryFamily, ProvesTheDecision) {
   });
 }
 
-/// Expects a proof that contact, or for h > 0 a distance below h, happens before a time.
+/// Expects a proof that the primitives touch, or for h > 0 that their distance is below h, before a time.
 void expect_late(const Query& query, double time) {
   const auto text = certify_meets(query, {0, time, true}, query.separation > 0);
   ASSERT_TRUE(text);
@@ -170,8 +170,8 @@ TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
                                                             0.25, 0.25, -4, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
   expect_late(rational, 0.2);
   EXPECT_FALSE(certify_meets(rational, {0, std::nextafter(0.2, 0), true}));
-  // When 2 t² = 1, the vertex meets the inside of the triangle (`inside`), or in a plane its edge x1x2
-  // (`border`).
+  // At the time t with 2 t² = 1, the vertex meets the inside of the triangle (`inside`), or the triangle's
+  // edge x1x2 in a plane in which all vertices move (`border`).
   const Query inside{.kind = Kind::vertex_triangle, .x = {0, 0, 1, -8, -8, 0,  8, -8, 0, 0, 8, 0,  //
                                                           2, 0, 1, -8, -8, -8, 8, -8, 8, 0, 8, 0}};
   const Query border{.kind = Kind::vertex_triangle, .x = {0, 1, 0, -8, 0,  0, 8, 0, 0, 0, -20, 0,  //
@@ -184,7 +184,8 @@ TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
   }
 }
 
-// The edge passes below the vertex: its distance is exactly 1 at t, and larger at all other times.
+// The edge passes below the vertex. The distance between the two is exactly 1 at t, and larger at all other
+// times.
 TEST(Certificate, ProvesThatADistanceIsNeverBelowOneThatIsReachedAtATimeOfFewBits) {
   for (int k = 1; k <= 15; ++k) {
     SCOPED_TRACE(k);
@@ -198,7 +199,8 @@ TEST(Certificate, ProvesThatADistanceIsNeverBelowOneThatIsReachedAtATimeOfFewBit
   }
 }
 
-// The search for a proof of a false statement ends, however near the end of the span the primitives meet.
+// The statement that the primitives are apart is false, because they meet at the end of the span. The search
+// for a proof of it must end.
 TEST(Certificate, TheSearchEndsForContactAtTheEndOfASpan) {
   const Query query{.kind = Kind::vertex_triangle, .x = {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0,  //
                                                          0.25, 0.25, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}};

@@ -28,8 +28,8 @@ namespace {
 using certificates::Statement;
 using nlohmann::json;
 
-/// Whether the oracle agrees with a statement about the beginning of the step; nothing for a statement about
-/// anything else.
+/// Whether the oracle agrees with a statement about a span that begins at t = 0. Returns nothing for other
+/// statements.
 std::optional<bool> is_true(const Statement& statement) {
   if (statement.from != 0 || statement.to != mpq_class(statement.to.get_d())) return std::nullopt;
   const Kind kind = parse_kind(statement.kind, "kind");
@@ -50,7 +50,6 @@ std::size_t index_below(std::size_t size, Random& random) {
   return static_cast<std::size_t>(random.integer(0, static_cast<int>(size) - 1));
 }
 
-/// Changes one bit of a number, if that makes another finite double.
 void change_bit(json& number, Random& random) {
   const double x = std::strtod(number.get<std::string>().c_str(), nullptr);
   const auto changed =
@@ -58,7 +57,6 @@ void change_bit(json& number, Random& random) {
   if (std::isfinite(changed)) number = to_hex(changed);
 }
 
-/// Exchanges two vertices at both ends of the step.
 void swap_vertices(json& x, Random& random) {
   const std::size_t vertices = x.size() / 6;
   const std::size_t a = index_below(vertices, random);
@@ -68,7 +66,7 @@ void swap_vertices(json& x, Random& random) {
       std::swap(x[end + 3 * a + k], x[end + 3 * b + k]);
 }
 
-/// Drops the proof's last or first piece, or exchanges two of its numbers.
+/// Removes the proof's last or first piece, or exchanges two of the proof's numbers.
 void change_proof(json& certificate, Random& random) {
   if (certificate.contains("normals")) {
     const bool first = random.integer(0, 1) == 0;

@@ -72,7 +72,7 @@ TEST(Classify, AnEdgeIsExtremeIfItIsMoreThan1e8TimesLongerThanAnother) {
 
 TEST(Classify, AMotionIsExtremeAbove1000TimesTheLongestEdge) {
   EXPECT_TRUE(is_ordinary(falling_vertex(0.25, 0.25, 500, -500)));
-  EXPECT_TRUE(is_extreme(falling_vertex(0.25, 0.25, above(500), -500)));  // rounded, the sum is 1000
+  EXPECT_TRUE(is_extreme(falling_vertex(0.25, 0.25, above(500), -500)));  // > 1000, which rounds to 1000
 }
 
 TEST(Classify, ADistanceFromTheOriginIsExtremeAbove1e8TimesTheLongestEdge) {
@@ -106,7 +106,7 @@ TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, 1, above(border))));
 }
 
-/// An edge with this direction falls past an edge along x.
+/// An edge with this direction falls past another edge, which lies along x.
 Query falling_past(const Vector& direction) {
   const Vector a(0, 0, 0), b(1, 0, 0), c(0.25, 2, 1);
   const Vector d = c + direction, down(0, 0, -2);
@@ -124,7 +124,7 @@ TEST(Classify, ADistanceOfAlmostNothingIsDegenerate) {
   EXPECT_TRUE(is_ordinary(falling_vertex(0.25, 0.25, 1, above(1e-6))));
 }
 
-/// A vertex that passes an edge at a distance of 5, at t = 1 / 2.
+/// A vertex that passes an edge of a triangle. The smallest distance is 5, at t = 1/2.
 Query passing_vertex(double separation) {
   const Vector a(0, 0, 0), b(100, 0, 0), c(0, 100, 0);
   const Query query = make_query(Kind::vertex_triangle, {{50, -7, -1}, a, b, c}, {{50, -1, 7}, a, b, c});
@@ -140,7 +140,7 @@ TEST(Classify, ASmallestDistanceOfNearlyTheSeparationIsDegenerate) {
 
 // --- degenerate contact ---------------------------------------------------------------------------------
 
-/// A triangle that rises to a vertex at rest, which it reaches at t = time / (1 - later).
+/// A triangle that rises, and reaches a vertex at rest at t = time / (1 - later).
 Query reached_at(double time, double later = 0) {
   const Vector v(0.25, 0.25, 1024 * time), o(0, 0, 0), a(2, 0, 0), b(0, 2, 0), up(0, 0, 1024 * (1 - later));
   return make_query(Kind::vertex_triangle, {v, o, a, b}, {v, o + up, a + up, b + up});
@@ -149,7 +149,7 @@ Query reached_at(double time, double later = 0) {
 TEST(Classify, ContactNearlyAtTheStartIsDegenerate) {
   EXPECT_TRUE(is_degenerate(reached_at(1e-6)));
   EXPECT_TRUE(is_degenerate(reached_at(1e-6, -0x1p-52)));
-  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // reached at a time that is no double
+  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // at a time that is no double
   EXPECT_TRUE(is_ordinary(reached_at(above(1e-6))));
 }
 
@@ -175,7 +175,7 @@ TEST(Classify, ContactNearlyAtAnEndOfAnEdgeIsDegenerate) {
   EXPECT_TRUE(is_ordinary(query));
 }
 
-/// F = 2 (ε² - a²) for a = 2 t - 1: roots at a = ±ε, where the edges cross.
+/// A query with F = 2 (ε² - a²), where a = 2 t - 1. The edges cross at both roots, a = ε and a = -ε.
 Query turning_edge(double squared_epsilon) {
   const double e = squared_epsilon / 2;
   const Vector a(-1, 0, 0), b(1, 0, 0);
@@ -213,7 +213,6 @@ TEST(Classify, TheFirstRuleThatHoldsIsNamed) {
 
 // --- all families ---------------------------------------------------------------------------------------
 
-/// The same primitives, with their vertices in another order.
 Query reordered(const Query& query, const std::array<int, 4>& order) {
   Query other = query;
   for (int i = 0; i < 4; ++i) {

@@ -1,4 +1,4 @@
-// Whatever a plug-in does, each query gets an answer or a fault, and nothing of the plug-in remains.
+// Whatever a plug-in does, each query gets an answer or a fault, and the plug-in leaves nothing behind.
 #include <gmock/gmock.h>
 
 #include <stdlib.h>
@@ -85,7 +85,7 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
       faults += verdict.fault == Fault::none ? 0 : 1;
     }
     EXPECT_EQ(faults, GetParam().fault == Fault::none ? 0 : 1);
-    // If the worker broke its channel, it is unknown which query it was at.
+    // If the plug-in broke the worker's channel, nearmiss does not know at which query this happened.
     if (GetParam().fault != Fault::protocol) {
       EXPECT_EQ(verdicts[chosen].fault, GetParam().fault);
     }
@@ -93,7 +93,8 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
   EXPECT_EQ(copied.processes(), 0);
 }
 
-/// The numbers of files, and of mappings of memory shared with workers, that nearmiss has open.
+/// The number of files that nearmiss has open, and the number of its memory mappings that it shares with
+/// workers.
 std::array<std::size_t, 2> held() {
   std::array<std::size_t, 2> count{};
   for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator("/proc/self/fd")) ++count[0];
@@ -115,7 +116,8 @@ TEST(Isolation, LeavesNoFileAndNoMemory) {
   EXPECT_EQ(held(), before);
 }
 
-/// For a scope, blocks all signals of this process and ignores the end of its children.
+/// While an object of this class exists, all signals of this process are blocked, and the end of its children
+/// is ignored.
 class ForeignSignals {
  public:
   ForeignSignals() {
@@ -145,7 +147,7 @@ TEST(Isolation, DoesNotDependOnTheSignalsOfItsParent) {
   EXPECT_EQ(verdict.fault_code, SIGSEGV);
 }
 
-/// Names a file in the environment, in which a plug-in leaves a mark.
+/// Sets the environment variable NEARMISS_MARK to the name of a file, in which a plug-in leaves a mark.
 class Marking : public testing::TemporaryFolder {
  protected:
   Marking() { setenv("NEARMISS_MARK", file("mark").c_str(), 1); }
@@ -188,7 +190,6 @@ TEST(Isolation, DoesNotNeedAProcOfItsOwn) {
   EXPECT_EQ(std::system((hidden + tests + " >/dev/null").c_str()), 0);
 }
 
-/// A process and its descendants.
 std::vector<pid_t> tree_of(pid_t root) {
   std::vector<pid_t> tree{root};
   for (std::size_t i = 0; i < tree.size(); ++i) {
@@ -199,7 +200,8 @@ std::vector<pid_t> tree_of(pid_t root) {
   return tree;
 }
 
-// The plug-in computes for an eighth of a second per query, and may take 4 s of wall-clock time.
+// The plug-in computes for an eighth of a second per query. With the limit of 0.4 s, a query may take 4 s of
+// wall-clock time; all processes are suspended for longer than that.
 TEST(Isolation, TimeInWhichEverythingIsSuspendedDoesNotCount) {
   std::array<int, 2> ready{};
   ASSERT_EQ(pipe(ready.data()), 0);
@@ -279,7 +281,7 @@ TEST(Isolation, AnExceptionWhileThePluginIsLoadedIsSaid) {
                  "the plug-in threw an exception: no licence while it was loaded");
 }
 
-/// A description that an honest worker could write.
+/// A valid description of a plug-in, as a worker writes it.
 isolation::PluginDescription honest() {
   isolation::PluginDescription about;
   about.name = {"mine:tolerance=1"};

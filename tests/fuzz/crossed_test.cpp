@@ -20,7 +20,8 @@ using testing::at_rest;
 
 constexpr std::uint64_t seed = 5;
 
-/// Whether primitives of queries with these levels touch exactly, by construction, at the time of the levels.
+/// Whether, in queries with these levels, the primitives touch exactly at the time of contact, by
+/// construction.
 bool touches(const Levels& levels) {
   return levels.when() != When::outside && levels.where() != Where::outside;
 }
@@ -31,7 +32,6 @@ std::string to_text(const Levels& levels) {
   return all;
 }
 
-/// Calls check(levels, query, index) for queries of both kinds.
 template <class Check>
 void for_each_query(std::uint64_t count, const Check& check) {
   const Family family = find_family("crossed");
@@ -66,7 +66,7 @@ TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
   });
 }
 
-/// The number of F's sign changes from just before t = 0 to just after t = 1.
+/// The number of sign changes of F from just before t = 0 to just after t = 1.
 int sign_changes(const Query& query) {
   const auto at = [&](int vertex, double t) -> Vector3<double> {
     return query.start(vertex) + t * (query.end(vertex) - query.start(vertex));
@@ -84,8 +84,8 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // For each value of `roots`, the first table has the number of roots at the contact, counted with
-  // multiplicity; the second table has the number of other roots in the step, which are simple.
+  // For values of `roots`, `at_contact` has the multiplicity of the root at the contact, if it is not 1 (0 if
+  // F is zero). `simple` has the number of roots in the step, if all of them are simple.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

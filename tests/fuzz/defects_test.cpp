@@ -1,4 +1,4 @@
-// The library of defects. Each defect is the real code with one change.
+// Each defect is the real code with one change.
 #include "fuzz/subjects/defects.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,6 @@
 namespace nearmiss {
 namespace {
 
-/// Calls check(query) for some queries of every family.
 template <class Check>
 void for_all_families(std::uint64_t each, const Check& check) {
   for (const Family& family : families())
@@ -47,7 +46,8 @@ TEST(Defects, DecideAsWangDoesWhereNothingIsWrong) {
   });
 }
 
-/// Whether a defect gives another answer or time than the sound subject for a query of `uniform`.
+/// Whether a defect gives another answer or time than the sound subject for some query of `uniform` or
+/// `uniform~drawn`.
 bool is_different(const std::string& defect, const std::string& sound) {
   const auto defective = try_make_defect("defect:" + defect);
   const auto subject = make_subject(sound);

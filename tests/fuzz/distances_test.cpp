@@ -54,7 +54,7 @@ TEST(DistanceError, OfTouchingPrimitivesIsRelativeToTheSizeOnly) {
   EXPECT_TRUE(error(touching, 1.01e-4).over_reported);
 }
 
-// The test repeats the same numbers in every unit, because the judgement must not depend on the unit.
+// The judgement must not depend on the unit of length, so the test scales the same numbers to several units.
 TEST(DistanceError, IsWrongBeyondOnePercentAndATenThousandthOfTheSizeInEveryUnit) {
   for (const double unit : {1.0, 0x1p-900, 0x1p+900}) {
     const Query query = testing::scaled(above, unit);
@@ -71,7 +71,7 @@ TEST(DistanceError, IsWrongBeyondOnePercentAndATenThousandthOfTheSizeInEveryUnit
   EXPECT_FALSE(error(at_rest(large), 1).over_reported);
 }
 
-// Among the smallest doubles, 1 % of a distance is less than the spacing of doubles.
+// For the smallest doubles, 1 % of a distance is less than the spacing of doubles.
 TEST(DistanceError, IsNoneForTheSmallestDistances) {
   for (const double d : {0x1p-1074, 0x1p-1073, 20 * 0x1p-1074, 60 * 0x1p-1074}) {
     Query query{.kind = Kind::vertex_vertex};
@@ -93,7 +93,8 @@ TEST(DistanceError, SeesWrongWeights) {
   EXPECT_FALSE(is_wrong(crossing, {0.5, 0.5, 0.5, 0.5}, 0.5));
   EXPECT_TRUE(is_wrong(crossing, {0.5, 0.5, 1, 0}, 0.5));
   EXPECT_FALSE(is_wrong(testing::scaled(above, 0x1p+1023), {1, 0.5, 0.25, 0.25}, 0x1p+1023));
-  // Far from the origin, where weights that add up to 1 - 2^-53 must not count as a motion.
+  // Far from the origin, weights that add up to 1 - 2^-53 must not count as wrong, although they move a
+  // point.
   const Query far = testing::moved(above, 0x1p+40);
   EXPECT_FALSE(is_wrong(far, {1, 0.5, 0.25, 0.25 - 0x1p-53}, 1));
 }
@@ -104,7 +105,6 @@ TEST(DistanceAnswer, IsAFaultIfItIsNoDistance) {
   EXPECT_EQ(DistanceAnswer::given(0, {}).fault, Fault::none);
 }
 
-/// The families that are asked by default.
 QuestionPlan usual(std::uint64_t cases) {
   QuestionPlan plan{.cases = cases, .jobs = 2};
   plan.kinds.insert(kinds.begin(), kinds.end());
@@ -128,7 +128,6 @@ TEST(DistanceTrial, APlainFunctionInDoubleIsRight) {
   for (const auto& [key, counts] : results.counts) EXPECT_GT(counts.queries, 300U);
 }
 
-/// The distance that the subject gave.
 double given(const QuestionFinding& finding) { return parse_number(finding.answer, "answer"); }
 
 constexpr int defects = 25;  // tests/plugin/distances.cpp
@@ -176,7 +175,7 @@ TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
 
 TEST(DistanceTrial, TellsAtWhichSizesAFunctionIsRight) {
   // This defect takes edges shorter than 2^-10 for points. Some edges are much shorter than the usual edges
-  // of a query of the same size.
+  // of queries with the same factor.
   QuestionPlan plan = usual(15'000);
   plan.families = {find_family("rest-units")};
   plan.kinds = {Kind::vertex_triangle, Kind::edge_edge};

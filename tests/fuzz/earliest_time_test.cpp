@@ -21,7 +21,7 @@ namespace {
 double above(double x) { return std::nextafter(x, 2); }
 double below(double x) { return std::nextafter(x, 0); }
 
-/// Times at which a comparison is hard, and some others.
+/// Times that are hard to compare with t*, and some others. `known` and `narrow` enclose t*.
 std::vector<double> times_around(const Enclosure& known, const Enclosure& narrow) {
   std::vector<double> times{0, 1, 0.5};
   for (const double end : {known.lo, known.hi, narrow.lo, narrow.hi})
@@ -51,7 +51,7 @@ TEST(EarliestTime, IsComparedAsInExactArithmetic) {
     }
 }
 
-/// A vertex that falls through a triangle, which it reaches at t = 3/8.
+/// A vertex that falls, and meets a triangle at t = 3/8.
 Query falling() { return testing::falling_vertex(0.25, 0.25, 3, -5); }
 
 TEST(EarliestTime, IsNotBeforeItself) {
@@ -72,7 +72,7 @@ TEST(EarliestTime, IsKnownWithoutExactArithmetic) {
   EXPECT_LT(time.known().hi - time.known().lo, 1e-12);
 }
 
-// Many queries of this test have two contacts at nearly the same time.
+// In many queries of this test, the primitives touch twice, at nearly the same time.
 TEST(EarliestTime, IsOfTheFirstOfTwoContacts) {
   std::size_t later = 0;
   for (std::uint64_t i = 0; i < 600; ++i) {

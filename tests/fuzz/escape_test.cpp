@@ -54,7 +54,7 @@ class Containment : public ::testing::TestWithParam<bool> {
   Containment() { setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1); }
 
   [[nodiscard]] static isolation::PluginLimits limits() { return {.own_namespace = GetParam()}; }
-  /// Whether the system refuses what this plug-in tries.
+  /// Whether the system refuses what the plug-in of this name tries.
   [[nodiscard]] static bool refuses(const std::string& name) {
     const auto subject = make_isolated_plugin(plugin(name), limits());
     const Verdict verdict = answers_of(*subject, queries())[chosen];
@@ -122,8 +122,8 @@ TEST_P(Containment, EndsAllProcessesWhenThisProcessIsKilled) {
     EXPECT_GT(copied.processes(), 0);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // The plug-in's processes end at once when nearmiss is killed, but nobody waits for their end. The test
-    // fails after a minute.
+    // When nearmiss is killed, the plug-in's processes are killed, too, but nobody waits for their end. If
+    // they still exist after a minute, the test fails.
     constexpr int tries = 6000;
     for (int i = 0; i < tries && copied.processes() > 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -152,7 +152,6 @@ TEST_P(Containment, NoProcessCanBeTraced) {
   EXPECT_EQ(memory, 0);
 }
 
-/// Whether the kernel has Landlock.
 bool has_landlock() { return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1) > 0; }
 
 TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
@@ -174,7 +173,8 @@ TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
   waitpid(victim, nullptr, 0);
 }
 
-// Ending the group ends all of its processes, even if they start others faster than nearmiss can find them.
+// nearmiss ends a plug-in by ending its process group: all processes of the group end, even if they start
+// others faster than nearmiss can find them.
 TEST_P(Containment, NoProcessLeavesTheGroupThatEndsWithThePlugin) {
   EXPECT_EQ(refuses("escaping_leave"), !GetParam() || !grants_namespaces());  // else, the namespace ends them
 }

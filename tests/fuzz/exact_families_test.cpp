@@ -25,7 +25,7 @@ using testing::first_time;
 using testing::reversed;
 using testing::roots_before;
 
-/// The time of the last contact, which must be a multiple of 2^-52.
+/// The time of the last contact. It must be a multiple of 2^-52, so that the difference from 1 is exact.
 double last_time(const Query& query) { return 1 - first_time(reversed(query)); }
 
 bool is_sixteenths(double time) { return 16 * time == std::floor(16 * time); }
@@ -71,8 +71,8 @@ TEST(TouchTwice, MostTouchAtTwoTimes) {
   });
 }
 
-// In one query of four, the primitives turn back before contact. In some queries, the contact is outside the
-// primitives.
+// In one query of four, the primitives turn back before they touch; in some queries, the points that meet are
+// outside the primitives.
 TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
   for (const char* family : {"even-roots@-16", "even-roots@-2"})
     expect_more(family, 40, [](const Query& query) { return testing::count_roots(query).distinct == 2; });

@@ -41,8 +41,8 @@ std::uint64_t fingerprint(const Family& family) {
   return hash.value();
 }
 
-// A provenance always gives the same query, with every compiler. (Families that draw log-uniform numbers make
-// other queries on processors without fused multiply-add.)
+// A query's provenance always gives the same query, with every compiler. On processors without fused
+// multiply-add, families that draw log-uniform numbers make other queries.
 TEST(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
   const std::map<std::string, std::uint64_t> recorded{
       {"uniform", 0x9d788afc3f9872d2},
@@ -182,7 +182,7 @@ TEST(EveryFamily, HasCollisionsAndMisses) {
     const std::uint64_t count = count_of(family, 400);
     std::uint64_t collisions[2] = {0, 0};
     for (std::uint64_t i = 0; i < 2 * count; ++i) collisions[i % 2] += collides(make_query(family, 4, i));
-    // In uniform-slow, about 3 queries in 1000 collide; in the families at rest apart, none.
+    // In uniform-slow, about 3 queries in 1000 collide; in the families at rest except rest-touching, none.
     const bool has_few =
         family.name == "uniform-slow" || (family.name.starts_with("rest") && family.name != "rest-touching");
     for (const std::uint64_t c : collisions) {
@@ -194,7 +194,7 @@ TEST(EveryFamily, HasCollisionsAndMisses) {
 
 // --- parameters -----------------------------------------------------------------------------------------
 
-/// A family whose queries contain the value of the parameter from which they were made.
+/// A family in which x[0] of each query is the value of the parameter.
 Family telling_family() {
   return with_parameter("telling", "", {"", -3, 5, false, [](Random& random, Kind kind, double x) {
                                           Query query{.kind = kind};

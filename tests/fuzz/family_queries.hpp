@@ -17,29 +17,27 @@
 
 namespace nearmiss {
 
-/// Prints a parameter in a test's name.
 inline void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
 
 }  // namespace nearmiss
 
 namespace nearmiss::testing {
 
-/// The name of a test whose parameter is a family.
 inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-/// The number of queries of each family: the environment variable NEARMISS_QUERIES, for long runs by hand,
-/// otherwise the usual number.
+/// The number of queries to test of each family: the environment variable NEARMISS_QUERIES, which is for long
+/// runs by hand; if it is not set, `usual`.
 inline std::uint64_t query_count(std::uint64_t usual) {
   const char* const given = std::getenv("NEARMISS_QUERIES");
   return given == nullptr ? usual : std::stoull(given);
 }
 
-/// The number of the first 400 queries of a family, with seed 5, that have a property. `nearmiss family NAME
-/// --seed 5` prints these queries.
+/// How many of the first 400 queries of a family, with seed 5, have a property. `nearmiss family NAME --seed
+/// 5` prints these queries.
 template <class Property>
 int count_of_400(std::string_view name, const Property& has_property) {
   const Family family = find_family(name);
@@ -56,22 +54,19 @@ void expect_count(std::string_view name, int above, int below, const Property& h
   EXPECT_LT(count, below) << name;
 }
 
-/// Expects that more than `above` of 400 queries of a family have a property.
 template <class Property>
 void expect_more(std::string_view name, int above, const Property& has_property) {
   EXPECT_GT(count_of_400(name, has_property), above) << name;
 }
 
-/// Expects that all of 400 queries of a family have a property.
 template <class Property>
 void expect_all(std::string_view name, const Property& has_property) {
   EXPECT_EQ(count_of_400(name, has_property), 400) << name;
 }
 
-/// The name of a family whose parameter has a value: "aspect@8".
+/// The name of a family with a fixed value of its parameter: "aspect@8".
 inline std::string at(const std::string& family, int x) { return family + "@" + std::to_string(x); }
 
-/// The first queries of a family.
 inline std::vector<Query> first_queries(std::string_view name, std::uint64_t count, std::uint64_t seed = 1) {
   const Family family = find_family(name);
   std::vector<Query> queries;
@@ -79,7 +74,8 @@ inline std::vector<Query> first_queries(std::string_view name, std::uint64_t cou
   return queries;
 }
 
-/// The primitives at rest, where they are at `time`. Positions are rounded except at t = 0 and t = 1.
+/// The primitives at rest, at the positions that they have at `time`. Positions are rounded, except for the
+/// times 0 and 1.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {
     const double place = (1 - time) * query.x[i] + time * query.x[12 + i];
@@ -88,7 +84,6 @@ inline Query at_rest(Query query, double time) {
   return query;
 }
 
-/// The query with its motion reversed.
 inline Query reversed(Query query) {
   std::rotate(query.x.begin(), query.x.begin() + 12, query.x.end());
   return query;

@@ -31,10 +31,9 @@ using What = Finding::What;
 
 /// The vertex meets the triangle at t = 1/2, and passes it.
 const Query hit = falling_vertex(0.25, 0.25, 1, -1);
-/// The vertex falls, and stays at least 2 away.
+/// The vertex falls, and stays at least 2 away from the triangle.
 const Query apart = falling_vertex(0.25, 0.25, 4, 2);
 
-/// The certificate of a finding with this query.
 std::string certificate(What what, const Query& query, double time = 0, double bound = 0) {
   return certificate_of({.what = what,
                          .subject = "",
@@ -83,8 +82,8 @@ Subjects often_wrong() {
       "wrong", answer, Claims{.time_sort = TimeSort::lower_bound, .takes_separation = true}));
 }
 
-/// The kind of each failure, with the claim that its certificate proves ("" for a fault). Expects that each
-/// certificate is about the shrunk query.
+/// Expects that each certificate is about the shrunk query of its finding. Returns the sorts of failure, each
+/// with the claim that the certificate proves ("" for a fault).
 std::set<std::pair<What, std::string>> claims_of(const std::vector<Finding>& findings) {
   std::set<std::pair<What, std::string>> claims;
   for (const Finding& each : findings) {

@@ -1,5 +1,5 @@
-// Everything that a detector can state through ccd/nearmiss_subject.h, in its own process and in this
-// process.
+// Everything that a detector can state through ccd/nearmiss_subject.h, both in this process and in a process
+// of its own.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -21,14 +21,13 @@ using ::testing::ElementsAre;
 
 std::string several(const std::string& subject) { return NEARMISS_PLUGINS "/several.so" + subject; }
 
-/// A query that starts at x[0] = `x`.
 Query query_at(double x, Kind kind = Kind::edge_edge) {
   Query query{.kind = kind};
   query.x[0] = x;
   return query;
 }
 
-/// The detector in this process, and in a process of its own.
+/// The detector as two subjects: one in this process, and one in a process of its own.
 std::vector<std::unique_ptr<Subject>> both(const std::string& subject) {
   std::vector<std::unique_ptr<Subject>> subjects;
   subjects.push_back(make_subject(several(subject)));

@@ -104,7 +104,6 @@ TEST(Isolation, WaitingForADeviceCounts) {
   }
 }
 
-/// Restricts this thread, and the processes that it starts, to one processor.
 void use_one_processor() {
   cpu_set_t allowed;
   sched_getaffinity(0, sizeof allowed, &allowed);
@@ -176,7 +175,7 @@ TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {
   EXPECT_TRUE(subject->decide(one_batch(1).front()).hit);
 }
 
-// A process may die at any moment; all answers that the process leaves behind are answers of the plug-in.
+// A process may die at any moment; each answer that it leaves behind must be an answer of the plug-in.
 TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
   const auto subject = make_isolated_plugin(plugin("aborts_later"));
   const auto queries = one_batch(50);
@@ -235,7 +234,7 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
   EXPECT_GE(chosen, 2);
 }
 
-/// Within a scope, this process can open no more files, and so can start no worker.
+/// While an object of this class exists, this process can open no more files, and so can start no worker.
 class NoFiles {
  public:
   NoFiles() {

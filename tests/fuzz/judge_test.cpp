@@ -29,7 +29,8 @@ using testing::plugin;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A subject that reports everything and claims this bound. It refuses a query whose vertex starts at z = 0.
+/// A subject that reports every query as a collision and claims this bound. It refuses a query whose vertex
+/// starts at z = 0.
 MadeUpSubject alarmist(double bound) {
   const auto report = [](const Query& query) {
     if (query.x[2] == 0) throw Error("alarmist: refused");
@@ -82,7 +83,7 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
   EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth).measured_by_wang);
 }
 
-/// The error of a subject's time for a query, by default a vertex that touches its triangle at t = 1/2.
+/// The error of a subject that gives `time` for a query. By default, a vertex meets its triangle at t = 1/2.
 std::optional<TimeError> error_of_time(TimeSort sort, double time, const Query& query = hit) {
   const MadeUpSubject subject("timed",
                               [=](const Query&) {
@@ -115,7 +116,7 @@ TEST(Judge, TheFirstDoubleAfterTheTimeOfContactIsAfterIt) {
 }
 
 TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {
-  // A vertex that stops above the triangle by less than half of a float's last bit.
+  // A vertex that stops above the triangle, at a height that is 0 as a float.
   const Query query = falling_vertex(0.25, 0.25, 1, 0x1p-160);
   ASSERT_FALSE(collides(query));
   Query rounded = query;
@@ -136,7 +137,8 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
   EXPECT_LE(complexity(shrunk).numbers, 2);
 }
 
-// A query that fails in a trial fails in the same way when it is asked again, so it can be shrunk.
+// A subject that fails on a query in a trial fails in the same way when the judge asks it again, so the query
+// can be shrunk.
 TEST(BadBound, IsCountedShrunkAndJudgedAlike) {
   const Subjects subjects = testing::one(make_isolated_plugin(plugin("bound_nan")));
   std::vector<Query> queries;

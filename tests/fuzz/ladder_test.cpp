@@ -35,7 +35,7 @@ double error(const DoubleDouble& computed, const Rational& exact) {
   return static_cast<double>(relative) * 0x1p102;
 }
 
-/// Two double-doubles that are often so near each other that their difference suffers cancellation.
+/// Two double-doubles. Often, their sum is far smaller than the numbers, because they nearly cancel.
 std::pair<DoubleDouble, DoubleDouble> operands(Random& random) {
   const auto draw = [&] {
     const double high = random.uniform(-1, 1);
@@ -111,7 +111,6 @@ TEST(Scalars, AreKnownByName) {
   EXPECT_NEAR(bound("wang-tight:dd@7"), 11.9335 * 7 * std::pow(2, -25.5), 1e-9);
 }
 
-/// A batch of queries of each family and both kinds.
 std::vector<Batch> batches(std::uint64_t seed, std::uint64_t count) {
   std::vector<Batch> all;
   for (const Family& family : families())
@@ -188,7 +187,7 @@ TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
   EXPECT_EQ(oracle.collisions, 0);
 }
 
-// A coordinate that would round to 2^1024 becomes the largest smaller number of the scalar.
+// A coordinate that would round to 2^1024 becomes the scalar's largest number below 2^1024.
 TEST(Ladder, NarrowScalarsRoundTheLargestNumbersToFiniteOnes) {
   constexpr double largest = std::numeric_limits<double>::max();
   const Query query =

@@ -9,7 +9,6 @@
 
 namespace nearmiss::testing {
 
-/// The properties that a subject states.
 struct Claims {
   double bound = 0;
   bool claims_bound = true;
@@ -48,8 +47,8 @@ class MadeUpSubject final : public Subject {
   Claims claims_;
 };
 
-/// Passes queries on to another subject, then calls `watch` with each batch and its answers. `watch` may
-/// change the answers. The other subject must outlive this one.
+/// Passes queries on to another subject, which must outlive this one. Then calls `watch` with each batch and
+/// its answers, which `watch` may change.
 class WatchedSubject final : public ForwardingSubject {
  public:
   using Watch = std::function<void(std::span<const Query>, std::span<Verdict>)>;

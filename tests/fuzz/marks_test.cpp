@@ -13,7 +13,6 @@ namespace {
 
 constexpr int most = 8000;
 
-/// A mesh that consists of points in a row.
 MovingMesh row_of_points(int count) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) mesh.points.emplace_back(i, 0, 0);

@@ -22,7 +22,6 @@ std::set<QueryCoordinates> pairs_of(const MovingMesh& mesh) {
   return pairs;
 }
 
-/// The pairs of the mesh that occur unchanged among the family's queries.
 std::set<QueryCoordinates> pairs_among(const Family& family, const std::set<QueryCoordinates>& pairs) {
   std::set<QueryCoordinates> found;
   for (std::uint64_t i = 0; i < 2000; ++i)
@@ -54,7 +53,8 @@ TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {
 }
 
 TEST(MeshFamily, MovesPairsIntoContact) {
-  // If rounding moves the primitives apart again, their distance is only a few rounding errors.
+  // The family moves primitives into contact; if rounding moves them apart again, their distance is tiny. So
+  // many queries must have a tiny distance that is not 0.
   const MovingMesh mesh = grids(4);
   const auto pairs = pairs_of(mesh);
   const Family family = mesh_family(scene_of(mesh));
@@ -81,7 +81,8 @@ TEST(MeshFamily, AMeshWithoutPairsIsRefused) {
   EXPECT_REFUSED(mesh_family(scene_of(one)), "found no pair in the mesh");
 }
 
-// A vertex without a triangle falls through a triangle, whose edges it does not meet.
+// A vertex without triangles and lines falls through a triangle, so all pairs of the mesh are
+// vertex-triangle.
 TEST(MeshFamily, AMeshWithPairsOfOneKindIsAskedThese) {
   const MovingMesh falling =
       make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{0, 1, 2}}, {}},

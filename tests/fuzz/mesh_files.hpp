@@ -84,7 +84,7 @@ class MeshFilesTest : public testing::TemporaryFolder {
     EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
   }
 
-  /// Expects that a file is refused with its name and this message.
+  /// Expects that a file with this text is refused with a message that has the file's name and `message`.
   void expect_refused(const std::string& ending, const std::string& text, const std::string& message) const {
     using ::testing::HasSubstr;
     const auto path = write("mesh" + ending, text);
@@ -96,8 +96,8 @@ class MeshFilesTest : public testing::TemporaryFolder {
     std::string old, by, message;
   };
 
-  /// Applies each change on its own to a good file, and expects that the changed file is refused with the
-  /// message for this change.
+  /// Applies each change to a copy of a good file, and expects that the changed file is refused with the
+  /// message of the change.
   void expect_refused_with(const std::string& ending, const std::string& good,
                            std::initializer_list<Change> changes) const {
     for (const auto& [old, by, message] : changes) expect_refused(ending, replaced(good, old, by), message);

@@ -15,7 +15,7 @@
 namespace nearmiss {
 
 /// Small tetrahedra with integer coordinates. The first tetrahedron rests, the second moves as a whole, the
-/// third changes its shape, and so on in turn.
+/// third changes its shape, the fourth rests, and so on.
 inline MovingMesh tetrahedra(std::uint64_t seed, int count = 30) {
   Random random(seed, 0, 0);
   Mesh mesh;

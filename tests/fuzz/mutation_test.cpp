@@ -54,7 +54,8 @@ TEST(Mutated, KeepsToCollisions) {
   EXPECT_GE(collisions, chains * steps / 2);
 }
 
-// The provenance of a finding by search or libFuzzer names a seed, which must always give the same query.
+// The provenance of a finding by search or by libFuzzer names a seed. The same seed must always give the same
+// query, so mutations must not change.
 TEST(Mutated, IsWhatItAlwaysWas) {
   testing::BitHash hash;
   testing::BitHash of_separations;
@@ -73,7 +74,7 @@ TEST(Mutated, IsWhatItAlwaysWas) {
 
 // --- places ---------------------------------------------------------------------------------------------
 
-/// The vector between the two points of a place, in more bits than a double has.
+/// The vector between the two points of a place, computed in more bits than a double has.
 std::array<long double, 3> gap(const Query& query, const Place& place) {
   const long double alpha = place.alpha;
   const long double beta = place.beta;

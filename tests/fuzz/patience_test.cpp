@@ -42,8 +42,8 @@ CampaignPlan plan_of(int jobs) {
   return plan;
 }
 
-/// The statistics, without run times, of a campaign of wang and the subject `late`. Requests a stop when
-/// `late` has been asked `stop_after` queries.
+/// The statistics, without run times, of a campaign of wang and the subject `late`. The campaign is stopped
+/// when `late` has been asked about `stop_after` queries.
 Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
   std::atomic<bool> requested{false};
   std::atomic<std::uint64_t> asked{0};
@@ -78,7 +78,6 @@ TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(run(plan_of(4)), one);
 }
 
-/// The results, without run times, of trials of the subject `late`.
 TrialResult results_of(int jobs, const std::function<void(Trials&)>& hold) {
   const Subjects subjects = one(late(is_late));
   TrialResult sum;
@@ -91,7 +90,7 @@ TrialResult results_of(int jobs, const std::function<void(Trials&)>& hold) {
   return sum;
 }
 
-/// Expects that the subject is set aside after the same queries, with any number of threads.
+/// Expects that the subject is set aside after the same queries with one thread and with four threads.
 void expect_the_same_with_any_number_of_threads(const std::function<void(Trials&)>& hold) {
   const TrialResult one = results_of(1, hold);
   for (const auto& [key, counts] : one.statistics.counts) {
@@ -165,7 +164,8 @@ TEST(Patience, OfASearchEndsToo) {
   for (const Family& family : searches(*always_late)) {
     asked = 0;
     for (std::uint64_t i = 0; i < 10; ++i) make_query(family, 1, i);
-    // A search for late or early times ends only when 20 queries have exceeded the time limit.
+    // After three slow searches, later searches ask nothing. A search for late or early times ends when 20 of
+    // its queries have exceeded the time limit; any other search ends at the first such query.
     EXPECT_EQ(asked,
               family.name.starts_with("search-late") || family.name.starts_with("search-early") ? 60 : 3);
   }

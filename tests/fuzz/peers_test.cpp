@@ -51,9 +51,10 @@ TEST(Peers, BulletDecidesVertexTriangleOnlyAndInFloatWhereItIsBuiltSo) {
   }
 }
 
-// Bullet looks for an axis along which the triangle is on one side of the vertex. For an axis perpendicular
-// to the vertex's path, Bullet takes the vertex and the triangle for separated even if corners are on both
-// sides of the vertex, unless a corner has exactly the vertex's coordinate along the axis.
+// Bullet looks for an axis along which the triangle is on one side of the vertex. Let an axis be
+// perpendicular to the vertex's path, and let the triangle have corners on both sides of the vertex along
+// this axis. Bullet then takes the vertex and the triangle for separated, unless a corner has exactly the
+// vertex's coordinate along the axis.
 TEST(Peers, BulletMissesAVertexThatFallsStraightDown) {
   const Query falls = testing::falling_vertex(0.25, 0.25, 1, -1);
   ASSERT_TRUE(collides(falls));

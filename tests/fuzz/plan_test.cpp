@@ -1,4 +1,4 @@
-// Pairs that a plan leaves out do not collide, or an exact test decides them.
+// If a plan leaves out a pair, the pair does not collide, or an exact test decides it.
 #include "fuzz/scenes/plan.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The plane tests of the oracle and of the subjects agree on every family. They were written independently of
-// each other.
+// The plane tests of the oracle and those of the subjects agree on every family. The two were written
+// independently of each other.
 #include <gtest/gtest.h>
 
 #include "ccd/wang/plane_culling.hpp"

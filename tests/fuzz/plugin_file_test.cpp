@@ -19,7 +19,7 @@ std::atomic<bool> clock_is_late{false};
 
 }  // namespace
 
-// Replaces time(2) in this executable.
+// Replaces time(2) in this executable, so that a test can set the clock back.
 extern "C" time_t time(time_t* seconds) noexcept {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
@@ -44,14 +44,13 @@ class PluginFileTest : public testing::TemporaryFolder {
     fs::rename(file("new"), file("p.so"));
   }
 
-  /// Overwrites the bytes of p.so with those of a built plug-in.
   void overwrite(const std::string& name) const {
     fs::copy_file(plugin(name), file("p.so"), fs::copy_options::overwrite_existing);
   }
 
   [[nodiscard]] std::unique_ptr<Subject> make() const { return make_isolated_plugin(file("p.so").string()); }
 
-  /// Expects that asking the plug-in throws PluginChanged, with these words.
+  /// Expects that a question to the plug-in throws PluginChanged with a message that has these words.
   void expect_changed(const Subject& subject, const std::string& words) const {
     using ::testing::HasSubstr;
     using ::testing::ThrowsMessage;
@@ -90,7 +89,7 @@ TEST_F(PluginFileTest, ThatWasChangedIsNotAskedAgain) {
   expect_changed(*removed, "found no such file");
 }
 
-// The plug-in ends its process at each query, so each query loads the file again.
+// The plug-in ends its process at each query, so nearmiss must load the file again for each query.
 TEST_F(PluginFileTest, ThatWasReplacedIsNotLoadedAfterACrash) {
   replace("bound_abort");
   const auto subject = make();
@@ -122,7 +121,6 @@ TEST_F(PluginFileTest, MustBeARegularFile) {
   EXPECT_REFUSED(make(), "p.so: cannot load the plug-in: found no regular file");
 }
 
-/// The number of bytes that this process has read from files.
 std::uint64_t bytes_read() {
   std::ifstream counts("/proc/self/io");
   std::string rchar;

@@ -36,7 +36,6 @@ TEST(FirstFailure, IsAMissARefutedBoundOrALateTime) {
   EXPECT_FALSE(first_failure("advance", "uniform~drawn"));
 }
 
-/// The number of cases of a family, asked one after the other, up to the subject's first miss.
 std::uint64_t cases_one_by_one(const Subject& subject, const Family& family) {
   for (std::uint64_t index = 0;; ++index) {
     const Query query = make_query(family, 1, index);

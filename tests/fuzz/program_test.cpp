@@ -19,8 +19,9 @@ using testing::answers_of;
 
 class ProgramTest : public testing::TemporaryFolder {
  protected:
-  /// A program that reports every query at t = 0.5. Before it answers a request, it runs the code `then`,
-  /// which can read the queries in `rows` and change `answers`. Its description also has `lines`.
+  /// A program that reports every query at t = 0.5. Before the program answers a request, it runs the code
+  /// `then`, which can read the queries in `rows` and change `answers`. The program's description of itself
+  /// also has `lines`.
   [[nodiscard]] std::string program(const std::string& then, const std::string& lines = "") const {
     return command("say('nearmiss 3\\nname p\\nkinds vt ee vv ve\\nbatch 64\\n" + lines + R"(\n')
 while header := sys.stdin.buffer.read(24):
@@ -34,7 +35,7 @@ while header := sys.stdin.buffer.read(24):
 )");
   }
 
-  /// The command for a program in Python.
+  /// The subject's name for a program with this Python code.
   [[nodiscard]] std::string command(const std::string& code) const {
     const std::string text =
         "import atexit, os, signal, struct, subprocess, sys, time\n"
@@ -43,8 +44,8 @@ while header := sys.stdin.buffer.read(24):
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
   }
 
-  /// Asks three queries of a program. `then` acts at the last query, which must get this fault, code and
-  /// text.
+  /// Asks program(then) about three queries, of which only the last one has x[0] = 1. The last query must get
+  /// this fault, code and text.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto time = std::chrono::milliseconds(fault == Fault::time ? 40 : 200);
     const auto subject = make_any_subject(program(then), std::nullopt, {.time = time});
@@ -99,7 +100,7 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
 }
 
 TEST_F(ProgramTest, GivesDistances) {
-  // For a vertex and an edge, the program gets the same nine numbers twice.
+  // To measure the distance of a vertex and an edge, the program gets their nine coordinates at t = 0 twice.
   const auto subject = make_any_subject(
       program("if question == 2: answers = [rows[0][8] if rows[0][:9] == rows[0][9:18] else -1, 0]",
               "distance ve\\n"));
@@ -126,7 +127,8 @@ TEST_F(ProgramTest, FiltersSteps) {
   }
 }
 
-// The answer to each query is whether the last number of its row is the separation.
+// The program reports a collision if the last number of a query's row, the separation, is equal to the last
+// coordinate.
 TEST_F(ProgramTest, GetsTheNumbersOfEachKindAndTheSeparation) {
   const std::string then =
       "if question == 1: answers = [rows[0][-1] + len(rows[0]), 0]\n"
@@ -189,7 +191,7 @@ while header := sys.stdin.buffer.read(24):
 TEST_F(ProgramTest, ThatFailsIsAFaultOfTheQuery) {
   expect_fault("if rows[-1][0] == 1: sys.exit(3)", Fault::crash, -3);
   expect_fault("if rows[-1][0] == 1: os.kill(os.getpid(), signal.SIGSEGV)", Fault::crash, SIGSEGV);
-  // A child that the program leaves behind changes nothing.
+  // A child process that the program leaves behind does not change the fault.
   expect_fault("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)", Fault::crash, -5);
   expect_fault("if rows[-1][0] == 1: raise ValueError('no root')", Fault::exception, 0,
                "ValueError: no root");
@@ -202,7 +204,8 @@ TEST_F(ProgramTest, ThatTakesTooLongIsLate) {
   expect_fault("while rows[-1][0] == 1: pass", Fault::time);
 }
 
-// If such bytes were accepted, later questions would get the answers to earlier questions.
+// If a program could write more bytes than its answers have, later questions would get answers to earlier
+// questions.
 TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
   const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";
   for (const std::string& name :

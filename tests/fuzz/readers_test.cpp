@@ -74,8 +74,8 @@ TEST_F(ReadersTest, CoordinatesAreReadToTheLastBit) {
 TEST_F(ReadersTest, FloatsOfPlyAreRoundedOnce) {
   const std::string floats = ply("ascii", "float", "uchar int", points_of_ply + "3 0 1 2\n3 0 2 3\n");
   expect_square(".ply", floats, 0.1F);
-  // The number is slightly above the midpoint of two floats. Rounding it to double first would give the
-  // midpoint.
+  // The number is slightly above the midpoint of two floats. If it were first rounded to double, it would
+  // become the midpoint.
   expect_square(".ply", replaced(floats, "0 1 0.1", "0 1 1.000000059604644775390625001"), 1 + 0x1p-23);
 }
 

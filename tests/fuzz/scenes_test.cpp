@@ -28,7 +28,6 @@ TEST_F(TwoFilesTest, MustHoldTheSamePrimitives) {
 
 class FolderTest : public testing::TemporaryFolder {
  protected:
-  /// Writes a frame with one triangle at a height.
   void write_frame(const std::string& name, double height) const {
     const std::string z = std::to_string(height);
     write("frames/" + name, "v 0 0 " + z + "\nv 1 0 " + z + "\nv 0 1 " + z + "\nf 1 2 3\n");

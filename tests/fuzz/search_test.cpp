@@ -15,7 +15,7 @@ namespace {
 
 Query search(const Family& family, std::uint64_t index) { return make_query(family, 1, index); }
 
-/// Whether one of the first queries is a collision that the subject misses.
+/// Whether one of the first queries of the search for misses is a collision that the subject misses.
 bool finds_miss(const std::string& name, std::uint64_t queries) {
   const auto subject = make_any_subject(name);
   const Family family = search_for(SearchFor::misses, *subject);
@@ -49,7 +49,8 @@ TEST(Searches, GiveFiniteQueriesWithTheLargestSeparation) {
     EXPECT_TRUE(is_finite(search(family, 0))) << family.name;
 }
 
-/// A search continues from its best point, so a difference of one bit would lead to other queries.
+/// A search continues from its best point, so a difference of one bit in a computed number could lead to
+/// other queries.
 TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
   testing::BitHash hash;
   for (const char* name : {"wang", "basic", "wang-tight:p24", "defect:vv"}) {
@@ -70,8 +71,8 @@ TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
   EXPECT_THROW(search(search_for(SearchFor::misses, subject), 0), Error);
 }
 
-/// Expects that one of the first searches finds a false positive at more than `wanted` times the subject's
-/// claimed bound, and that no search refutes the bound.
+/// Expects that one of the first searches finds a false positive whose distance is more than `wanted` times
+/// the subject's claimed bound, and that no search refutes the bound.
 void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   double ratio = 0;
   for (std::uint64_t i = 0; i < searches && ratio <= wanted; ++i) {
@@ -83,8 +84,9 @@ void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   EXPECT_GT(ratio, wanted);
 }
 
-// In float, the bound is 0.76 B. Therefore, many planes of the culling nearly separate the primitives of far
-// false positives. With a fine scalar, the search must make primitives as small as the bound.
+// In float, the bound is 0.76 B, so the primitives of far false positives are nearly separated by many of the
+// planes that culling tests. In a fine scalar, the bound is tiny, and the search must make primitives as
+// small as the bound.
 TEST(FarSearch, ComesNearTheBoundPastPlaneCullingAndInFineScalars) {
   expect_far(*make_any_subject("wang:float"), 0.8, 40);
   expect_far(*make_any_subject("wang-tight:p112"), 0.9, 10);

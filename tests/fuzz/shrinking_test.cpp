@@ -1,5 +1,5 @@
-// Findings are shrunk while their campaign runs, the most telling findings first. No query waits for the
-// shrinking.
+// Findings are shrunk while their campaign runs, findings of ordinary queries first. No query waits for the
+// shrinker.
 #include "fuzz/trial/shrinking.hpp"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,14 @@ namespace {
 using testing::falling_vertex;
 using testing::one;
 
-/// The collisions of a family that a subject misses.
+/// The findings of the first subject on edge-edge queries of `planted-ulp`: the collisions that it misses.
 std::vector<Finding> missed(const Subjects& subjects) {
   std::vector<Query> queries;
   for (std::uint64_t i = 1; i < 500; i += 2) queries.push_back(make_query(find_family("planted-ulp"), 1, i));
   return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
-/// All findings after shrinking, which shrinks only kept findings.
+/// The given findings after shrinking; only those that FirstFindings keeps are shrunk.
 std::vector<Finding> after_shrinking(const Subjects& subjects, std::vector<Finding> findings,
                                      const Stop& stop = Stop::never(), bool shrinks = true) {
   Shrinking shrinking(subjects, 2, stop, shrinks);
@@ -110,8 +110,8 @@ TEST(Shrinking, ARefutedFindingHasTheBoundOfItsShrunkQuery) {
   EXPECT_EQ(shrunk.bound, 0.5);
 }
 
-/// Answers timed queries, such as those of a campaign, immediately. Answers other queries only after `timed`
-/// queries have been timed.
+/// A subject that answers timed queries, such as those of a campaign, immediately. It answers other queries,
+/// such as those of the shrinker, only after `timed` queries have been timed.
 class Patient final : public ForwardingSubject {
  public:
   Patient(const Subject& to, std::size_t timed) : ForwardingSubject("basic", to), left_(timed) {}
@@ -138,8 +138,8 @@ class Patient final : public ForwardingSubject {
   mutable std::size_t left_;
 };
 
-/// Here, the shrinker waits until all queries are answered. If a query also waited for the shrinker, this
-/// test would never end.
+/// The shrinker waits for `Patient`, until all queries of the campaign are answered. If a query also waited
+/// for the shrinker, this test would never end.
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};

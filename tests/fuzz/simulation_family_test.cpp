@@ -17,7 +17,7 @@ namespace {
 
 using QueryCoordinates = std::array<double, 24>;
 
-/// The pairs about which a simulation with `exact` as its CCD asks, if it asks as `nearmiss simulate` does.
+/// The pairs about which a simulation asks its CCD, `exact`, if it runs as in `nearmiss simulate`.
 std::set<QueryCoordinates> pairs_asked(const std::string& scene) {
   const Subjects subjects = testing::subjects_named({"exact"});
   Trials trials(subjects, {}, 1, Stop::never(), false, [](TrialResult&&) {});
@@ -51,7 +51,8 @@ TEST(SimulationFamily, AsksWhatASimulationAsks) {
   EXPECT_GT(drawn.size(), 1500);
 }
 
-/// Findings name queries by family, seed and index, so these must always give the same query.
+/// Findings name queries by family, seed and index. The same family, seed and index must always give the same
+/// query.
 TEST(SimulationFamily, QueriesStayTheSame) {
   const auto fingerprint = [](const char* name) {
     const Family family = find_any_family(name);

@@ -129,13 +129,13 @@ TEST(Response, AZoneIsRigid) {
   }
   EXPECT_LT(motion.norm(), 1e-12);
   EXPECT_NE(end[1], start[1]);
-  // If one point is held, all points move as it does.
+  // If one point is held, all points move in the same way as that point.
   PointVectors pulled = end;
   Response({true, false, false, false}, {}).move_rigidly({0, 1, 2, 3}, start, pulled);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((pulled[i] - start[i] - (end[0] - start[0])).norm(), 1e-12);
 }
 
-/// The tangled pairs of a triangle and the edge pq.
+/// The tangled pairs in a mesh of a triangle and the edge pq.
 std::vector<Piercing> tangled_by(const Vector3<double>& p, const Vector3<double>& q) {
   Mesh mesh{.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, p, q}, .triangles = {{0, 1, 2}}, .lines = {{3, 4}}};
   PointVectors end = mesh.points;
@@ -152,7 +152,6 @@ TEST(Tangled, AnEdgeThroughATriangle) {
   EXPECT_THAT(tangled_by({1, 1, 0}, {5, 1, 0}), IsEmpty()) << "it is in the plane";
 }
 
-/// A simulation of two cloths with a subject as its CCD.
 struct Simulated {
   std::vector<SimulatedStep> steps;
   PointVectors end;
@@ -194,7 +193,7 @@ TEST(Simulation, WithAnExactCcdNothingTangles) {
   EXPECT_GT(sum.rounds, 40);
 }
 
-/// If no pair is missed or left unresolved, no new tangle can occur.
+/// A new tangle can occur only if the CCD misses a pair, or the response leaves a pair unresolved.
 TEST(Simulation, OnlyMissesTangle) {
   std::uint64_t most_tangled = 0;
   for (const char* subject : {"basic", "fcl", "wang"}) {

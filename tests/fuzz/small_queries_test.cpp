@@ -18,7 +18,7 @@
 namespace nearmiss {
 namespace {
 
-/// Expects that a list is sorted, and that exact arithmetic agrees with the truths of a sample of it.
+/// Expects that a list is sorted, and that exact arithmetic agrees with the truth of one query in `one_in`.
 void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t one_in) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i > 0) {
@@ -60,7 +60,6 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
   }
 }
 
-/// A subject that reports no collision.
 const testing::MadeUpSubject blind("blind", [](const Query&) { return Verdict{}; });
 
 Finding missed(Kind kind) {

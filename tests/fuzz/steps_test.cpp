@@ -1,4 +1,4 @@
-// Exact judgement of filters of steps.
+// Exact judgement of subjects that filter steps.
 #include "fuzz/questions/step.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using testing::falling_vertex;
 using ::testing::HasSubstr;
 using testing::plugin;
 
-/// A subject that moves every vertex by a part of its motion, and claims a clearance.
+/// A filter of steps that moves every vertex by a part of the vertex's motion, and claims a clearance.
 class PartSubject final : public Subject {
  public:
   PartSubject(double part, double clearance) : part_(part), clearance_(clearance) {}

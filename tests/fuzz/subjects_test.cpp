@@ -48,7 +48,8 @@ TEST(ExactSubject, AnswersEachOfManyQueries) {
   }
 }
 
-/// The vertex goes through the triangle and back. Parity cannot distinguish these two roots from no root.
+/// The vertex goes through the triangle and back. The subject `parity`, which finds whether the number of
+/// roots is odd, cannot distinguish two roots from none.
 TEST(ParitySubject, CannotSeeAnEvenNumberOfRoots) {
   const auto parity = make_any_subject("parity");
   const Query back = query_of(Kind::vertex_triangle,

@@ -19,14 +19,14 @@ using CgalInterval = CGAL::Interval_nt<>;
 template <unsigned bits>
 using BinaryFloat = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
 
-/// An interval that certainly contains a number.
+/// An interval of double that certainly contains x.
 template <class T>
 CgalInterval enclosure(const T& x) {
   const auto near = static_cast<double>(x);
   return {std::nextafter(near, -1e300), std::nextafter(near, 1e300)};
 }
 
-/// Enclosures of the computed tolerances, each divided by its power of B.
+/// Enclosures of the computed tolerances, each divided by the power of B to which it is proportional.
 template <class T>
 Tolerances<CgalInterval> enclosed(const T& B) {
   const Tolerances<T> tol = tight_tolerances(B);
@@ -54,7 +54,8 @@ CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
 
 void expect_constraints(const Tolerances<CgalInterval>& tol, const CgalInterval& eps, int exponent) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
-  // Any E may be chosen, so the test takes the lower end of the interval of the largest E.
+  // The constraints need to hold only for some E, so the test takes the lower end of the interval of the
+  // largest E.
   const CgalInterval E = longest_short_edge(tol, errors).inf();
   for (const auto& each : constraints(tol, E, E, errors))
     EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
@@ -90,15 +91,16 @@ TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
   }
 }
 
-/// The constraints as functions of the logarithms of τ, η, S, λ², D², both E, ψ and μ, in units of powers of
-/// e. ρ is fixed.
+/// The constraints as functions of nine variables: the logarithms of τ, η, S, λ², D², both E, ψ and μ, each
+/// divided by a power of e = ε^¼. ρ is fixed.
 struct ToleranceProblem {
   double eps;
   double rho;
 
   static constexpr unsigned variables = 9;
 
-  /// The violation of each constraint, as a logarithm.
+  /// Computes log(less / more) for each constraint more >= less. The result is positive if the constraint is
+  /// violated.
   void violations(const double* x, double* missing) const {
     const ToleranceConstants c{.mu = std::exp(x[8]),
                                .tau = std::exp(x[0]),
@@ -168,8 +170,8 @@ TEST(ToleranceTable, HasTheseBounds) {
   }
 }
 
-// As ε grows, 64 ε^¾ >= 33492 ε is the first of the paper's constraints that the closed forms violate. Below
-// 13 bits, μ is smaller than the solver actually needs.
+// As ε grows, 64 ε^¾ >= 33492 ε is the first of the paper's constraints that the closed forms violate. The
+// solver needs less than 33492 ε, so μ is too small only below 13 bits.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;

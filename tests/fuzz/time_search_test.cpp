@@ -28,8 +28,7 @@ MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
            .takes_separation = true}};
 }
 
-/// How far `time` is from 0.4 and the length of the edge of the last two vertices at t = 0 from 0.77,
-/// combined as a Euclidean norm.
+/// The length of the vector (time - 0.4, L - 0.77), where L is the length of the edge x2x3 at t = 0.
 double off(const Query& query, double time) {
   return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
 }
@@ -54,8 +53,6 @@ MadeUpSubject early_in_a_region() {
   });
 }
 
-/// The error time - t* of a reported time, and whether the time is late. Absent unless the query is a
-/// reported collision.
 struct Error {
   double after;
   bool is_late;
@@ -68,7 +65,7 @@ std::optional<Error> error_of(const Subject& subject, const Query& query) {
   return Error{verdict.time - earliest->enclosure().lo, earliest->makes_late(verdict.time)};
 }
 
-/// The largest value of `sign` times the error, among the first queries of a family.
+/// The largest value of sign * (time - t*) among the first queries of a family, where `sign` is 1 or -1.
 double largest(const Subject& subject, const Family& family, std::uint64_t queries, int sign) {
   double found = -1;
   for (std::uint64_t i = 0; i < queries; ++i)

@@ -38,7 +38,7 @@ std::vector<Counts> counts_of(const std::string& subject, const Family& family, 
   return found;
 }
 
-/// The number of queries per kind; fewer if the family is slow.
+/// The number of queries to ask of each kind: `usual`, or fewer if the family is slow.
 std::uint64_t cases(const Family& family, std::uint64_t usual) {
   return family.block_cases < 25 ? usual / 10 : usual;
 }
@@ -144,7 +144,7 @@ TEST(TimesOfSubjects, OnlyAdvanceAndTheExactOnesTakeASeparation) {
     }
 }
 
-// The time that basic gives is the root of F that it accepts.
+// The time that basic gives is the root of F at which basic accepts the pair.
 TEST(TimesOfSubjects, BasicGivesTheTimeOfContact) {
   const auto basic = make_any_subject("basic");
   int hits = 0;

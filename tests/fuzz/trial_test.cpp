@@ -139,8 +139,9 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
 }
 
-// Queries of another seed have the same numbers, and the same places in batches, so a sample chosen by number
-// would take the queries of both seeds at the same numbers.
+// Queries of different seeds have the same numbers and the same places in batches. If samples were chosen by
+// number only, the sample would have the same places for every seed, and answers at other places would never
+// be checked.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
   const Family family = find_family("uniform-slow");
   for (const std::size_t wrong : {0, 12}) {

@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 TEST(UnitsFamily, NamesTheFactorByWhichItsAnswersAreCounted) {
   EXPECT_THAT(factors_of(find_family("units@-9"), 1, 5), ElementsAre("edge=2^-9"));
   EXPECT_THAT(factors_of(find_family("v-distant@20~drawn"), 1, 5), ElementsAre("distance=2^20"));
-  // Without a fixed value, the factor has the value that the query drew.
+  // If the parameter has no fixed value, the factor has the value that the query draws.
   const Family units = find_family("units");
   for (std::uint64_t i = 0; i < 50; ++i) {
     const std::string factor = factors_of(units, 1, i).at(0);
@@ -30,7 +30,8 @@ TEST(MetresFamily, HasTheFactorsThatItNames) {
     ASSERT_EQ(factors.size(), 3);
     const auto value = [&](std::size_t k) { return std::stod(factors[k].substr(factors[k].find('=') + 1)); };
     const double edge = value(0), motion = value(1) * edge, scene = value(2);
-    // x2x3 is an edge of the triangle, or the second edge. At the start, its components are at most `edge`.
+    // x2x3 is an edge of the triangle, or the second edge. At the start, the components of a side are at most
+    // `edge`.
     const double side = (query.start(3) - query.start(2)).cwiseAbs().maxCoeff();
     ASSERT_LE(side, 2.001 * (edge + motion)) << i;
     for (int v = 0; v < 4; ++v) {

@@ -107,7 +107,7 @@ TEST(Predecessors, AreTheFirstSubjectsWhosePluginsExportTheSameName) {
       ElementsAre(std::nullopt, std::optional(3UL), std::optional(0UL), std::nullopt, std::optional(0UL)));
 }
 
-/// Collisions with the given values of their first number, the x of x0 at t = 0.
+/// Collisions, one for each given value of the x coordinate of x0 at t = 0.
 Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_triangle) {
   std::vector<Query> queries;
   for (const double x : places)

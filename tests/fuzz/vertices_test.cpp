@@ -47,7 +47,7 @@ TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
   }
 }
 
-/// Encloses a computed number that was divided by a power of B.
+/// Encloses the number that was rounded to x.
 Interval enclosure(double x) { return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)}; }
 
 /// Expects that tolerances computed for B satisfy the constraints for vv or, with `of_edge`, the constraints
@@ -87,7 +87,6 @@ void expect_constraints_of_rule() {
     });
 }
 
-// Checks the computed tolerances in interval arithmetic.
 TEST(TolerancesOfVertices, SatisfyTheConstraintsForEveryR) {
   const CGAL::Protect_FPU_rounding<true> upwards;
   expect_constraints_of_rule<PaperTolerances>();
@@ -133,7 +132,8 @@ TEST(TolerancesOfVertices, AGivenBReplacesThePairs) {
   EXPECT_REFUSED(make_subject("wang-plain@1e-9")->decide(query), "is smaller than a pair's own");
 }
 
-// Tests bounds in the smallest numbers, and for a B that the scalar cannot represent.
+// Tests bounds for primitives with the smallest coordinates, and with a given B that the scalar cannot
+// represent.
 TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
   for (const char* name : {"wang:float", "wang-tight:float", "wang:p16", "wang-tight:dd"}) {
     const auto subject = make_any_subject(name);
@@ -182,8 +182,8 @@ TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
   }
 }
 
-/// For each KKT case of Algorithm 2, whether the vertex is near the edge at one of its candidate times (case
-/// 5: an end of the edge).
+/// For each KKT case of Algorithm 2, whether the vertex is near the edge at a candidate time of this case. In
+/// case 5, the vertex is near an end of the edge.
 std::array<bool, 5> cases_that_accept(const Query& query) {
   const WithinQuery<double> pair(query);
   const Tolerances<double> tol = pair.tolerances(query.kind, PaperTolerances());
@@ -197,7 +197,7 @@ std::array<bool, 5> cases_that_accept(const Query& query) {
           vertex_vertex(pair.ve.x0i, tol) || vertex_vertex(pair.ve.x0j, tol)};
 }
 
-// Case 3 reports no query that all other cases miss, as the proof in vertex_edge.hpp says.
+// As the proof in vertex_edge.hpp says, no query is reported by case 3 only.
 TEST(TheCasesOfAlgorithm2, FindSomeCollisionsAloneExceptTheThird) {
   std::array<int, 5> alone{};
   for (const Family& each : vertex_families()) {

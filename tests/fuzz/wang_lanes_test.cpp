@@ -64,8 +64,8 @@ Answer answer_of(const Decide& decide) {
   }
 }
 
-/// The answers with a given bound. Every pair that no plane separates is treated as a pair that needs another
-/// frame.
+/// The answers of wang, with a given bound, if every pair that no plane separates is treated as a pair that
+/// needs another frame.
 std::vector<Answer> careful(std::span<const Query> queries, double given) {
   const auto decide = [&]<Kind kind>(const Query& query) {
     if (separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
@@ -78,9 +78,9 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
   return answers;
 }
 
-/// Bounds to give: the largest of the queries' own bounds, and the bounds of some queries; bounds that are
-/// slightly smaller, and bounds that are up to 2^60 times larger; and bounds at and beyond both ends of the
-/// range that needs no scaling.
+/// Bounds B to give: the largest of the queries' own bounds and the own bounds of some queries, multiplied by
+/// factors from 1 to 2^60; the next smaller doubles of some own bounds; and bounds at and beyond both ends of
+/// the range in which no scaling is needed.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;
@@ -138,7 +138,8 @@ TEST_P(InLanes, AGivenBoundChangesNoAnswer) {
       const auto scalar = make_subject("wang-scalar", given);
       for (std::size_t i = 0; i < queries.size(); ++i)
         expect_equal(i, answer_of([&] { return scalar->decide(queries[i]); }));
-      // A query whose own bound is larger fails the batch; the first one gives the error.
+      // If the own bound of a query is larger than the given bound, the whole batch fails, with the error of
+      // the first such query.
       const auto refused =
           std::ranges::find_if(expected, [](const Answer& each) { return !each.error.empty(); });
       const auto answered = static_cast<std::size_t>(refused - expected.begin());
@@ -164,7 +165,7 @@ std::size_t decided(const std::vector<Verdict>& verdicts) {
 TEST(WangInLanes, DecidesNearlyAllUniformQueries) {
   const auto queries = contacts(find_family("uniform"), 0, 20000);
   EXPECT_GE(decided(in_lanes(queries, widest_instructions())), 19980U);
-  // Edges are within 1, and relative velocities within 2.
+  // No query's own bound exceeds 3: along each axis, edges are at most 1, and relative velocities at most 2.
   EXPECT_GE(decided(in_lanes(queries, widest_instructions(), 3)), 19980U);
 }
 

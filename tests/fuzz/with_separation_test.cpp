@@ -1,4 +1,4 @@
-// Families NAME~H and NAME~drawn: families of contact whose queries get separations.
+// The families NAME~H and NAME~drawn: queries of NAME, which asks for contact, get separations.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The oracle as the CCD `exact`. It uses the filter for many queries, as a campaign does.
+// The oracle as the CCD `exact`. Each query goes through the batch filter, as in a campaign.
 #include <span>
 
 #include "fuzz/studies/environments/on_trial.hpp"

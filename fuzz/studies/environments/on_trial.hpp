@@ -5,7 +5,7 @@
 
 namespace nearmiss::environments {
 
-/// Decides a query in the caller's arithmetic. May throw.
+/// Decides a query in the mode of arithmetic that the caller has set. May throw.
 bool collides(const Query& query);
 
 /// The largest distance of a false positive that the CCD claims.
