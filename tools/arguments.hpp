@@ -88,7 +88,7 @@ struct PluginLimitOptions {
   std::uint64_t bytes = isolation::PluginLimits().bytes;
 
   void add_to(CLI::App& command);
-  /// The limits. Throws Error if a value is not a time or a number of bytes.
+  /// Throws Error if a value is not a time or a number of bytes.
   [[nodiscard]] isolation::PluginLimits limits() const;
 };
 
@@ -103,12 +103,12 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// Throws Error if a subject's text is not printable().
+/// Throws Error if printable() would change a subject's text.
 void expect_printable(const std::string& subject);
 
-/// Makes the subjects that these texts denote (fuzz/subjects/subjects.hpp), with distinct names. Each
-/// plug-in runs in a process of its own. Throws Error for an unknown subject, and for a text that
-/// expect_printable() refuses.
+/// Makes the subjects that `texts` denote (fuzz/subjects/subjects.hpp), with distinct names. Each plug-in
+/// runs in a process of its own. Throws Error for an unknown subject, and for a text that expect_printable()
+/// refuses.
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
@@ -118,9 +118,9 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all, const Stop& stop);
 
-/// Makes the families NAME@VALUE of sweeps with this number of steps. "all" stands for the families in `all`
-/// that have a parameter, "vertices" for those of vertices and edges. Throws Error for a name without a
-/// sweep.
+/// Makes the families NAME@VALUE of sweeps, for `steps` values of each family's parameter. "all" stands for
+/// the families in `all` that have a parameter, "vertices" for those of vertices and edges that have one.
+/// Throws Error for any other family without a parameter.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known, std::span<const Family> all);
 

@@ -75,13 +75,14 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
   return {{"about", run.about}, {"rows", std::move(rows)}};
 }
 
-/// The fewest pairs of runs for which the ratios' median has a 95 % confidence interval.
+/// With fewer pairs of runs, even the least and the largest ratio enclose the median with less than 95 %
+/// confidence.
 constexpr std::size_t fewest_pairs = 6;
 
-/// How much a time has changed.
+/// How much a row's time differs between two series of runs.
 struct Change {
-  double ratio;   ///< the median of the ratios after / before of all pairs
-  double lo, hi;  ///< confidence interval of the median, of at least 95 %
+  double ratio;   ///< the median, over all pairs of runs, of the time after divided by the time before
+  double lo, hi;  ///< the ends of a confidence interval of this median, of at least 95 %
   /// "faster" or "slower" if the interval does not contain 1, otherwise "within noise".
   [[nodiscard]] std::string_view verdict() const {
     return hi < 1 ? "faster" : lo > 1 ? "slower" : "within noise";
@@ -89,13 +90,13 @@ struct Change {
 };
 
 /// Computes the change from the ratios of at least `fewest_pairs` pairs. The ends of the interval are two of
-/// the ratios (order statistics), so it is valid for any distribution (David and Nagaraja, Order Statistics,
-/// 3rd edition, 7.1).
+/// the ratios (order statistics), so the interval is valid for any distribution of the ratios (David and
+/// Nagaraja, Order Statistics, 3rd edition, 7.1).
 Change change_of(std::vector<double> ratios) {
   std::sort(ratios.begin(), ratios.end());
-  // The true median lies between the order statistics k and n + 1 - k, unless fewer than k ratios are below
-  // the median, or fewer than k are above it. The loop finds the largest k for which each of these two events
-  // has a probability of at most 2.5 %.
+  // The true median lies between the k-th and the (n + 1 - k)-th of n sorted ratios, unless fewer than k
+  // ratios are below the true median, or fewer than k are above it. The loop finds the largest k for which
+  // each of these two events has a probability of at most 2.5 %.
   const boost::math::binomial below(static_cast<double>(ratios.size()), 0.5);
   std::size_t k = 1;
   while (k < ratios.size() / 2 && boost::math::cdf(below, static_cast<double>(k)) <= 0.025) ++k;
@@ -117,7 +118,7 @@ void expect_pairs(const std::vector<BenchRun>& before, const std::vector<BenchRu
                             *processors.begin(), *processors.rbegin()));
 }
 
-/// The median time of a row in each run; NaN for a run without it.
+/// The median time of a row in each run; NaN for a run without this row.
 std::vector<double> medians(const std::vector<BenchRun>& runs, const TimedRow& row) {
   std::vector<double> all;
   for (const BenchRun& run : runs) {

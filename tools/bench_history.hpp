@@ -1,4 +1,4 @@
-// Stored runs of nearmiss bench, and the comparison of two series of them.
+// Stored runs of nearmiss bench, and the comparison of two series of such runs.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace nearmiss::tools {
 
-/// The median of the numbers that are not NaN. If their count is even, this is the larger of the two middle
-/// numbers; if it is zero, NaN.
+/// The median of those numbers that are not NaN: if their count is even, the larger of the two in the middle;
+/// if there are none, NaN.
 inline double median(std::vector<double> numbers) {
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (numbers.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -24,7 +24,7 @@ inline double median(std::vector<double> numbers) {
   return *middle;
 }
 
-/// What a row of a table of times is about: a subject on the queries of one kind in one input.
+/// Identifies a row of a table of times: the times of a subject for the queries of one kind in one input.
 struct TimedRow {
   std::string input, kind;
   std::size_t queries = 0;
@@ -36,21 +36,21 @@ struct TimedRow {
 /// One run of nearmiss bench.
 struct BenchRun {
   RunInfo about;  ///< the commit that was timed, the compiler, its flags and the processor
-  std::map<TimedRow, std::vector<double>> times;  ///< ns per query of each pass; NaN without an answer
+  std::map<TimedRow, std::vector<double>> times;  ///< of each pass, in ns per query; NaN without an answer
 };
 
-/// Reads the runs in a file, each a line of JSON, in their order. Throws Error if the file cannot be read or
-/// has other content.
+/// Reads the runs in a history, a file with a line of JSON for each run. Throws Error if the file cannot be
+/// read or has other content.
 std::vector<BenchRun> read_history(const std::filesystem::path& file);
 
-/// Appends a run to such a file, or makes the file. If the run cannot be written, throws Error and leaves the
+/// Appends a run to a history, or makes the file. If the run cannot be written, throws Error and leaves the
 /// file as it was.
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
-/// A table of the differences between two series of runs, one from before a change and one from after it.
-/// Compares run i of one series with run i of the other, which was made right before or after it, by the
-/// medians over passes. Throws Error if the series have different lengths or fewer than six runs, or if the
-/// runs used different processors.
+/// A table of how the times of each row differ between two series of runs, from before and after a change of
+/// the code. Compares the median over the passes of run i in `before` with that of run i in `after`; these
+/// two runs should have followed each other directly. Throws Error if the series have different lengths or
+/// fewer than six runs, or if the runs used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

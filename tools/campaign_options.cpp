@@ -31,7 +31,6 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The time limit of a campaign.
 using TimeLimit = std::optional<std::chrono::duration<double>>;
 
 /// The finished fraction of the campaign: of its cases or of its time, whichever fraction is larger.
@@ -78,15 +77,14 @@ std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& s
   return chosen;
 }
 
-/// The family, restricted to the chosen kinds. If --kind is given, throws Error for a family that has none of
-/// these kinds.
+/// The family, restricted to the chosen kinds. A family that has none of these kinds stays as it is, unless
+/// --kind is given: then throws Error.
 Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
   if (const auto chosen = of_kinds(family, asked)) return *chosen;
   if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");
   return family;
 }
 
-/// The queries in files and folders.
 std::vector<Query> queries_of(const std::vector<std::filesystem::path>& paths) {
   std::vector<Query> queries;
   for (const auto& path : paths) read_cases(path, [&](Case&& each) { queries.push_back(each.query); });
@@ -94,7 +92,7 @@ std::vector<Query> queries_of(const std::vector<std::filesystem::path>& paths) {
 }
 
 /// The families chosen with --family, --sweep, --mesh, --near and --search. Throws Error for wrong options,
-/// and Stopped if the stop is due before the pairs of meshes and simulations are known.
+/// and Stopped if `stop` is due before the pairs of meshes and simulations are known.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
   const std::vector<Kind> asked = chosen_kinds(options, subjects);
@@ -129,8 +127,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     if (!separation.empty() && !family.has_separation) family = with_separation(family, separation);
     if (!options.separation.is_given()) family = as_asked(family);
     family = with_kinds(options, family, asked);
-    // If the user does not name such families or --separation, a subject that takes no separations is just
-    // not asked.
+    // A subject that takes no separations is an error only if the user names families or gives --separation.
+    // Otherwise, it is not asked.
     if (family.has_separation && (are_named || options.separation.is_given()))
       expect_separations(subjects, kinds_asked(family));
   }
@@ -142,8 +140,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   return chosen;
 }
 
-/// Does work that comes before the first query. Throws Stopped if the user ends the command, and Error if the time
-/// limit does; the message contains `why`.
+/// Does work that comes before the first query. Throws Stopped if the user ends the command. If the time
+/// limit ends the work, throws Error with `why` in the message.
 template <class Work>
 auto in_time(const CampaignOptions& options, const Stop& stop, std::string_view why, const Work& work) {
   try {
@@ -154,7 +152,6 @@ auto in_time(const CampaignOptions& options, const Stop& stop, std::string_view 
   }
 }
 
-/// The short names of the kinds that a campaign asks: "vt,ee".
 std::string names_of_kinds_asked(const CampaignPlan& plan) {
   int sum = 0;
   for (const Family& family : plan.families)
@@ -162,7 +159,8 @@ std::string names_of_kinds_asked(const CampaignPlan& plan) {
   return names_of_kinds(sum, ",");
 }
 
-/// A digest of the content of the named files, and of all files below the named folders. Ignores other names.
+/// A digest of the content of the named files, and of all files below the named folders. Ignores names that
+/// are neither.
 template <class Paths>
 std::string digest_of(const Paths& paths) {
   namespace fs = std::filesystem;
@@ -182,8 +180,8 @@ std::string digest_of(const Paths& paths) {
   return digest.hex_digest();
 }
 
-/// Everything on which the campaign's results depend. Leaves out the time limit, because it changes the
-/// number of rounds, but not the result of a round.
+/// Everything on which the campaign's results depend, except the time limit. The limit changes how many cases
+/// are asked, but not the result of a case.
 RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const Subjects& subjects) {
   RunInfo info = options.trial.run_info("fuzz", subjects);
   std::string& again = info["again"];

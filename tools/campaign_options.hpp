@@ -15,20 +15,20 @@ namespace nearmiss::tools {
 struct CampaignOptions {
   TrialOptions trial;
   std::vector<std::string> families{"all"}, sweeps;
-  std::vector<std::string> kinds;  ///< short names of the kinds to ask; if empty, kinds_to_ask()
+  std::vector<std::string> kinds;  ///< short names of the kinds to ask; if empty, those of kinds_to_ask()
   SeparationOption separation;
   int steps = 17;
   bool search = false;
-  std::vector<std::string> mesh;            ///< a scene (open_scene)
-  std::vector<std::filesystem::path> near;  ///< files of queries
+  std::vector<std::string> mesh;            ///< the arguments of open_scene()
+  std::vector<std::filesystem::path> near;  ///< files and folders of queries
   std::uint64_t cases = 0, first = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
   RecordOptions record;
 };
 
-/// Runs the campaign, or the rest of a stored one, and records its results. Returns the exit code. Throws
-/// Error for bad options, and if results cannot be stored.
+/// Runs the campaign, or the rest of a stored campaign, and records the results. Returns the exit code.
+/// Throws Error for bad options, and if results cannot be stored.
 int record_campaign(const CampaignOptions& options);
 
 }  // namespace nearmiss::tools

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r";
 
-/// The length of the string at the beginning of a line: up to its second quote, or to the end of the line.
+/// The length of the string at the beginning of a line. The string ends with its closing quote, or else with
+/// the line.
 std::size_t string_length(std::string_view line) {
   const char quote = line.front();
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -27,14 +28,14 @@ std::size_t string_length(std::string_view line) {
   return line.size();
 }
 
-/// The length of the first piece of a line. A piece is a string, a character that separates, or a word.
+/// The length of the first piece of a line. A piece is a string, a separator of one character, or a word.
 std::size_t piece_length(std::string_view line) {
   constexpr std::string_view separators = " \t\r=,[]\"'#";
   if (line.front() == '"' || line.front() == '\'') return string_length(line);
   return std::clamp<std::size_t>(line.find_first_of(separators), 1, line.size());
 }
 
-/// The word. If it is a number, leaves out underscores between digits.
+/// The word. If the word is a number, leaves out underscores between digits.
 std::string without_underscores(std::string_view word) {
   constexpr std::string_view digits = "0123456789";
   if (word.find_first_not_of("0123456789_+-.eE") != std::string_view::npos) return std::string(word);
@@ -45,9 +46,9 @@ std::string without_underscores(std::string_view word) {
   return number;
 }
 
-/// Makes, line by line, a text in the part of TOML that CLI11 reads correctly: each list is on one line, without blanks
-/// around its commas and brackets, and without a comma at its end; there are no comments, no underscores in numbers,
-/// and no byte order mark.
+/// Translates TOML, line by line, into the part of TOML that CLI11 reads correctly: each list is on one line,
+/// without blanks around its commas and brackets, and without a comma after its last element. There are no
+/// comments, no underscores in numbers, and no byte order mark.
 class SimpleToml {
  public:
   void add(std::string_view line, long number) {
@@ -63,14 +64,14 @@ class SimpleToml {
       add_piece(" ", number);
   }
 
-  /// Throws Error, with the line, if a bracket is never closed.
+  /// The translation. If a bracket is never closed, throws Error with the line of the bracket.
   [[nodiscard]] std::string finish() && {
     if (!open_.empty())
       throw Error(fmt::format("--config:{}: found '[' without ']', expected both", open_.back()));
     return std::move(text_);
   }
 
-  /// The line of each name of an option, known or not.
+  /// The lines on which options are set, by the option's name, known or not.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

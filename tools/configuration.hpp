@@ -9,20 +9,20 @@
 
 namespace nearmiss::tools {
 
-/// A TOML file of options. Options outside of tables belong to the subcommand that runs.
+/// A TOML file of options. Options outside of tables belong to the subcommand `command`.
 class ConfigurationFile final : public CLI::ConfigTOML {
  public:
   explicit ConfigurationFile(std::string command);
 
-  /// Throws Error, which begins with "--config:LINE: ".
+  /// Reads the options. The message of an Error begins with "--config:LINE: ".
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
-  /// The line of each name of an option, known or not, in the file that was read last.
+  /// The lines on which the file that was read last sets options, by the option's name, known or not.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:
   std::string command_;
-  mutable std::map<std::string, long> lines_;  // CLI11 reads files by functions that are const
+  mutable std::map<std::string, long> lines_;  // set by from_config, which CLI11 declares const
 };
 
 }  // namespace nearmiss::tools

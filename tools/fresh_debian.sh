@@ -9,8 +9,8 @@ make_debian() {
   mmdebstrap --quiet --variant=minbase --include=mount "${@:3}" "$1" "$2"
 }
 
-# in_debian FOLDER [VARIABLE=VALUE...] COMMAND...: runs a command in the Debian in this folder as root, with
-# /proc, /sys and /dev. Only the command sees these mounts, and they end with it.
+# in_debian FOLDER [VARIABLE=VALUE...] COMMAND...: runs a command as root in the Debian in FOLDER, with /proc,
+# /sys and /dev. Only the command sees these mounts, and they end with the command.
 in_debian() {
   # shellcheck disable=SC2016  # the inner shell expands the variables
   unshare --mount sh -ec '

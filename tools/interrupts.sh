@@ -1,6 +1,7 @@
 # shellcheck shell=bash
-# Lets scripts that run programs for hours react to interrupts at once. Bash runs a trap only after the
-# foreground program has ended, so a script sources this file and runs its programs with `attend`.
+# Lets a script that runs programs for hours react to interrupts at once. Bash runs a trap only after the
+# program in the foreground has ended. Therefore the script sources this file, and runs programs with
+# `attend`.
 
 interrupted=false  # whether INT, TERM or HUP has come
 attended=          # the process to which these signals are passed on

@@ -77,14 +77,12 @@ void expect_known(const std::string& what, std::string_view word, const std::vec
                                     nearmiss::excerpt(word), *nearest, help));
 }
 
-/// Throws Error if the first word is not a subcommand.
 void expect_subcommand(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (!word.starts_with('-')) expect_known("subcommand", word, names, "nearmiss --help");
 }
 
-/// The command that shows help for these arguments.
 std::string help_for(int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' ? fmt::format("nearmiss {} --help", argv[1]) : "nearmiss --help";
 }
@@ -110,7 +108,8 @@ void expect_options(const CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// The message of the command line's parser, with long words that the user typed cut short.
+/// A message of the command line's parser, with long words cut short. Only words that the user typed are
+/// long.
 std::string with_short_words(std::string_view text) {
   constexpr std::size_t most = 200;  // the parser's own longest word, a list of choices, is shorter
   std::string result;
@@ -140,8 +139,8 @@ void expect_values(int argc, char** argv) {
   }
 }
 
-/// Sets how many doubles vector instructions compute at once, if the environment variable NEARMISS_LANES says
-/// so.
+/// If the environment variable NEARMISS_LANES has a value, vector instructions compute this number of doubles
+/// at once. `variable` is the value, or null.
 void choose_lanes(const char* variable) {
   if (variable == nullptr || *variable == '\0') return;
   try {
@@ -173,7 +172,6 @@ void print_continuation(const CLI::App& command, int argc, char** argv) {
   std::fputs(("nearmiss: interrupted; to continue:" + again + "\n").c_str(), stderr);
 }
 
-/// Lets `nearmiss fuzz --config FILE` read its options from a file.
 std::shared_ptr<const nearmiss::tools::ConfigurationFile> add_configuration(CLI::App& app) {
   const auto file = std::make_shared<nearmiss::tools::ConfigurationFile>("fuzz");
   app.set_config("--config", "", "Read options of fuzz from a TOML file")->group("");
@@ -183,7 +181,6 @@ std::shared_ptr<const nearmiss::tools::ConfigurationFile> add_configuration(CLI:
   return file;
 }
 
-/// Whether a message is about this option.
 bool is_about(std::string_view message, const std::string& option) {
   const std::size_t at = message.find("--" + option);
   const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-'; };
@@ -262,10 +259,10 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-/// Keeps freed memory for the next slice of work. By default, the C library returns freed memory to the
-/// system, which takes a tenth of the time of a fast campaign. Setting the threshold for returning memory
-/// has a side effect: the size from which a block gets a mapping of its own no longer adapts to the program.
-/// Therefore sets that size to its maximum.
+/// Keeps freed memory for later use. By default, the C library returns freed memory to the system, which
+/// takes a tenth of the time of a fast campaign. Setting the threshold for returning memory has a side
+/// effect: the size from which a block gets a mapping of its own (mmap) no longer adapts to the program.
+/// Therefore sets this size to its maximum, too.
 void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 << 20);  // bytes of each thread's memory
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -284,7 +281,7 @@ void* or_end(void* memory) {
   return memory;
 }
 
-/// Lets the program end if C++ or GMP cannot allocate memory. By default, GMP would abort.
+/// Makes the program end with end_without_memory() if C++ or GMP cannot allocate memory.
 void end_if_memory_runs_out() {
   std::set_new_handler(end_without_memory);
   mp_set_memory_functions(

@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t most_lines = 12;
 constexpr std::size_t columns = 100;
 
-/// The finding of a subject; null if there is none.
+/// The first finding about a subject; null if there is none.
 const Finding* finding_of(const Campaign& campaign, const std::string& subject) {
   for (const Run& run : campaign.runs)
     for (const Finding& each : run.findings)
@@ -35,7 +35,7 @@ const Finding* finding_of(const Campaign& campaign, const std::string& subject) 
   return nullptr;
 }
 
-/// A reported collision, and how far its time is from t*.
+/// Says that a subject reports the collision, and how far its time is from the exact time t*.
 std::string reported(const Counts& counts) {
   const std::string text = "reports the collision";
   if (counts.times_given == 0) return text;
@@ -44,7 +44,6 @@ std::string reported(const Counts& counts) {
   return text + " at t*";
 }
 
-/// How a subject answered its only query.
 std::string answer(const SubjectVerdict& verdict, const Counts& counts, const Finding* finding) {
   const auto has = [&](FailureKind kind) { return verdict.failures.contains(kind); };
   if (has(FailureKind::miss)) return "MISSED the collision";
@@ -102,7 +101,8 @@ std::vector<std::string> verdicts(const Campaign& campaign, const Failures& fail
   return lines;
 }
 
-/// The commands about the first subject that fails; none if the query is not the only one of a file.
+/// The commands that simplify the query for the first subject that fails. None if no subject fails, or if the
+/// query is not the only one of a file.
 std::vector<std::string> commands(const OneCase& one, const Campaign& campaign, const Subjects& subjects,
                                   const Failures& failing) {
   if (one.file.empty()) return {};

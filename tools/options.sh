@@ -15,8 +15,8 @@ usage() { sed -n '2,/^[^#]/ { /^#SBATCH/d; /^# shellcheck/d; s/^# \{0,1\}//p }' 
 # The specification lists the options: 'time= first o=' stands for --time VALUE (or --time=VALUE), the flag
 # --first, and -o VALUE. A value goes to the variable with the option's name, with _ in place of -; the
 # variable of a flag becomes true. The array `arguments` gets all other arguments, including a -- and every
-# argument after it. With * in the specification, it also gets unknown options. Otherwise, the script refuses
-# an unknown option, as it always refuses a missing value. -h and --help print the usage.
+# argument after the --. With * in the specification, `arguments` also gets unknown options; without *, the
+# script refuses an unknown option. It always refuses a missing value. -h and --help print the usage.
 options() {
   local specification=" $1 " name
   shift

@@ -25,14 +25,13 @@ struct OptionFile {
 /// Throws Error if two options name the same file.
 void expect_different(const OptionFile& one, const OptionFile& other);
 
-/// Throws Error if it is already clear that the file that an option names cannot be written, or if it would
-/// replace the file `db`.
+/// Throws Error if it is already clear that `file`, which an option names, cannot be written, or if `file` is
+/// the same file as `db`.
 void expect_writable(const std::filesystem::path& file, std::string_view option,
                      const std::filesystem::path& db = {});
 
-/// --json: where a command writes its results as JSON. It writes to a file, to standard output (-), or
-/// nowhere. With --json -, standard output gets the JSON and nothing else, and the command's text goes to
-/// standard error.
+/// The option --json: the command also writes its results as JSON, to a file or to standard output (-). With
+/// --json -, standard output gets the JSON and nothing else, and the command's text goes to standard error.
 class JsonOutput {
  public:
   /// Adds --json.
@@ -44,12 +43,12 @@ class JsonOutput {
   /// The stream to which the command prints its text.
   [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
 
-  /// Throws Error if it is already clear that the file of --json cannot be written, or if it would replace
-  /// the file `db`.
+  /// Throws Error if it is already clear that the file of --json cannot be written, or if it is the same file
+  /// as `db`.
   void expect_writable(const std::filesystem::path& db = {}) const;
 
-  /// If --json is given, writes the JSON, indented by `indent` blanks. A file gets all of it or nothing.
-  /// Throws Error if the JSON cannot be written.
+  /// If --json is given, writes the JSON, indented by `indent` blanks. A file gets the whole JSON or stays as
+  /// it was. Throws Error if the JSON cannot be written.
   void write(const nlohmann::ordered_json& json, int indent = 2) const;
 
   /// The file of --json; empty for standard output, or without --json.
@@ -64,12 +63,12 @@ class CiOutput {
   /// Adds --junit and --github.
   void add_to(CLI::App& command);
 
-  /// Throws Error if it is already clear that the file of --junit cannot be written, or if it is one of
-  /// `others`, such as the store.
+  /// Throws Error if it is already clear that the file of --junit cannot be written, or if it is the same
+  /// file as one of `others`, such as the store.
   void expect_writable(std::span<const OptionFile> others) const;
 
-  /// Writes the file and prints the annotations to `text`, each if its option is given. Throws Error if the
-  /// file cannot be written.
+  /// With --junit, writes the file; throws Error if it cannot be written. With --github, prints the
+  /// annotations to `text`.
   void write(const Campaign& campaign, const Failures& failing, std::FILE* text = stdout) const;
 
  private:
@@ -80,7 +79,8 @@ class CiOutput {
 /// The failures that count: the usual ones, and those that the user names.
 class FailOnOption {
  public:
-  /// Adds --fail-on. The option throws Error for a name that no failure has.
+  /// Adds --fail-on. The option throws Error for the name of a failure that always counts, and for a name
+  /// that no failure has.
   void add_to(CLI::App& command);
 
   [[nodiscard]] const Failures& failures() const { return failures_; }

@@ -29,7 +29,7 @@ std::string literal(double value, Form language) {
   return text;
 }
 
-/// The vertices of a query at t = `time`, 0 or 1, with a line for each vertex.
+/// The vertices of a query at t = `time`, which is 0 or 1: a line of source code for each vertex.
 std::string points(const Query& query, std::size_t time, Form language) {
   const bool python = language == Form::python;
   std::string text;
@@ -60,8 +60,8 @@ std::string what_is_true(const Query& query) {
                      to_hex(hi));
 }
 
-/// The largest double that is not a late time. Throws Error if the distance reaches h without falling below h
-/// right after that, because some later times are then not late.
+/// The largest double that is not a late time. Throws Error if the distance reaches the separation h without
+/// falling below h right after that, because then some later times are not late, either.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;
@@ -90,7 +90,6 @@ std::string what_was_answered(const Finding& finding) {
   }
 }
 
-/// Says which points belong to which primitive of a kind.
 std::string_view primitives(Kind kind) {
   switch (kind) {
     case Kind::vertex_triangle:
@@ -124,7 +123,6 @@ std::string certificate(Finding finding) {
   return certificate_of(finding);
 }
 
-/// A comment with the certificate, in C++.
 std::string certificate_comment(const std::string& certificate) {
   if (certificate.empty()) return "";
   return fmt::format(
@@ -142,13 +140,11 @@ std::string literal_in_lines(std::string_view text) {
   return "(\n" + lines + ")";
 }
 
-/// A number in a certificate's statement, as Python source code.
 std::string literal(const mpq_class& value) {
   return mpq_class(value.get_d()) == value ? literal(value.get_d(), Form::python)
                                            : fmt::format("check.Fraction('{}')", value.get_str());
 }
 
-/// The part of a test in Python that defines the certificate.
 std::string certificate_definition(const std::string& certificate) {
   if (certificate.empty()) return "";
   return fmt::format(
@@ -158,7 +154,6 @@ std::string certificate_definition(const std::string& certificate) {
       literal_in_lines(certificate));
 }
 
-/// The part of a test in Python that checks the certificate.
 std::string certificate_assertion(const std::string& certificate) {
   if (certificate.empty()) return "";
   const certificates::Statement proven = certificates::check(certificate);
@@ -175,7 +170,7 @@ std::string certificate_assertion(const std::string& certificate) {
 /// A function that the test calls and that the reader of the test must write.
 struct Asked {
   std::string name, returns;
-  std::string type;  ///< in C++
+  std::string type;  ///< the type that the function returns in C++
 };
 
 /// Whether the subject reported a collision with an invalid time.
@@ -208,7 +203,8 @@ std::string expectation(const Finding& finding, const std::string& arguments, Fo
   const std::string is_right =
       python ? (collision ? "" : "not ") + detects : fmt::format("{} == {}", detects, collision);
   if (!gives_invalid_time(finding)) return is_right;
-  // A false positive must have a valid time, too; an answer without a collision needs none.
+  // If the detector reports a false positive, its time must be valid, too. If the detector reports no
+  // collision, it need not give a time.
   if (python) return fmt::format("{} {} 0 <= {} <= 1", is_right, collision ? "and" : "or", time);
   return collision ? fmt::format("{0} && {1} >= 0 && {1} <= 1", is_right, time)
                    : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);

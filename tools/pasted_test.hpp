@@ -22,17 +22,19 @@ Form parse_form(std::string_view text, std::string_view option);
 ///     bool test_vertex_triangle();  // whether `detects` gives the right answer
 ///
 /// For GoogleTest, the test is `TEST(Ccd, vertex_triangle)`. If the truth that the test expects has a
-/// certificate (certificate_of), a comment contains it.
+/// certificate (certificate_of), a comment contains the certificate.
 ///
 /// In Python, the test is `test_vertex_triangle()`, which asserts that the answer is right. The points are
 /// lists. The test first checks the certificate with check.py (tools/certificates/).
 ///
-/// A test is named after its kind, as in test_edge_edge. A query with a separation adds `double separation`
-/// to the arguments. For a late time, the maintainer's function is `double time_of_impact` with the same
-/// arguments, and must not return a time after t*. For an invalid time, the test needs both functions, and a
-/// collision must have a time in [0, 1]. `language` must not be case_file. Throws Error for a finding of the
-/// oracle, because its truth is not known, and for a late time if the distance first touches the separation
-/// without falling below it.
+/// A test is named after the kind of its query, as in test_edge_edge. For a query with a separation,
+/// `detects` has the further argument `double separation`. If the subject gave a late time, the maintainer
+/// writes `double time_of_impact`, with the arguments of `detects`, instead of `detects`. The function must
+/// not return a time after t*. If the subject gave an invalid time, the maintainer writes both functions, and
+/// a collision must have a time in [0, 1].
+///
+/// `language` must not be case_file. Throws Error for a finding about the oracle, because the truth is not
+/// known. Throws Error for a late time if the distance first touches the separation without falling below it.
 std::string pasted_test(const Finding& finding, Form language);
 
 }  // namespace nearmiss::tools

@@ -27,7 +27,7 @@ std::string number(double error) { return error == 0 ? "0" : fmt::format("{:.2g}
 
 double largest(const std::vector<FarCase>& cases) { return cases.empty() ? 0 : cases.front().ratio; }
 
-/// A count in all and by class: "3 (2 ordinary, 1 extreme)".
+/// The total of counts, and the count of each class: "3 (2 ordinary, 1 extreme)".
 std::string by_class(const QueryClassCounts& counts) {
   std::string classes;
   for (std::size_t i = 0; i < class_names.size(); ++i)
@@ -70,7 +70,8 @@ std::string table(const Steps& results) {
          "part of the motion before contact\n";
 }
 
-/// A line for each factor, such as the angle, that decides whether answers are unsafe.
+/// A line for each factor, such as an angle, if a subject is right in one range of the factor and fails
+/// elsewhere. `unsafe` is the word for a failure.
 std::string ranges(const FactorTable& factors, const char* unsafe) {
   std::string lines;
   for (const RightRange& each : right_ranges(factors))
@@ -82,8 +83,8 @@ std::string ranges(const FactorTable& factors, const char* unsafe) {
   return lines;
 }
 
-/// The vertices of a query: "0 0 1, 1 0 0"; if they move, "to" and their places at t = 1 follow. The numbers
-/// are decimals if these are exact.
+/// The vertices of a query: "0 0 1, 1 0 0". If they move, "to" and their places at t = 1 follow. Numbers that
+/// are exact as decimals are printed as decimals.
 std::string places(const Query& query) {
   const auto at = [&](std::size_t time) {
     std::string text;
@@ -216,8 +217,8 @@ ordered_json json_of_results(const QuestionResults<Question>& results) {
   return json;
 }
 
-/// Copies the members `keys` of an object. Throws an exception of nlohmann if one of them is missing or not
-/// of type T.
+/// Copies the members `keys` of an object. Throws an exception of nlohmann if a member is missing or not of
+/// type T.
 template <class T>
 void copy_members(const ordered_json& from, ordered_json& to, const std::vector<const char*>& keys) {
   for (const char* key : keys) to[key] = from.at(key).get<T>();

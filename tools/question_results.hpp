@@ -19,8 +19,8 @@ std::string text_of(const QuestionResults<StepQuestion>& results);
 nlohmann::ordered_json json_of(const QuestionResults<DistanceQuestion>& results);
 nlohmann::ordered_json json_of(const QuestionResults<StepQuestion>& results);
 
-/// The section `distances` of a report. It has those parts of `results`, the JSON of nearmiss distance, that
-/// the report shows. Throws an exception of nlohmann for any other JSON.
+/// The section `distances` of a report: those parts of `results`, the JSON of nearmiss distance, that the
+/// report shows. Throws an exception of nlohmann if `results` is other JSON.
 nlohmann::ordered_json distances_section(const nlohmann::ordered_json& results);
 
 }  // namespace nearmiss::tools

@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::size_t printed_if_verbose = 10;  // findings
 constexpr auto save_interval = std::chrono::milliseconds(500);
-constexpr auto when_locked = std::chrono::seconds(5);           // longer, because each attempt waits
+constexpr auto when_locked = std::chrono::seconds(5);           // longer, because each attempt to save waits
 constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // long, because a save writes all findings
 
 std::string cpu_model() {
@@ -65,7 +65,6 @@ void print_broken(std::FILE* text, const std::vector<Finding>& findings, const S
   }
 }
 
-/// The lines, wrapped if `text` is a terminal.
 std::string shown_lines(std::FILE* text, const std::string& lines) {
   constexpr std::size_t columns = 100, most_lines = 6;
   if (isatty(fileno(text)) == 0) return lines;
@@ -75,7 +74,7 @@ std::string shown_lines(std::FILE* text, const std::string& lines) {
   return all;
 }
 
-/// Saves. Waits half a minute for a process that has locked the store.
+/// Calls `save`. If another process has locked the store, tries again for half a minute.
 template <class Save>
 void patiently(const Save& save) {
   for (int tries_left = 20;; --tries_left) {

@@ -39,16 +39,18 @@ RunInfo run_info(const std::string& command);
 /// The facts on which a run's times depend: the compiler, its flags and the processor.
 RunInfo environment();
 
-/// The last lines that a finding's subject wrote to standard error, without blank ones, and the first two calls
-/// of its stack that are not in the C library: "stderr: no licence". Each has at most 96 bytes.
+/// At most `most` lines of what a finding's subject wrote to standard error, such as "stderr: no licence":
+/// the last lines that are not blank, and the first two calls of the subject's stack that are not in the C
+/// library. A line is cut to at most 96 bytes.
 std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most);
 
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
 class Record {
  public:
-  /// Throws Error, before the command does any work, if a file cannot be made, or if the store has another
-  /// run. From now on, a signal only sets a flag (stop_on_signals), so that the command can save its
-  /// results. Throws Stopped if a signal comes while the store is read.
+  /// Makes the store, or opens it to resume the run, before the command does any work. Throws Error if a file
+  /// cannot be made, or if the store has another run. From the constructor on, a signal only sets a flag
+  /// (stop_on_signals), so that the command can save its results. Throws Stopped if a signal comes while the
+  /// store is read.
   Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
@@ -69,13 +71,12 @@ class Record {
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
-  /// Adds these subjects to the results, including those that could not be asked any query.
+  /// Adds the subjects that were asked no query to the results.
   void add_unasked(const Subjects& subjects);
 
   /// Saves, closes the store, prints the summary and the first findings, writes the JSON, and returns the
   /// exit code. Once everything is saved, a signal ends the program at once (end_on_signals). If `describe`
-  /// is given, its text about the results replaces the summary and the findings, unless --verbose asks for
-  /// them.
+  /// is given, its text about the results replaces the summary and the findings, except with --verbose.
   int finish(bool interrupted, bool complete,
              const std::function<std::string(const Campaign&)>& describe = {});
 
@@ -96,7 +97,7 @@ class Record {
   bool saved_ = false;    // whether anything was ever saved
   bool unsaved_ = false;  // something was added since the last save
   Statistics statistics_;
-  std::set<CountsKey> set_aside_;  // announced as too slow to be asked more
+  std::set<CountsKey> set_aside_;  // counters of subjects that were announced as too slow
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved

@@ -26,7 +26,6 @@ Scene open_scene(const std::vector<std::string>& arguments) {
 
 namespace {
 
-/// Whether a subject uses a bound that is given to it.
 bool uses_bound(const std::string& text) {
   Query query;
   query.x[0] = 1;

@@ -21,15 +21,15 @@ struct SceneSubjects {
   std::optional<double> bound = {};  ///< the scene's bound, if a subject needs it
 };
 
-/// Makes every subject once with each of the bounds, which are "pair", "scene" or a number B. A subject's
-/// name is NAME if it uses each pair's own bound, NAME@scene if it uses the largest bound of the scene's
-/// pairs, and NAME@B if it uses the number. Throws Error for an unknown subject or bound.
+/// Makes each subject of `trial` once with each of `bounds`: "pair", "scene" or a number B. A subject's name
+/// is NAME if it uses each pair's own bound, NAME@scene if it uses the largest bound of the scene's pairs,
+/// and NAME@B if it uses the number B. Throws Error for an unknown subject or bound.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene, const Stop& stop);
 
-/// Keeps only the cheapest of the subjects whose claimed distance of false positives does not exceed the
-/// thickness of contact. Prints the claim and the cost of each subject to `out`. Throws Error if no subject
-/// is accurate enough, or if the thickness is not a number.
+/// A subject is accurate enough if its claimed bound on the distance of false positives is at most the
+/// thickness of contact. Keeps only the cheapest of these subjects. Prints the claim and the cost of each
+/// subject to `out`. Throws Error if no subject is accurate enough, or if the thickness is not a number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects, std::FILE* out);
 

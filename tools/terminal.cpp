@@ -24,7 +24,7 @@ std::atomic<bool> stop{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-/// Ends the program, unless this signal merely repeats the one that has just set the flag.
+/// Ends the program, unless this signal comes right after the one that set the flag, and so may repeat it.
 extern "C" void end_on_signal(int /*signal*/) {
   constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
   if (std::time(nullptr) - first_signal < patience) return;
@@ -55,14 +55,14 @@ std::string bar(std::optional<double> done) {
   return fmt::format("[{:.<{}}] {:3.0f} % ", std::string(filled, '#'), width, 100 * part);
 }
 
-/// Whether standard error takes text now. A terminal that the user has stopped with ^S takes none, and a
-/// program that waited for it could neither save its results nor end.
+/// Whether standard error takes text now. A terminal that the user has stopped with ^S takes no text. A
+/// program that waited for such a terminal could neither save its results nor end.
 bool takes_text() {
   pollfd error{STDERR_FILENO, POLLOUT, 0};
   return poll(&error, 1, 0) == 1 && (error.revents & POLLOUT) != 0;
 }
 
-/// Cuts a line to the width of the terminal, so that it can be overwritten.
+/// Cuts a line to the width of the terminal, so that the next line can overwrite it.
 std::string cut(std::string line) {
   winsize size{};
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)
@@ -73,8 +73,8 @@ std::string cut(std::string line) {
 }  // namespace
 
 void occupy_standard_streams() {
-  // open() takes the lowest free descriptor. Opens input for writing and output for reading, so that using
-  // the stream still fails.
+  // open() takes the lowest free descriptor. Opens standard input for writing, and the other streams for
+  // reading, so that using them still fails.
   using Stream = std::pair<int, int>;
   for (const auto& [descriptor, direction] :
        {Stream{STDIN_FILENO, O_WRONLY}, Stream{STDOUT_FILENO, O_RDONLY}, Stream{STDERR_FILENO, O_RDONLY}})

@@ -15,20 +15,20 @@ void occupy_standard_streams();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code of an interrupt.
 /// Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an error instead of a
-/// signal. Commands call this again after stop_on_signals(), when everything is saved, because their output
-/// may wait forever for a reader. In that case, the program ignores a signal within two seconds of the
-/// signal that set the flag.
+/// signal. A command that has called stop_on_signals() calls this function when everything is saved, because
+/// its output may wait forever for a reader. Then the program still ignores a signal that comes within two
+/// seconds of the signal that set the flag.
 void end_on_signals();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that the program can save its results; a second
 /// signal, at least two seconds later, ends the program at once. Call this only once there is something to
-/// save: until then, for example while the program loads files, a signal should end it at once.
+/// save: until then, for example while the program loads files, a signal should end the program at once.
 void stop_on_signals();
-/// The flag that these signals set.
+/// The flag that signals set after stop_on_signals().
 const std::atomic<bool>& interrupted();
 
-/// Shows progress on stderr. In a terminal, each line overwrites the last one; elsewhere, a new line comes
-/// every minute.
+/// Shows progress on stderr. In a terminal, each line overwrites the line before it. Elsewhere, lines are a
+/// minute apart.
 class Progress {
  public:
   explicit Progress(bool quiet = false);
@@ -36,9 +36,9 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// Whether it is time for a new line. Until then, callers need not make one.
+  /// Whether it is time to call show().
   [[nodiscard]] bool due() const;
-  /// `done` is the finished fraction, if it is known; a terminal shows it as a bar.
+  /// Shows a line. `done` is the finished fraction of the work, if it is known; a terminal shows it as a bar.
   void show(const std::string& line, std::optional<double> done = std::nullopt);
 
  private:

@@ -39,7 +39,6 @@ class Sheet {
     }
   }
 
-  /// The lines that are not empty, without trailing blanks.
   [[nodiscard]] std::string text() const {
     std::string text;
     for (const std::string& line : lines_)
@@ -52,7 +51,6 @@ class Sheet {
   std::vector<std::string> lines_;
 };
 
-/// Maps the points of a query to a sheet.
 class Projection {
  public:
   explicit Projection(const Query& query) : query_(query) {

@@ -14,7 +14,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// Repeats a pass over some queries until it lasts long enough to be timed. Returns the time that passed.
+/// Repeats a pass over queries until enough time has passed for timing. Returns the time that passed.
 template <class Pass>
 std::chrono::duration<double> repeat(const Pass& pass) {
   using std::chrono::steady_clock;
@@ -25,7 +25,8 @@ std::chrono::duration<double> repeat(const Pass& pass) {
   return now - start;
 }
 
-/// Times a subject as a trial does, and adds the times per query to `measured`; NaN if it answered no query.
+/// Times a subject as a trial does, and adds the times per query to `measured`. Adds NaN if the subject
+/// answered no query.
 void time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts,
                Measured& measured) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -52,14 +53,13 @@ void time_once(const Subject& subject, const std::vector<Query>& queries, std::v
   measured.throughput.back() = asked / passed.count();
 }
 
-/// Counts all queries, and those without an answer. Does not judge the answers.
 void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
   counts.queries += verdicts.size();
   for (const Verdict& each : verdicts)
     if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
 }
 
-/// Judges answers on all processors. The truth is that of the queries after the subject's rounding.
+/// Judges a subject's answers, on all processors, by the truth about the queries as the subject rounds them.
 Counts judge(const Subject& subject, std::span<const Query> queries, std::span<const Verdict> verdicts,
              const Stop& stop) {
   constexpr std::size_t at_once = 1024;

@@ -17,18 +17,16 @@ using RunTimes = std::vector<double>;
 /// The measurements of one subject on one input, one entry for each run.
 struct Measured {
   RunTimes times;
-  RunTimes kernels;  ///< as `times`, but without copies to a device; NaN if the subject does not give it
-  RunTimes
-      throughput;  ///< queries per second of wall-clock time through the subject's process; NaN without one
-  std::optional<Counts> judged = {};  ///< of the last run; only answered queries count
+  RunTimes kernels;     ///< `times` without copies to a device; NaN if the subject does not give them
+  RunTimes throughput;  ///< queries per second of wall-clock time; NaN for a subject without its own process
+  std::optional<Counts> judged = {};  ///< the judged answers of the last run; only answered queries count
 };
 
-/// Whether some queries have a separation.
 bool any_separation(const std::vector<Query>& queries);
 
-/// Times the subjects by turns in every run, so that noise of the machine affects all of them alike. If
-/// `judges`, judges the answers of the last run. Adds each subject's queries and faults, and its misses if
-/// judged, to `answered`.
+/// Times the subjects by turns in every run, so that noise of the machine affects all subjects alike. If
+/// `judges` is true, judges the answers of the last run. Adds each subject's queries and faults, and the
+/// misses among judged answers, to `answered`.
 std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                bool judges, const Stop& stop, Statistics& answered);
 

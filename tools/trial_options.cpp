@@ -52,7 +52,6 @@ Subjects TrialOptions::make_subjects(const Stop& stop, std::optional<double> giv
 
 namespace {
 
-/// Throws Error if no subject has this name.
 void expect_subject(const std::string& name, const Subjects& subjects) {
   if (std::none_of(subjects.begin(), subjects.end(), [&](const auto& each) { return each->name() == name; }))
     throw Error(fmt::format("--versions: found '{}', expected the names of two subjects of the campaign",
@@ -136,7 +135,8 @@ std::string absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// The command of a program, with absolute paths, so that it works in any current folder.
+/// The command of a program in a form that works in any current folder. Unless all words of the command are
+/// absolute paths, this form begins with a cd.
 std::string absolute_command(const std::string& command) {
   const std::vector<std::string> words = shell_words(command);
   const bool is_absolute = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -148,7 +148,7 @@ std::string absolute_command(const std::string& command) {
                      command.starts_with("cd ") ? "" : "exec ", command);
 }
 
-/// The text that denotes a plug-in, with an absolute path, so that it works in any current folder.
+/// The text that denotes a plug-in or a program, changed so that the text works in any current folder.
 std::string absolute_text(const Subject& subject) {
   const auto [name, plugin] = SubjectText::parse(text_of(subject));
   const std::string given = name.empty() ? "" : name + "=";

@@ -29,8 +29,8 @@ struct TrialOptions {
   /// Makes the subjects, wrapped so that each is asked only queries that its contract allows
   /// (contracted.hpp). Throws Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
-  /// Wraps subjects as make_subjects does, and gives them distinct names (tell_apart). `made` are subjects
-  /// that may still be asked any query.
+  /// Wraps subjects as make_subjects does, and gives them distinct names (tell_apart). `made` are the
+  /// subjects without their wrappers.
   Subjects keep_contracts(Subjects made) const;
 
   /// Everything on which a run's results depend, including the digest and the version of each plug-in.
@@ -42,7 +42,7 @@ struct TrialOptions {
 /// that repeats the run.
 void note_option(RunInfo& info, const std::string& fact, const std::string& option, const std::string& value);
 
-/// The line of progress of a command that has asked all queries and shrinks its findings.
+/// The line of progress of a command that has asked all queries, and has `left` findings still to shrink.
 std::string shrinking_line(std::size_t left);
 
 /// The path of each plug-in on this machine, and its build id.

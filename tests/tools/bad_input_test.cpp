@@ -1,4 +1,4 @@
-// Tests the command line with bad input: one short line says what is wrong, and no file is left.
+// Tests the command line with bad input: nearmiss says in one short line what is wrong, and leaves no file.
 #include <algorithm>
 #include <cstdlib>
 
@@ -177,7 +177,7 @@ TEST_F(CommandLine, BadStores) {
 
 class Messages : public CommandLine {
  protected:
-  /// Expects that nearmiss refuses a command with these words in a short line.
+  /// Expects that nearmiss refuses a command in a short line that contains `words`.
   void expect_short(const std::string& arguments, const std::string& words) const {
     expect_refused(arguments, {words});
     EXPECT_LT(read("error.txt").size(), 1200) << arguments;
@@ -185,7 +185,7 @@ class Messages : public CommandLine {
 };
 
 TEST_F(Messages, ALongWordOfAFileIsCut) {
-  const std::string word(1'000'000, 'x');  // a line may have 1 MiB
+  const std::string word(1'000'000, 'x');  // a line of a file may have up to 1 MiB
   const std::string forty(40, 'x');
   const std::string cut = "'" + forty + "...'";
   write("q.vt", word);
@@ -208,7 +208,7 @@ TEST_F(Messages, ALongWordOfAFileIsCut) {
 
 TEST_F(Messages, AWordIsCutBetweenCharacters) {
   std::string word = "x";
-  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // byte 41 is the second byte of a character
+  for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // byte 41 of the word is the second byte of a character
   write("q.vt", word);
   expect_short("replay q.vt", std::string("'").append(word, 0, 39).append("...'"));
 }

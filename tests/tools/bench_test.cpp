@@ -1,4 +1,4 @@
-// nearmiss bench: results, stored runs and their comparison.
+// Tests nearmiss bench: its results, the runs that it stores, and its comparison of stored runs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,7 +14,7 @@ namespace {
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// A stored run with one row, "own.vt", whose passes took these times.
+/// A line of a history: a run that timed one input, "own.vt". `times` has the ns per query of each pass.
 std::string stored(const std::vector<std::string>& times, const std::string& cpu = "cpu",
                    const std::string& subject = "wang") {
   return fmt::format(
@@ -23,7 +23,7 @@ std::string stored(const std::vector<std::string>& times, const std::string& cpu
       cpu, subject, fmt::join(times, ","));
 }
 
-/// A history with a run for each of these times. Each run has one pass.
+/// A history with one run for each of `times`. Each run has one pass.
 std::string history(const std::vector<std::string>& times) {
   std::string lines;
   for (const std::string& time : times) lines += stored({time});
@@ -34,7 +34,7 @@ const std::string ones = history({"1", "1", "1", "1", "1", "1"});
 
 class Bench : public CommandLine {
  protected:
-  /// Expects a row of the table that compares two histories.
+  /// Expects that the table that compares two histories contains `row`.
   void expect_comparison(const std::string& before, const std::string& after, const std::string& row) const {
     write("before", before);
     write("after", after);
@@ -49,7 +49,7 @@ TEST_F(Bench, ComparesRunsPairByPair) {
   expect_comparison(before, history({"11", "22", "33", "44", "55", "90"}), "1.100    1.100-1.500  slower");
   expect_comparison(before, history({"9", "22", "33", "44", "55", "66"}),
                     "1.100    0.900-1.100  within noise");
-  // With many pairs, the interval leaves out extreme ratios.
+  // If there are many pairs of runs, the confidence interval leaves out extreme ratios of times.
   std::vector<std::string> times(11, "8");
   times[3] = "90";
   const std::string tens = history(std::vector<std::string>(11, "10"));

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes repositories, and lets tools/bisect find in them the commit that breaks or repairs a CCD.
+# Makes git repositories, and checks that tools/bisect finds the commit that breaks or repairs a CCD.
 # Usage: bisect_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -36,8 +36,8 @@ build="cc -shared -fPIC -I$root/ccd -DANSWER=\"\$(cat answer)\" ccd.c -o mine.so
 # commit NUMBER ANSWER
 commit() { echo "$2" >answer; echo "$1" >number; git add -A; git commit -qm "commit $1"; }
 
-# Makes two histories of 12 commits. In one of them, commit 5 breaks the CCD, in the other it repairs it.
-# Commits 3 and 8 do not build.
+# Makes two histories of 12 commits. In one history, commit 5 breaks the CCD; in the other, commit 5 repairs
+# the CCD. Commits 3 and 8 do not build.
 for right in 0 1; do
   git checkout -q --orphan "history$right" 2>/dev/null
   what='first commit with the failure'
@@ -50,15 +50,15 @@ for right in 0 1; do
   git worktree list | grep -q bisect && fail "a worktree is left"
 done
 
-# If only skipped commits are left, tools/bisect prints both.
+# Commit 2 does not build, so the CCD may be broken since commit 2 or 3: tools/bisect prints both commits.
 git checkout -q --orphan skipped
 commit 1 1; commit 2 nonsense; commit 3 0
 code=0
 said=$("$root/tools/bisect" --from HEAD~2 --build "$build" --subject ./mine.so ../q.vt) || code=$?
 ((code == 1)) && [[ $said == *'commit 2'*'commit 3'* || $said == *'commit 3'*'commit 2'* ]] || fail "skipped: code $code: $said"
 
-# finds WHAT BUILD NUMBER: expects that tools/bisect, on the last four commits, finds commit NUMBER as the
-# first that fails.
+# finds WHAT BUILD NUMBER: expects that tools/bisect finds commit NUMBER as the first of the last four commits
+# with which the CCD fails.
 finds() {
   local before said
   before=$(git rev-parse HEAD; git symbolic-ref HEAD)
@@ -75,19 +75,19 @@ finds 'a build that changes files' "$build && echo changed | tee number answer &
 finds 'a build that commits' "$build && echo changed >number && git commit -qam built && git checkout -qb built\$\$" 3
 finds 'a build that leaves a repository' "$build && [ ! -e nested ] && git init -q nested" 3
 
-# Variables that a hook sets must not matter, and the user's hooks must not run.
+# tools/bisect ignores the variables that git sets for a hook, and runs none of the user's hooks.
 printf '#!/bin/sh\ntouch "%s/hooked"\n' "$folder" >.git/hooks/post-checkout
 chmod +x .git/hooks/post-checkout
 (export GIT_DIR=$PWD/.git GIT_WORK_TREE=$PWD GIT_INDEX_FILE=$PWD/.git/index; finds 'in a hook' "$build" 3)
 [[ ! -e $folder/hooked ]] || fail 'a hook of the user has run'
 rm .git/hooks/post-checkout
 
-# A repository may have hashes of 64 digits.
+# The hashes of a repository may have 64 digits.
 git init -q -b main --object-format=sha256 ../sha256
 (cd ../sha256; cp ../repository/ccd.c .; commit 1 1; commit 2 0; commit 3 0; commit 4 0; finds sha256 "$build" 2)
 
-# The clone may have submodules, even nested ones, that it has not checked out. One of them later becomes a
-# folder with a file of the same name.
+# A clone may have submodules, even nested ones, that are not checked out. Commit 3 replaces the submodule
+# `outer` by a folder; both have a file `number`.
 git init -q -b main ../inner
 (cd ../inner; commit inner 1)
 git init -q -b main ../outer
@@ -114,8 +114,8 @@ refused "found --from 'nowhere'" --from nowhere --build "$build" --subject ./min
 refused 'found no --build' --from HEAD --subject ./mine.so ../q.vt
 refused 'found no case' --from HEAD --build "$build" --subject ./mine.so
 refused 'cannot be tried' --from HEAD~1 --build "$build" --subject ./mine.so ../q.vt
-# For a build that fails, tools/bisect prints the last line of the log; for OLD and NEW, it prints the last
-# ten lines.
+# If OLD (--from) or NEW (--to) cannot be built, tools/bisect prints the last line of the build's output as
+# the reason, and also the last ten lines.
 refused '   skipped: the build fails: no such header' --from HEAD~2 --build 'echo no such header; echo; false' --subject ./mine.so ../q.vt
 refused $'\n16\n17\n18\n19\n20\n' --from HEAD~2 --build 'seq 20; false' --subject ./mine.so ../q.vt
 [[ -z $(git status --porcelain) ]] || fail "the user's files are changed"

@@ -1,5 +1,5 @@
-"""Certificates, as users check them: both checkers accept what `nearmiss certify` prints, and they
-agree about lines that were changed. Usage: certificates_test.py NEARMISS CHECKER_IN_CPP"""
+"""Tests that both checkers of certificates accept what `nearmiss certify` prints, and that they
+agree which changed certificates are wrong. Usage: certificates_test.py NEARMISS CHECKER_IN_CPP"""
 
 import json
 import random
@@ -23,14 +23,14 @@ def run(command, text=''):
 
 
 def certificates(family, kind, *options, first=0, count=10):
-    """The output of `nearmiss certify` for queries of a family."""
+    """Runs `nearmiss certify` on `count` queries of a family, from query number `first` on."""
     numbers = [f'--first={first}', f'--count={count}']
     queries = run([NEARMISS, 'family', family, '--kind', kind, *numbers])
     return run([NEARMISS, 'certify', '--kind', kind, *options, '-'], queries.stdout)
 
 
 def refused(checker, lines):
-    """The numbers of the lines that a checker refuses."""
+    """Returns the numbers of the lines that a checker refuses."""
     output = run(checker, ''.join(line + '\n' for line in lines)).stdout.splitlines()
     if not output or not output[-1].startswith('accepted '):
         raise AssertionError(output[-1:])
@@ -46,7 +46,7 @@ def without(key):
 
 
 def in_list(key, change):
-    """Changes a list, if the certificate has it."""
+    """Returns a function that changes the list `key` of a certificate that has this list."""
     return lambda c: {**c, key: change(list(c[key]))} if key in c else c
 
 
@@ -181,7 +181,7 @@ class Certificates(unittest.TestCase):
 
 
 def is_object(line):
-    """Other lines are unreadable, and end the checkers."""
+    """Whether a line is a JSON object that the checkers can read. They stop at any other line."""
     if len(line) > 1 << 19:
         return False
     try:

@@ -1,5 +1,5 @@
-// Results for other programs, such as systems of continuous integration; and campaigns that a configuration
-// file describes.
+// Tests results for other programs, such as systems of continuous integration, and the options --watch and
+// --config of campaigns.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -30,12 +30,10 @@ TEST_F(Ci, JUnitHasATestForEachSubjectKindAndClass) {
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"basic\" tests=\"4\" failures=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"missed "));
   EXPECT_THAT(xml, HasSubstr("again: nearmiss fuzz --subject basic,wang"));
-  // The subject misses the query that the failure shows.
   const std::size_t line = xml.find("; vt query:\n") + 12;
   write("q.vt", xml.substr(line, xml.find('\n', line) - line) + "\n");
   expect_code(1, "replay q.vt --no-shrink --subject basic");
   expect_code(0, "replay q.vt --subject wang");
-  // nearmiss report writes the same file.
   expect_code(1, "report a.db -o report --junit report.xml");
   EXPECT_EQ(read("report.xml"), xml);
   EXPECT_EQ(std::system(("python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' " +
@@ -107,12 +105,12 @@ TEST_F(Ci, AFileDescribesACampaign) {
     write("wrong.toml", text);
     expect_refused("fuzz --config wrong.toml", {words});
   }
-  // Everything that a list and a number may have in TOML.
+  // In TOML, a list may have comments, line ends and a comma after its last element, and a number may have _.
   write("odd.toml",
         "\xEF\xBB\xBFsubject = [  # \"never\", [\n  \"basic\" ,\n\n  'wang',  # ]\n]  # two\r\n"
         "family = [ \"uniform\", \"planted\", ]\ncases = 1_000\n");
   EXPECT_EQ(results("fuzz --config odd.toml"), expected);
-  // Within quotes, '#' and brackets are letters.
+  // Within quotes, '#' and brackets are ordinary characters.
   write("a#[b.vt", hit);
   write("near.toml", "subject = \"wang\"\nnear = \"a#[b.vt\"\nfamily = [\"near\"]\ncases = 10\n");
   const auto near = json_of(0, "fuzz --config near.toml")["subjects"]["wang"]["vt"]["families"]["near"];
@@ -128,7 +126,7 @@ TEST_F(JsonToStdout, IsAnErrorIfItCannotBeWritten) {
               HasSubstr("nearmiss: standard output cannot be written: No space left on device\n"));
 }
 
-/// "M?", where the second character is a byte that is no UTF-8.
+/// A name that is not UTF-8. Messages show it as "M?".
 const std::string no_utf8 = "M\xe4";
 
 TEST_F(JsonToStdout, OfFilesWhoseNamesAreNoUtf8) {

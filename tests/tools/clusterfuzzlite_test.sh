@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs .clusterfuzzlite/build.sh as OSS-Fuzz does, but without a container. Checks that the targets that it
-# builds run without any of our files. Arguments name the targets; by default, the script builds one target of
-# each kind. Keeps the build folder, because the first build takes minutes.
+# Runs .clusterfuzzlite/build.sh as OSS-Fuzz does, but without a container. Checks that the built targets run
+# without any file of this repository. Arguments name the targets; the default is one target that tests a
+# reader and one that decides queries. Keeps the build folder, because the first build takes minutes.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."
@@ -11,9 +11,9 @@ options '' "$@"
 fail() { echo "$1" >&2; exit 1; }
 command -v clang++ >/dev/null || { echo "no clang++ here"; exit 77; }
 
-# The settings are those of the Dockerfile and of base-builder, with libFuzzer and the address sanitizer, but
-# without optimisation, which would take as long as the rest of the build. The build uses one process,
-# because other tests run at the same time.
+# The settings are those of the Dockerfile and of OSS-Fuzz's image base-builder for libFuzzer and the address
+# sanitizer, but with -O0, because optimisation would double the time of the build. The build uses one
+# process, because other tests run at the same time.
 root=$PWD/build/clusterfuzzlite
 flags="-O0 -fno-omit-frame-pointer -gline-tables-only -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"
 flags+=" -fsanitize=address -fsanitize-address-use-after-scope -fsanitize=fuzzer-no-link"
@@ -43,8 +43,8 @@ for target in "$@"; do
   seeds=$(find seeds -type f | wc -l)
   ((seeds > 100)) || fail "fuzz_$target has $seeds seeds"
 
-  # The arguments are those that base-runner passes: some of its own, those in NAME.options, and NAME.dict if
-  # it exists.
+  # Passes the arguments that OSS-Fuzz's image base-runner passes: two of its own, those in the target's
+  # .options, and the target's .dict if it exists.
   arguments=(-rss_limit_mb=2560 -timeout=25 $(sed -n 's/^[a-z_]*=/-&/p' "$exe.options"))
   [[ ! -e $exe.dict ]] || arguments+=(-dict="$exe.dict")
   try() {

@@ -1,5 +1,5 @@
-// Runs the command nearmiss as a user does; also in the background, so that a test can send it signals, or run
-// other processes meanwhile.
+// Runs the command nearmiss for tests, as a user does. Background runs the command in the background, so that
+// a test can send signals to it, or run other processes meanwhile.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -18,8 +18,8 @@
 
 namespace nearmiss::testing {
 
-/// Runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2" in its environment. At the end of
-/// the scope, kills the process if it still runs.
+/// A process in the background that runs "nearmiss ARGUMENTS" in a folder, with variables such as "A=1 B=2"
+/// in its environment. The destructor kills the process if it still runs.
 class Background {
  public:
   Background(const std::filesystem::path& folder, const std::string& arguments,
@@ -36,7 +36,7 @@ class Background {
   /// Waits until a file changes or appears. Returns false if the process has ended.
   bool wait_for_a_change(const std::filesystem::path& file);
 
-  /// Waits until the process catches SIGINT, SIGTERM and SIGHUP. Returns false if it has ended.
+  /// Waits until the process catches SIGINT, SIGTERM and SIGHUP. Returns false if the process has ended.
   bool wait_until_it_handles_interrupts();
 
   void send(int signal) const;
@@ -63,7 +63,7 @@ class CommandLine : public testing::TemporaryFolder {
   /// from z = 1 to z = -1; in `miss`, a vertex stays above the triangle.
   static const std::string hit, miss;
 
-  /// Writes these queries to hit.vt and miss.vt.
+  /// Writes `hit` to hit.vt and `miss` to miss.vt.
   CommandLine();
 
   static std::string plugin(const std::string& name);
@@ -73,31 +73,31 @@ class CommandLine : public testing::TemporaryFolder {
   [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "",
                            const std::string& redirections = "") const;
 
-  /// Runs a command as `run` does, and expects an exit code.
+  /// Runs a command as `run` does, and expects the exit code `code`.
   Output expect_code(int code, const std::string& arguments, const std::string& before = "",
                      const std::string& redirections = "") const;
 
-  /// The JSON that a command prints with --json -. Expects that the command ends with this exit code.
+  /// Runs a command with --json -, expects the exit code `code`, and returns the JSON that is printed.
   [[nodiscard]] nlohmann::json json_of(int code, const std::string& arguments,
                                        const std::string& before = "") const;
 
-  /// The report.json of "nearmiss report STORES". Expects that the command ends with this exit code.
+  /// Runs "nearmiss report STORES", expects the exit code `code`, and returns the content of report.json.
   [[nodiscard]] nlohmann::json report_of(const std::string& stores, int code = 0) const;
 
-  /// A mesh of two triangles, one at z = 0 and one at z = `height`. `last` has x and y of the last vertex of
-  /// the second triangle.
+  /// An OBJ file of two triangles, the first at z = 0, the second at z = `height`. `last` is x and y of the
+  /// second triangle's last vertex.
   static std::string two_triangles(const std::string& height, const std::string& last = "0.5 9");
 
-  /// Writes start.obj and end.obj. From one to the other, the upper triangle of two_triangles falls through
-  /// the lower triangle.
+  /// Writes two_triangles to start.obj and end.obj. Between these frames, the second triangle falls from
+  /// z = 1 to z = -1, through the first triangle.
   void write_falling_triangle(const std::string& last = "0.5 9") const;
 
-  /// Expects that nearmiss prints one line to stderr with all of these words, ends with exit code 2, and
-  /// makes no file.
+  /// Expects that nearmiss prints one line to stderr that contains each of `words`, ends with exit code 2,
+  /// and makes no file.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const;
 
-  /// Waits until a command has saved at least this many cases in a.db. Returns false if the command ends
-  /// before that.
+  /// Waits until a command has saved at least `cases` cases in a.db. Returns false if the command ends before
+  /// that.
   [[nodiscard]] bool wait_for_a_save(Background& command, std::uint64_t cases = 1) const;
 
   [[nodiscard]] nlohmann::json read_json(const std::string& name) const;

@@ -18,7 +18,7 @@ using ::testing::StartsWith;
 
 TEST_F(CommandLine, OracleAnswersByEveryMethod) {
   write("q.vt", hit + miss);
-  // The vertex goes through the triangle and back. Parity cannot distinguish two roots from none.
+  // The vertex goes through the triangle and back. Root parity cannot distinguish two roots from none.
   write("even.vt", "-0.375 -0.3125 0.25  0 0 0  1 -1 0  1 0 1   1.125 0.4375 0.25  0 0 0  1 1 0  -1 0 1\n");
   for (const std::string method : {"filtered", "exact", "certificate", "parity", "all"}) {
     EXPECT_EQ(run("oracle --kind vt q.vt --method " + method).out, "1\n0\n") << method;
@@ -28,7 +28,7 @@ TEST_F(CommandLine, OracleAnswersByEveryMethod) {
 }
 
 TEST_F(CommandLine, OracleSaysWhatAMethodDoesNotKnow) {
-  // The triangle is degenerate, an edge. It is exactly 1 below the vertex when 2 t² = 1, and never nearer.
+  // The triangle is degenerate, an edge. Its smallest distance from the vertex is exactly 1, when 2 t² = 1.
   write("q.vt", "0 -.5 1  -1 0 0  1 0 0  -1 0 0   -1 -.5 1  -1 -1 0  1 1 0  -1 -1 0   1\n");
   EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n");
   EXPECT_EQ(expect_code(1, "oracle --kind vt q.vt --method certificate").out, "-\n");
@@ -145,16 +145,15 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   const std::string scene = "scene start.obj end.obj --around 0 ";
   const json subjects =
       json_of(0, scene + "--leave-out boxes --bound pair,scene,100 --export pairs")["subjects"];
-  EXPECT_EQ(subjects.size(), 4);  // basic uses no bound
+  EXPECT_EQ(subjects.size(), 4);  // wang with three bounds; basic, which uses no bound, once
   for (const char* name : {"basic", "wang", "wang@100"})
     EXPECT_EQ(subjects[name]["vt"]["collisions"], 3) << name;
   expect_refused(scene + "--export pairs", {"pairs.vt: exists already"});
-  // The exported pairs give the same counts.
   const json replayed = json_of(0, "replay pairs.vt pairs.ee --subject wang")["subjects"];
   for (const char* kind : {"vt", "ee"})
     for (const char* count : {"queries", "collisions", "positives", "false_positives"})
       EXPECT_EQ(replayed["wang"][kind][count], subjects["wang"][kind][count]);
-  // Both triangles are only translated, so the plan needs no subject.
+  // The motion only translates the triangles, so the plan decides all pairs without a subject.
   const json funnel = json_of(0, scene + "--verify-plan")["scenes"]["scene:start"]["vt"];
   EXPECT_THAT(read("error.txt"), HasSubstr("plan verified: "));
   EXPECT_EQ(funnel["asked"], 0);
@@ -211,7 +210,7 @@ TEST_F(CommandLine, ScenesAreBuiltInToo) {
   expect_refused("scene flying@9", {"flying@9: found size 9, expected 100 to 4000000"});
   expect_refused("scene flyings", {"flyings: found neither a folder nor a scene", "nearmiss scene --list"});
   expect_refused("scene", {"SCENE is required"});
-  // A path to a folder is not taken for the built-in scene of that name.
+  // A path to a folder means this folder, even if a built-in scene has the same name.
   write("flying/1.obj", two_triangles("1"));
   write("flying/2.obj", two_triangles("-1"));
   EXPECT_THAT(run("scene ./flying").out, HasSubstr("flying: 2 frames, 6 vertices"));
@@ -248,7 +247,7 @@ TEST_F(CommandLine, AMissGivesExitCodeOne) {
               HasSubstr(": MISSED the collision\n"));
 }
 
-/// A subject, and the exit code with which every subcommand shows its results.
+/// A subject, and the exit code of every subcommand that shows the subject's results.
 struct Shown {
   const char* what;
   const char* subject;  ///< a plug-in with options, or a built-in subject
@@ -261,7 +260,7 @@ struct Shown {
 
 class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown> {
  protected:
-  /// Writes queries. Most plug-ins that misbehave answer only some of them.
+  /// Writes 43 queries to q.vt. Most plug-ins that misbehave do so for only one query in NEARMISS_ONE_IN.
   void SetUp() override {
     const std::string late = "0.95 0.01 1  0 0 0  1 0 0  0 1 0   0.95 0.01 -2  0 0 0  1 0 0  0 1 0\n";
     ASSERT_EQ(run("family uniform --kind vt --count 40").code, 0);
@@ -269,7 +268,7 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
   }
 
   /// Runs a command that stores its results in a.db, and all commands that show these results. Expects the
-  /// exit code of GetParam() from each.
+  /// exit code of GetParam() from each of these commands.
   void expect_codes(const std::string& command) const {
     const Shown& shown = GetParam();
     const std::string subject = std::string(shown.subject).find(".so") == std::string::npos

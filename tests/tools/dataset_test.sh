@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes a small data set twice, and checks its truths, proofs and checksums.
+# Writes a small data set twice, expects the same bytes, and checks the truths, proofs and checksums.
 # Usage: dataset_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -21,7 +21,7 @@ for class in ordinary degenerate extreme; do
     diff <(sed -n 's/^# expect=//p' "$file/queries.$kind") <(cut -c1 "$file/answers-$kind.txt") || fail "$class $kind: truths differ"
   done
 done
-# The data set has each query twice, in both formats, with its truth.
+# The data set has each of the 240 queries, with its truth, both in CSV and as plain text.
 "${arguments[0]}" replay "$folder/a" --subject exact --json "$folder/replay.json" >/dev/null || fail "expected no failure"
 grep -q '"mismatches_with_recorded_truth": 0' "$folder/replay.json" || fail "expected that all truths are right"
 grep -q '"queries": 480' "$folder/replay.json" || fail "expected 480 queries"

@@ -21,7 +21,7 @@ using testing::CommandLine;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-/// Words to put before a command, so that file permissions hold even for root.
+/// A prefix for commands. It makes file permissions hold even for root.
 const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
 
 TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {
@@ -94,7 +94,7 @@ TEST_F(CommandLine, AStoreWithItsLogInAReadOnlyFolderIsRefusedWithAdvice) {
 
 class SameCode : public CommandLine {
  protected:
-  /// Replaces p.so by another plug-in. All plug-ins of this test have the same name and version.
+  /// Replaces p.so by another plug-in. The plug-ins `always` and `never` have the same name and version.
   void install(const std::string& name) const {
     fs::copy_file(plugin(name), file("new.so"));
     fs::rename(file("new.so"), file("p.so"));
@@ -130,7 +130,7 @@ TEST_F(SameCode, ResultsOfAnotherPluginDoNotResumeOrMerge) {
   expect_refused("merge new.db a.db b.db", {"b.db: found plug-in always sha256 '" + digest() +
                                             "', expected '" + first + "' as in a.db"});
   expect_refused("report a.db b.db -o new", {"b.db: found plug-in always sha256"});
-  expect_code(1, "merge new.db a.db c.db");  // different nights
+  expect_code(1, "merge new.db a.db c.db");  // runs of different seeds stay apart
   EXPECT_EQ(load_campaign(file("new.db")).runs.size(), 2);
 }
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Runs tools/nightly in a copy of the tree in which set-up and libFuzzer do nothing. Checks exit codes, the
-# baseline, and the report and processes after a signal and on a full disk. Also interrupts tools/run, and
-# runs tools/libfuzzer twice at the same time.
+# Runs tools/nightly in a copy of the tree in which set-up and libFuzzer do nothing. Checks exit codes and the
+# baseline. Checks that nights which a signal or a full disk ends still write a report, and leave no process
+# behind. Also interrupts tools/run, and runs tools/libfuzzer twice at the same time.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 # shellcheck disable=SC2016  # the command of --notify expands its own variables
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
-# Only root may mount a disk; other users may in a new namespace.
+# Only root may mount a disk. Another user becomes root in a new namespace, if the system allows that.
 if ((EUID != 0)) && unshare --map-root-user --mount true 2>/dev/null; then exec unshare --map-root-user --mount "$0" "$@"; fi
 nearmiss=$(realpath "${arguments[0]}")
 source=$(realpath "$(dirname "$0")/../..")
@@ -27,8 +27,8 @@ cd "$folder/tree"
 nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
 nothing tools/setup tools/libfuzzer
 
-# night CODE OPTIONS...: runs a night that asks a few queries instead of running for its time, and checks its
-# exit code.
+# night CODE OPTIONS...: runs a night whose campaigns end after a few queries, not after a time. Expects the
+# exit code CODE.
 night() {
   local code=0
   sleep_until_next_second
@@ -50,8 +50,8 @@ chmod +x build/release/nearmiss
 mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # neither of these folders is a night
 night 0 --subject wang
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
-# The night also asks root parity. The report shows what root parity cannot see, but no night raises an alarm
-# for it.
+# The night also puts root parity on trial. The report shows the collisions that root parity misses, but no
+# night raises an alarm for them.
 expect_said '^ ok  parity: no miss in [1-9]'
 expect_said '^ --  parity \(beyond contract\): MISSED '
 night 1 --subject wang,basic
@@ -59,8 +59,8 @@ expect_said '^not in the baseline: basic$'
 expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
 "$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
-# The command of --notify gets the verdict and the page. If it fails or hangs, the night's exit code is the
-# same.
+# The command of --notify gets the verdict and the path of the report's page. A command that fails or hangs
+# does not change the night's exit code.
 notified() { expect "expected '$1', found '$(<"$folder/notified")'" grep -qE "$1" "$folder/notified"; }
 night 1 --subject wang,basic --results "$folder/told" --notify 'printf "%s|%s\n" "$1" "$2" >"'"$folder"'/notified"; exit 7'
 notified "^nearmiss: alarm: basic missed .*\|$folder/told/2[^/]*Z/report/index.html$"
@@ -76,23 +76,22 @@ code=0
 tools/nightly --results "$folder/told" --subject ./none.so --notify 'printf "%s" "$1" >"'"$folder"'/notified"' &>"$folder/said" || code=$?
 expect "expected exit code 2" test $code = 2
 notified "^nearmiss: no report: found --subject './none.so'"
-# The history has all nights.
 expect "expected a row for each night" test "$(grep -oE '"page": ?"2[^"]*/report/index.html"' "$folder/told/index.html" | sort -u | wc -l)" = 3
-# A night with lasting failures fails. The baseline has these failures, although the night before this one
-# does not have them.
+# A night raises an alarm for misses even if the baseline has them. The baseline consists of all earlier
+# nights: the last of these nights asked only wang, and had no misses.
 night 0 --subject wang
 night 1 --subject=wang,basic
 expect_said '^lasting: [0-9]* ways to fail of basic, the oldest first seen 20.*Z .version .*.$'
 seen=$(sed -nE 's/^lasting: .*, the oldest first seen ([^ ]*) .*/\1/p' "$folder/said")
 expect "expected that the oldest was first seen in the second night, at $began, found $seen" test "$seen" = "$began"
-# If root parity is on trial, the night asks it only in the same way as any other subject.
+# If --subject has root parity, the night treats it like any other subject, and runs no separate campaign.
 night 0 --subject wang,parity
 expect "expected no sample for root parity" test ! -e "$folder/the nights/last/parity.db"
 # With --baseline 1, the baseline is only the night before.
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
-# A subject that sometimes fails to answer raises an alarm only in its first night. A new way to fail raises
-# an alarm again.
+# A subject that sometimes gives no answer raises an alarm only in the first night. Misses of another subject
+# raise an alarm in a later night.
 fails=$(dirname "$nearmiss")/plugins/fail.so
 export NEARMISS_ONE_IN=5
 night 1 --subject "wang,$fails" --results "$folder/faults"
@@ -103,10 +102,11 @@ expect_said '^FAIL misbehaving: '
 night 1 --subject "wang,$fails,basic" --results "$folder/faults"
 expect_said '^alarm: basic missed '
 expect "expected no alarm for what lasts" test -z "$(grep '^alarm: .*misbehaving' "$folder/said")"
-# A night that cannot be read is left out. Its name may be in the future, because a clock can be ahead.
+# The baseline leaves out a night that cannot be read. A clock can be ahead, so the night's name may be in the
+# future.
 mkdir "$folder/the nights/2999-01-01T000000Z"
 echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"
-# The latest night is kept, although another name comes after its name.
+# The script keeps the night that has just run, although the name of another night comes after its name.
 night 0 --subject wang --keep 2
 expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2*Z" | wc -l)" = 2
 expect "expected that only nights are removed" test -d "$folder/the" -a -d "$folder/the nights/2nd Zoo"
@@ -119,8 +119,8 @@ expect_said "found --subject 'wang,./none.so', expected CCDs with different name
 night 2 --subject wang --results /proc/none
 expect_said "found --results '/proc/none', expected a folder that can be made"
 expect "expected no night of a CCD that is none" test "$(ls "$folder/the nights")" = "$before"
-# A copy of a night counts once. The script frees the reserve of a killed night, and the killed night does
-# not push other nights out.
+# The baseline counts a night and its copy once. The script frees the disk space that a killed night has
+# reserved, and --keep does not count the killed night.
 cp -r "$folder/the nights/last/" "$folder/the nights/2001-01-01T000000Z copy"
 mkdir "$folder/the nights/2002-01-01T000000Z"
 touch "$folder/the nights/2002-01-01T000000Z/.reserve"
@@ -131,7 +131,7 @@ rm -r "$folder/the nights/2999-01-01T000000Z"
 expect "expected a report" test -s "$folder/the nights/last/report/index.html"
 expect "expected that the killed night's reserve is given back" test ! -e "$folder/the nights/2002-01-01T000000Z/.reserve"
 expect "expected three nights beside the killed one, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2[0-9]*Z*" | wc -l)" = 4
-# The report of shards on a cluster leaves out shards that cannot be read, and copies.
+# The report of a campaign on a cluster leaves out shards that cannot be read, and copies of other shards.
 mkdir "$folder/shards"
 cp "$folder/the nights/last/families.db" "$folder/shards/shard-0.db"
 cp "$folder/shards/shard-0.db" "$folder/shards/shard-1.db"
@@ -141,7 +141,7 @@ code=0
 expect "expected exit code 2, found $code" test $code = 2
 expect_said '^left out: 2 of 3 shards, which cannot be read or are copies$'
 expect "expected a report of the other shard" test -s "$folder/shards/report/index.html"
-# libFuzzer hunts equally long for each way to break a promise.
+# libFuzzer hunts equally long for each failure of each subject, and for disagreements of the oracle.
 cat >tools/libfuzzer <<END_OF_SCRIPT
 #!/bin/sh
 echo "\$3 \$4 \$5" >>"$folder/hunts"
@@ -162,7 +162,8 @@ nothing tools/libfuzzer
 expect_said '^oracle: 4 queries'
 rm -r "$folder/the nights"
 
-# Two hunts at the same time share their inputs, but not their findings. Only one of them replaces the inputs.
+# Two hunts at the same time share a folder of inputs, but not their findings. Only one of them replaces the
+# inputs.
 mkdir -p fuzz build/fuzz "$folder/bin"
 cp -r "$source/fuzz/libfuzzer" fuzz/
 cp "$source/tools/libfuzzer" tools/
@@ -193,11 +194,11 @@ expect "expected that one hunt replaces the inputs" test "$(wc -l <"$folder/repl
 expect "expected that builds are locked" test ! -e "$folder/unlocked"
 nothing tools/libfuzzer
 
-# The night passes each signal on to its running part, makes a report, and leaves no process behind.
 cp build/release/nearmiss quick
 ln -sf "$nearmiss" build/release/nearmiss
 
-# Prints the processes whose working directory is in this tree, except this script and its waiting children.
+# Prints the processes whose working directory is this tree, except this script and the subshell that runs
+# this function.
 left() {
   local each
   for each in /proc/[0-9]*; do
@@ -210,9 +211,9 @@ begin() {
   env --default-signal=INT,TERM,HUP tools/nightly --time 100h --subject wang --results "$results" &>"$folder/said" &
   night=$!
 }
-# until_ CONDITION...: waits for a state of the night in the background.
+# until_ COMMAND...: repeats a command until it succeeds. Fails if the night in the background ends before.
 until_() { until "$@"; do kill -0 "$night" 2>/dev/null || fail "the night ended before this: $*"; sleep 0.05; done; }
-# ends CODE: waits for the night to end, and checks its exit code and that it leaves no process running.
+# ends CODE: waits for the night to end. Expects the exit code CODE, and that no process is left running.
 ends() {
   local code=0
   wait "$night" || code=$?
@@ -234,7 +235,7 @@ for signal in TERM INT HUP; do
   expect "SIG$signal: expected no further part" test -z "$(grep -E 'sweeps|libFuzzer' "$folder/said")"
 done
 
-# tools/run reacts to each signal in the same way.
+# tools/run reacts to a signal in the same way.
 env --default-signal=INT,TERM,HUP tools/run 100h &>"$folder/said" &
 night=$!
 until_ exists build/run/fuzz.db-wal
@@ -242,7 +243,7 @@ kill -TERM "$night"
 ends 130
 expect "expected a report" test -s build/run/report/index.html
 
-# A signal has the same effect while libFuzzer's script runs. During the set-up, it also prevents the night.
+# A signal has the same effect while tools/libfuzzer runs. A signal during the set-up prevents the night.
 forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
 rm build/release/nearmiss
 cp quick build/release/nearmiss
@@ -272,7 +273,7 @@ expect_report
 expect_said 'that failed with exit code 2'
 umount "$folder/disk"
 
-# A night also writes its report if no further file can be made.
+# A night also writes its report if the disk has no room for a further file.
 mount -t tmpfs -o size=1g,nr_inodes=2000 none "$folder/disk"
 begin disk
 until_ saved families

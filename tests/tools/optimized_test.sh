@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Checks that, at link time, no function that is compiled with less optimization can replace one of ccd/ or
-# oracle/.
+# Checks that no function is both in OBJECTS, which are compiled with less optimization, and in FAST_OBJECTS,
+# those of ccd/ and oracle/: at link time, the slower copy could replace the faster one.
 # Usage: optimized_test.sh OBJECTS FAST_OBJECTS, each a list separated by blanks
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 options '' "$@"
 ((${#arguments[@]} == 2)) || refuse "expected OBJECTS FAST_OBJECTS"
-# Prints the functions of some objects that the linker may also take from another object (weak symbols).
+# Prints the weak symbols of some objects: functions that the linker may take from another object instead.
 shared() {
   # shellcheck disable=SC2086
   nm -C $1 | sed -n 's/^[0-9a-f]* W //p' | grep -E 'nearmiss::|Eigen::' | grep -vE '::~|excerpt' | sort -u

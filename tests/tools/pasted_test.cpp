@@ -1,5 +1,5 @@
-// Certificates as a user sees them: of findings, of recorded truths, and in the tests that `nearmiss shrink
-// --as c++` and `--as python` print for other projects.
+// Tests the certificates of findings and of recorded truths. Also runs the tests that `nearmiss shrink --as
+// c++` and `--as python` print for other projects.
 #include <sstream>
 
 #include "corpus/query_text.hpp"
@@ -13,15 +13,15 @@ using ::testing::HasSubstr;
 
 class PastedTest : public testing::CommandLine {
  protected:
-  /// Tests in Python import the checker of certificates.
+  /// Copies the checker of certificates, which the printed tests in Python import.
   void SetUp() override { std::filesystem::copy_file(NEARMISS_CHECKER, file("check.py")); }
 
-  /// Whether a command in the test's folder succeeds. Writes its output to text.txt.
+  /// Whether a command in the test's folder succeeds. Writes the command's output to text.txt.
   [[nodiscard]] bool succeeds(const std::string& command) const {
     return std::system(("cd " + file("").string() + " && " + command + " >text.txt").c_str()) == 0;
   }
 
-  /// The query of the case that `nearmiss shrink` writes.
+  /// The query of the case that `nearmiss shrink` prints.
   [[nodiscard]] std::string numbers_of_case(const std::string& arguments) const {
     std::istringstream lines(run("shrink " + arguments).out);
     std::string numbers;
@@ -30,12 +30,11 @@ class PastedTest : public testing::CommandLine {
     return to_line(parse_line(Kind::vertex_triangle, numbers, arguments));
   }
 
-  /// The query that the pasted test passed to its detector.
+  /// The query that the printed test passed to the detector, which wrote it to text.txt.
   [[nodiscard]] std::string printed_numbers() const {
     return to_line(parse_line(Kind::vertex_triangle, read("text.txt"), "text.txt"));
   }
 
-  /// The tests that `nearmiss shrink` writes.
   struct Tests {
     std::string cpp, python;
   };
@@ -43,7 +42,8 @@ class PastedTest : public testing::CommandLine {
     return {run("shrink " + arguments + " --as c++").out, run("shrink " + arguments + " --as python").out};
   }
 
-  /// Compiles and runs a test in C++ with a detector that prints its numbers and gives this answer and time.
+  /// Whether a test in C++ passes with a detector that prints the coordinates it gets, and returns `answer`
+  /// and `time`.
   [[nodiscard]] bool passes_in_cpp(const std::string& test, const std::string& name,
                                    const std::string& answer, const std::string& time = "0") const {
     write("test.cpp", test +
@@ -64,8 +64,8 @@ class PastedTest : public testing::CommandLine {
     return succeeds("./test");
   }
 
-  /// Expects that the tests in C++ and in Python both pass (or, unless `pass`, both fail) with a detector
-  /// that gives this answer and this time.
+  /// Expects that the tests in C++ and in Python both pass, or both fail if `pass` is false, with a detector
+  /// that returns `answer` and `time`.
   void expect_both(bool pass, const Tests& tests, const std::string& name, bool answer,
                    const std::string& time = "0") const {
     const bool is_number = time != "nan";
@@ -79,8 +79,7 @@ class PastedTest : public testing::CommandLine {
         << answer << ' ' << time;
   }
 
-  /// Whether a test in Python passes with a detector that prints the coordinates it gets, and returns this
-  /// answer and time.
+  /// As `passes_in_cpp`, but for a test in Python.
   [[nodiscard]] bool passes_in_python(const std::string& test, const std::string& name,
                                       const std::string& answer, const std::string& time = "0") const {
     write("test.py", test +
@@ -117,7 +116,7 @@ TEST_F(PastedTest, PassesIfTheDetectorIsRight) {
   EXPECT_THAT(read("text.txt"), HasSubstr("Ccd.vertex_triangle"));
 }
 
-/// Replaces the part `old` of a text, which must occur once.
+/// Replaces `old` by `part` in a text, which must contain `old`.
 std::string with(std::string text, const std::string& old, const std::string& part) {
   EXPECT_THAT(text, HasSubstr(old));
   return text.replace(text.find(old), old.size(), part);
@@ -136,7 +135,7 @@ TEST_F(PastedTest, ProvesItsOwnExpectation) {
   EXPECT_THAT(read("error.txt"), HasSubstr("assert check.check(CERTIFICATE) == check.Statement(*proven)"));
   EXPECT_FALSE(passes(with(test, "'meets', 0.0, 1.0", "'meets', 0.0, 0.75")));  // another claim
   EXPECT_FALSE(passes(with(test, R"("h":"0")", R"("h":"1")")));                 // another certificate
-  // In C++, the certificate is in a comment.
+  // The test in C++ has the certificate in a comment.
   const std::string beginning = "\n// {";
   const auto first = cpp.find(beginning) + beginning.size() - 1;
   write("certificate.jsonl", cpp.substr(first, cpp.find('\n', first) + 1 - first));
@@ -196,7 +195,7 @@ TEST_F(PastedTest, ExpectsATimeInTheStep) {
   expect_both(true, of_false_positive, name, true, "0.5");
   expect_both(false, of_false_positive, name, true, "2");
   expect_both(true, of_false_positive, name, false, "2");
-  // If the subject gives no time, the test does not ask for one.
+  // If the subject gives no time, the printed test does not call time_of_impact.
   const std::string python = tests_of("hit.vt --subject " + plugin("several") + ":told:answer=3").python;
   EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid answer).\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
@@ -209,7 +208,7 @@ TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
 
 class Certified : public CommandLine {
  protected:
-  /// The output of check.py for some certificates, one a line.
+  /// The output of check.py for `certificates`, lines with one certificate each.
   [[nodiscard]] std::string checked(const std::string& certificates) const {
     write("certificates.jsonl", certificates);
     const std::string command = "cd " + file("").string() + " && python3 " NEARMISS_CHECKER;

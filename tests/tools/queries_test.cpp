@@ -1,5 +1,5 @@
-// Queries on the command line: queries of families, with separations and times of impact, and of vertices
-// and edges.
+// Tests commands that answer, print, time or convert queries: queries of families, queries with separations,
+// and queries of the kinds vv and ve.
 #include <algorithm>
 #include <map>
 #include <regex>
@@ -21,7 +21,7 @@ TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
   const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
   EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
-  // basic claims no bound, so its distances are measured by wang's bound.
+  // basic claims no bound, so nearmiss prints wang's bound for the queries that basic reports.
   std::string expected = wangs;
   for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
     expected.replace(at, 7, "wang");
@@ -44,7 +44,7 @@ TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   };
   for (const std::string kind : {"--kind vt ", "--kind ee "})
     EXPECT_EQ(lines(kind + "--count 8"), lines(kind + "--count 4") + lines(kind + "--first 8 --count 4"));
-  // nearmiss family prints the queries that a campaign asks, so these give the same counts.
+  // nearmiss family prints the queries that a campaign asks, so a replay of them gives the campaign's counts.
   write("q.ee", lines("--kind ee --count 500"));
   const json campaign = json_of(0, "fuzz --family parallel --seed 5 --cases 1000")["subjects"]["wang"]["ee"];
   const json replay = json_of(0, "replay q.ee")["subjects"]["wang"]["ee"];
@@ -88,7 +88,7 @@ TEST_F(CommandLine, FamilyShowsTheFactorsOfCrossedQueries) {
               ::testing::HasSubstr("exact vt: 0 of "));
 }
 
-// At most twelve lines, none longer than 100 columns except for the paths of plug-ins.
+// The output has at most twelve lines. Without the paths of plug-ins, no line has more than 100 columns.
 TEST_F(CommandLine, AReplayOfOneCaseSaysWhatMatters) {
   std::string crowd = "wang,basic,exact,wang-scalar,wang-eps,wang-no-planes,wang-plain,basic-plain,bridson";
   write("long.vt",
@@ -142,7 +142,7 @@ class SeparationOption : public testing::CommandLine {
     return query.substr(0, query.size() - 1) + " " + separation + "\n";
   }
 
-  /// A subject that reports every pair, and promises that nothing happens before t = 1/2.
+  /// A subject that reports every pair, with t = 1/2 as a lower bound of the time.
   const std::string promises = " --subject " + plugin("promises");
 };
 
@@ -158,7 +158,7 @@ TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
 }
 
 TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
-  for (const std::string method : {"filtered", "exact", "certificate", "all"})  // it falls from 2 to 1
+  for (const std::string method : {"filtered", "exact", "certificate", "all"})  // the distance ends at 1
     EXPECT_EQ(run("oracle --kind vt --toi --separation 1 miss.vt --method " + method).out,
               "1 0x1p+0 0x1p+0\n")
         << method;
@@ -200,7 +200,7 @@ TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
   const json results = json_of(0, bench + " --separation 1.5")["results"];
   ASSERT_EQ(results.size(), 7);
   EXPECT_EQ(results[0]["input"], "q.vt~1.5");
-  EXPECT_EQ(results[0]["queries"], 2);  // boxes meet if they are at most 1.5 apart
+  EXPECT_EQ(results[0]["queries"], 2);  // the boxes of both queries are at most 1.5 apart
   EXPECT_EQ(results[1]["input"], "uniform~1.5");
   const json of_contact = json_of(0, bench)["results"][0];
   EXPECT_EQ(of_contact["input"], "q.vt");
@@ -217,7 +217,7 @@ TEST_F(SeparationOption, ZeroAsksForContact) {
 }
 
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {
-  expect_code(2, "shrink hit.vt" + promises);  // contact begins at t = 1/2, so this time is not late
+  expect_code(2, "shrink hit.vt" + promises);  // contact begins at t = 1/2, so the subject's time is not late
   expect_code(0, "shrink hit.vt -o late.case --separation 0.5" + promises);
   EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
   const json counts = json_of(1, "replay late.case --no-shrink" + promises)["subjects"]["always"]["vt"];
@@ -241,14 +241,13 @@ TEST_F(SeparationOption, AReportSaysThatOfEachRun) {
 
 class Vertices : public testing::CommandLine {
  protected:
-  /// A vertex that passes the edge from (1, -1, 0) to (1, 1, 0) at a distance of 1, and the edge's first end
-  /// at a distance of √2.
+  /// Writes queries of a vertex that passes the edge from (1, -1, 0) to (1, 1, 0) at a distance of 1 (q.ve),
+  /// and the edge's first end at a distance of √2 (q.vv).
   void SetUp() override {
     write("q.ve", "0 0 1  1 -1 0  1 1 0   2 0 1  1 -1 0  1 1 0\n");
     write("q.vv", "0 0 1  1 -1 0   2 0 1  1 -1 0\n");
   }
 
-  /// A subject that finds nothing.
   const std::string never = " --subject " + plugin("never_vertices");
 };
 
@@ -289,7 +288,7 @@ TEST_F(Vertices, ACampaignAsksTheKindsThatSubjectsDecide) {
   EXPECT_EQ(asked("--subject exact --separation drawn --kind vt"), (Kinds{{"exact", {"vt"}}}));
   EXPECT_EQ(asked("--subject wang,exact --separation drawn"),
             (Kinds{{"wang", {"vv", "ve"}}, {"exact", {"vv", "ve"}}}));
-  // `rows` decides vv without a separation, and ve with a separation.
+  // The subject `rows` decides vv only without a separation, and ve only with a separation.
   const std::string rows = "--subject " + plugin("rows") + ",wang-plain";
   EXPECT_EQ(asked(rows, 1)["rows"], std::set<std::string>{"ve"});
   EXPECT_EQ(asked(rows + " --separation 0 --kind vv", 1)["rows"], std::set<std::string>{"vv"});
@@ -343,13 +342,13 @@ TEST_F(Vertices, BecomeTests) {
 
 class Convert : public CommandLine {
  protected:
-  /// The queries and truths in a folder or file, in the format "plain".
+  /// The queries and truths in a folder or file, converted to the format "plain".
   [[nodiscard]] std::string plain(const std::string& path) const {
     std::filesystem::remove_all(file("again"));
     expect_code(0, "convert " + path + " -o again");
     std::string all;
     for (const char* kind : {"vt", "ee", "vv", "ve"}) all += read(std::string("again/queries.") + kind);
-    // Rational numbers have no -0; as a coordinate, it means the same as 0.
+    // The rational numbers of a CSV file have no -0. As a coordinate, -0 means the same as 0.
     return std::regex_replace(all, std::regex("-0x0p"), "0x0p");
   }
 };
@@ -364,7 +363,6 @@ TEST_F(Convert, EveryFormatIsReadBackExactly) {
     expect_code(0, "convert q -o as-" + format + " --as " + format);
     EXPECT_EQ(plain("as-" + format), all) << format;
   }
-  // The truths are recorded, and the oracle confirms them.
   expect_code(0, "replay as-csv as-json as-case as-plain --subject exact");
   EXPECT_THAT(read("as-csv/vertex-face/queries.csv"), ::testing::MatchesRegex("[^ \n]*\n.*"));
 }

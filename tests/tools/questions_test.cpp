@@ -1,4 +1,4 @@
-// nearmiss simulate, nearmiss distance and nearmiss step, as a user sees them.
+// Tests nearmiss simulate, nearmiss distance and nearmiss step as a user sees them.
 #include <cstdlib>
 #include <numeric>
 
@@ -33,12 +33,11 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
   EXPECT_GT(sum("exact", "positives"), 0);
   for (const char* counter : {"unanswered", "tangled", "false_negatives", "false_positives", "unresolved"})
     EXPECT_EQ(sum("exact", counter), 0) << counter;
-  // The command in the store makes the same simulation again.
   const json again = json_of(1, found["runs"][0]["again"].get<std::string>().substr(9));
   for (const char* counter : {"positives", "collisions", "tangled", "picojoules"})
     EXPECT_EQ(again["simulations"]["scene:sim:cloths@100"]["bullet"][counter], steps["bullet"][counter]);
   EXPECT_EQ(report_of("s.db", 1)["pictures"].size(), 2);
-  // Frames are scenes: the start, and the end of each step.
+  // The folder of a subject's frames is a scene. It has the mesh at the start and at the end of each step.
   EXPECT_THAT(run("scene frames/exact --leave-out boxes").out, HasSubstr("exact: 26 frames, 72 vertices"));
   expect_refused("simulate cloths@100 --subject exact --frames frames", {"frames: exists already"});
   expect_refused("simulate cloths@16 --subject 'wang_3=exact,wang@3' --frames new",
@@ -78,7 +77,7 @@ TEST_F(CommandLine, SimulationsAreAddedUpOnlyIfTheyDiffer) {
               HasSubstr("c.db: found scene:sim:cloths@50 with exact, which another store has too"));
 }
 
-/// fuzz/simulation/README.md: two misses of the textbook CCD are enough to tangle two cloths.
+/// The example in fuzz/simulation/README.md: two misses of the textbook CCD (basic) tangle two cloths.
 TEST_F(CommandLine, SimulateFindsAClothThatATextbookCcdTangles) {
   const json found =
       json_of(1,
@@ -125,7 +124,7 @@ class Questions : public CommandLine {
   }
 
   /// Expects that a function without a defect fails on no query of any kind. `failures` is the key of the
-  /// number of failures.
+  /// number of failures in the JSON.
   void expect_right(const std::string& command, const std::string& heading, const char* failures) const {
     const json all = json_of(0, command + "--cases 4000");
     EXPECT_THAT(read("error.txt"), HasSubstr(heading));
@@ -140,9 +139,9 @@ class Questions : public CommandLine {
     EXPECT_TRUE(all["findings"].empty());
   }
 
-  /// Expects that the query of a function's simplest failure fails in the same way if it is asked again on
-  /// its own, and that the checker accepts the failure's certificate. `right` is the command for a function
-  /// without a defect.
+  /// Takes the query of the simplest failure that `command` finds. Expects that the function fails again if
+  /// nearmiss asks it only this query, and that a function without a defect, which the command `right` asks,
+  /// answers rightly. Expects that the checker accepts the failure's certificate.
   void expect_finding(const std::string& command, const std::string& right,
                       const std::string& failure) const {
     const json finding = json_of(1, command + "--cases 2000")["findings"][0];

@@ -1,8 +1,9 @@
-"""Runs the commands of README.md and of tools/README.md, and compares the first one's output with README.md.
+"""Runs the commands in README.md and tools/README.md. Compares the output of the first example of
+README.md with the output that README.md shows.
 Usage: readme_test.py NEARMISS
 
-Runs each command as the README prints it, except that it takes less time, in a folder with the files that it
-names.
+Changes some options so that a command takes less time. Otherwise, runs each command as it is
+printed, in a folder with the files that the commands name.
 """
 
 import os
@@ -17,7 +18,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop()).resolve().parent
-# Replacements that make a command shorter.
+# Replacements that make a command take less time, or use only subjects that this test has.
 SHORTER = (
     (r'--cases \d+', '--cases 1000'),
     (r'--time \w+', '--time 1s'),
@@ -42,7 +43,7 @@ SHORTER = (
 
 
 def commands_of(text):
-    """The commands in indented blocks, and the commands at the beginning of rows of a table."""
+    """Yields the commands in indented blocks, and those in the first column of tables."""
     for line in text.splitlines():
         block = re.match(r'    (?:\$ )?(nearmiss .*)', line)
         row = re.match(r'\| `(nearmiss [^`]*)`', line)
@@ -79,7 +80,7 @@ class Commands(unittest.TestCase):
         (cls.folder / 'end.obj').write_text(
             (cls.folder / 'start.obj').read_text().replace(' 1\n', ' -1\n')
         )
-        # In this order, because a command may use files that earlier commands made.
+        # The order matters: a command may use files that earlier commands made.
         for command in (
             'nearmiss family uniform --kind vt --count 50 >file; cp file few.vt',
             f'NEARMISS_RECORD=run.nmq {BUILD}/plugins/recording 100',

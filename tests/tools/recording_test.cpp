@@ -1,4 +1,4 @@
-// Recordings of simulations: nearmiss judges the answers that nearmiss_record.h has recorded.
+// Tests recordings of simulations: nearmiss judges the answers that nearmiss_record.h has recorded.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 class Recording : public CommandLine {
  protected:
-  /// Runs the program tests/plugin/recording.c, and returns its exit code.
+  /// Runs the program tests/plugin/recording.c. Returns 0 if the program ends with exit code 0.
   [[nodiscard]] int record(const std::string& arguments,
                            const std::string& settings = "NEARMISS_RECORD=run.nmq") const {
     const std::string command = "cd " + file("").string() + " && " + settings +
@@ -23,12 +23,12 @@ class Recording : public CommandLine {
     return std::system(command.c_str());
   }
 
-  /// The counters of the recorded answers to vt queries.
+  /// Judges recorded answers, and expects the exit code `code`. Returns the counters of the vt queries.
   [[nodiscard]] nlohmann::json judged(int code, const std::string& files = "run.nmq") const {
     return json_of(code, "replay " + files + " --as-answered")["subjects"]["recorded"]["vt"];
   }
 
-  /// The counters of the answers in these lines, which falling() makes.
+  /// Records the answers in `lines`, which `falling` makes, and judges them as `judged` does.
   [[nodiscard]] nlohmann::json judged_lines(int code, const std::string& lines) const {
     write("lines", lines);
     EXPECT_EQ(record("0 lines <lines"), 0);
@@ -46,7 +46,6 @@ TEST_F(Recording, IsJudgedAsTheSimulationWasAnswered) {
   EXPECT_NEAR(counts["max_early"], 0.25, 1e-9);  // contact is at t = 1/2
   EXPECT_THAT(read("error.txt"), ::testing::AllOf(HasSubstr("FAIL recorded: MISSED"),
                                                   HasSubstr("false-negative recorded run.nmq:")));
-  // Any CCD can be asked the recorded queries. If it misses some, its findings are shrunk.
   EXPECT_THAT(expect_code(0, "replay run.nmq --subject wang").out, HasSubstr("no miss in 100 collisions"));
 }
 
@@ -55,7 +54,7 @@ TEST_F(Recording, HasTheLatestQueriesAndThoseThatAreKept) {
   EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 20480);
   const auto counts = judged(1);
   EXPECT_THAT(read("error.txt"), Not(HasSubstr("left out")));
-  EXPECT_EQ(counts["queries"], 60 + 1);  // a quarter of the room for 80 records is for kept queries
+  EXPECT_EQ(counts["queries"], 60 + 1);  // of the room for 80 records, a quarter is only for kept queries
   EXPECT_EQ(counts["false_negatives"], 6);
   expect_code(0, "convert run.nmq -o converted");
   EXPECT_THAT(read("converted/queries.vt"),
@@ -112,7 +111,6 @@ TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
   EXPECT_THAT(
       read("error.txt"),
       HasSubstr("run.nmq: 50 records left out: they were being written when the program or the file ended"));
-  // Nor is a record judged if one of its bytes has changed.
   std::fstream(file("run.nmq"), std::ios::in | std::ios::out | std::ios::binary)
       .seekp(4096 + 256 * 4 + 80)
       .put('x');
@@ -120,8 +118,8 @@ TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
 }
 
 TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
-  // Contact is at t = 1/2. This is after tmax = 1/4, so the answers "no" are right, but before tmax = 3/4
-  // and 5/4.
+  // Contact is at t = 1/2, after tmax = 1/4, so the answers "no" are right. If tmax is 3/4 or 5/4, these
+  // answers are misses.
   ASSERT_EQ(record("20 tmax 0.25"), 0);
   auto counts = judged(0);
   EXPECT_EQ(counts["queries"], 20);
@@ -136,7 +134,8 @@ TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
   }
 }
 
-/// A record of a vertex that moves from z0 to z1 over a triangle at z = 0.
+/// A line that makes the program record a query and its answer: a vertex moves from z0 to z1 over a triangle
+/// at z = 0.
 std::string falling(const std::string& z0, const std::string& z1, const std::string& tmax, int answer,
                     const std::string& toi, int in_float = 0, const std::string& h = "0") {
   return "1 " + h + " " + tmax + " " + std::to_string(answer) + " " + toi + " " + std::to_string(in_float) +
@@ -144,7 +143,7 @@ std::string falling(const std::string& z0, const std::string& z1, const std::str
 }
 
 TEST_F(Recording, EachAnswerToTheSameQueryIsJudged) {
-  // A line search asks about shorter and shorter steps. Some collisions have no time.
+  // As in a line search, later steps (tmax) are shorter. Some answers have no time.
   const auto counts =
       judged_lines(1, falling("1.1", "-1.2", "0.7", 1, "0.3") + falling("1.1", "-1.2", "0.61", 1, "0.55") +
                           falling("1.1", "-1.2", "0.61", 1, "0.55") + falling("1", "0.5", "0.3", 1, "nan") +
@@ -167,7 +166,7 @@ TEST_F(Recording, ATimeIsLateByOneUlpWhateverTmaxIs) {
 }
 
 TEST_F(Recording, StepsOfAProgramInFloatAreTakenInFloat) {
-  // In float, the step to 0.1 from 1 to -9 ends just below the plane at 0: 1 - 0.1F * 10 < 0.
+  // In float, a vertex that moves from 1 to -9 is just below the plane at t = 0.1F: 1 - 0.1F * 10 < 0.
   const auto in_float = judged_lines(1, falling("1", "-9", "1", 1, "0x1.99999ap-4", 1));
   EXPECT_EQ(
       in_float["late"].get<int>() + in_float["committed"].get<int>() + in_float["touch_at_end"].get<int>(),

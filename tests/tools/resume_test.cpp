@@ -1,5 +1,6 @@
-// A campaign gives the same report even if it is interrupted, killed, divided into shards, or run by more
-// threads. Two versions of a CCD: their names, fixed and broken queries, and the replay of a broken query.
+// Tests that a campaign gives the same report even if it is interrupted, killed, divided into shards, or run
+// by more threads. Also tests two versions of a CCD: their names, fixed and broken queries, and the replay of
+// a broken query.
 #include <chrono>
 #include <csignal>
 
@@ -16,7 +17,7 @@ using ::testing::Not;
 
 class Resume : public CommandLine {
  protected:
-  /// The report of a store, without its times.
+  /// The report of a store, without times.
   [[nodiscard]] json timeless_report(const std::string& store) const {
     EXPECT_LE(run("report " + store + " -o report").code, 1);
     json report = read_json("report/report.json");
@@ -24,8 +25,8 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes a campaign in a.db, waits until it has saved, and after a further time sends it a
-  /// signal. Returns its exit code; -1 if the signal ended the process.
+  /// Starts or resumes a campaign in a.db, waits until it has saved results, and sends it a signal after the
+  /// further time `after`. Returns the campaign's exit code, or -1 if the signal ended the process.
   [[nodiscard]] int run_until_a_signal(const std::string& command, std::chrono::milliseconds after,
                                        int signal) const {
     Background process(file(""), command + " --db a.db --resume");
@@ -71,7 +72,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(json::diff(timeless_report("merged.db"), report), json::array());
 
   int kills = 0;
-  // The times before a signal are partly longer than the interval between two saves. They grow with the
+  // Some of the times before a signal are longer than the interval between two saves. The times grow with the
   // number of kills, so that the campaign completes even on a slow machine.
   while (run_until_a_signal(campaign, std::chrono::milliseconds(337 * kills % 1000 + 50 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
@@ -143,7 +144,7 @@ TEST_F(Resume, OneProcessWritesAStore) {
   expect_refused("fuzz --time 1s --db a.db --resume", {"a.db: another process is writing it"});
   first.stop(SIGTERM);
   EXPECT_EQ(first.code(), 130);
-  // A resumed campaign does not get the time again that it has spent.
+  // --time limits the time of a campaign in all, so a campaign that has spent its time does nothing.
   expect_code(0, "fuzz --time 1s --db a.db --resume");
   const json report = timeless_report("a.db");
   expect_code(0, "fuzz --time 1s --db a.db --resume");
@@ -157,7 +158,7 @@ class VersionsOfACcd : public CommandLine {
     std::filesystem::copy(plugin("v2"), file("v2.so"));
   }
 
-  /// The sum of a number over all classes and kinds.
+  /// The sum of the number `of` over all classes and kinds.
   static std::uint64_t sum(const nlohmann::json& versions, const char* of) {
     std::uint64_t sum = 0;
     for (const auto& each : versions) sum += each[of].get<std::uint64_t>();

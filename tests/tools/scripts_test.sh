@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs every script of the tree with --help and with --nonsense in a copy of the tree. Checks that the script
-# prints its usage for --help, refuses --nonsense, and changes nothing. In place of programs that would
-# change something, such as cmake and sbatch, a program runs that only records the call.
+# Runs every script in a copy of the tree, with --help and with --nonsense. Checks that the script prints its
+# usage for --help, refuses --nonsense, and changes nothing. Programs that would change something, such as
+# cmake and sbatch, are replaced by a program that only records the call.
 # Usage: scripts_test.sh NEARMISS
 # shellcheck disable=SC2086  # several words in $command
 set -euo pipefail
@@ -30,7 +30,8 @@ cd "$folder/tree"
 
 state() { find . -printf '%p %y %s %T@\n' | sort; ls -A "$TMPDIR"; cat "$folder/called" 2>/dev/null || true; }
 before=$(state)
-# try CODE SCRIPT ARGUMENTS...: puts a script's output into `said`, expects its exit code and no change.
+# try CODE SCRIPT ARGUMENTS...: runs a script, and puts its output into `said`. Expects the exit code CODE,
+# and that the script changes nothing.
 try() {
   local code=0 now
   case $2 in *.mjs) said=$(timeout 20 node "${@:2}" 2>&1 </dev/null) || code=$? ;;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A campaign on a Slurm cluster gives the same report as one machine, even if one task reaches its time limit,
-# one task is killed and one never runs. The test starts its own cluster of one node, with all files in a
-# temporary folder.
+# Tests that a campaign on a Slurm cluster gives the same report as one machine, even if one task reaches its
+# time limit, one task is killed, and one task is cancelled before it runs. Starts a cluster of one node with
+# all of its files in a temporary folder.
 # Usage: slurm_test.sh NEARMISS. Exit code 77: there is no Slurm, or it cannot start.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -93,7 +93,7 @@ daemons+=($!)
 idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
 wait_until idle || skip "Slurm does not start: $(grep -h fatal "$folder"/slurm*.log || tail -qn 1 "$folder"/slurm*.log)"
 
-# Makes the report of the same campaign on one machine, with an earlier campaign as the baseline.
+# Makes the expected report: that of the campaign on one machine, with an earlier campaign as the baseline.
 fuzz=(--cases 30000 --family uniform,small-integer,planted --subject basic,wang)
 expect_code() {
   local code=0
@@ -125,7 +125,8 @@ process_of() {
   found=$(grep -lsz "^$results/shard-$1.db$" /proc/[0-9]*/cmdline) && basename "${found%/cmdline}"
 }
 saved() { { "$nearmiss" report "$results/shard-$1.db" -o "$folder/peek" || (($? == 1)); } | grep wang; }
-# Whether the processes of both tasks have saved something. Stops them meanwhile, so that neither can end.
+# Whether the first and the third task have saved something. Stops their processes, so that neither can end,
+# and lets both go on if one has saved nothing.
 both_saved() {
   first=$(process_of 0) && third=$(process_of 2) && kill -STOP "$first" "$third" || return 1
   if saved 0 && saved 2; then return; fi

@@ -1,5 +1,5 @@
-// Studies as a user sees them: ladder, audit, power, tightness, values of a CCD's option, and the claims of the
-// paper; and the demo, completion, and the first example of README.md.
+// Tests studies as a user sees them: the commands tightness, ladder, audit, power and paper. Also tests the
+// demo, and the completion of command lines.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -167,7 +167,6 @@ TEST_F(OptionValues, AreRefusedWithoutAnOptionToTakeThem) {
 
 class Paper : public CommandLine {
  protected:
-  /// The result for one claim.
   [[nodiscard]] json claim(const std::string& name) const {
     json all = json_of(0, "paper " + name).at("claims");
     EXPECT_EQ(all.size(), 1U) << name;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Compiles plug-ins with tools/subject. Each has three lines for one of the signatures that
-# ccd/nearmiss_functions.hpp knows, and calls a library like that of a user (tests/plugin/foreign.hpp). Asks
-# each plug-in queries. Then checks that tools/subject says in one line why it cannot compile something.
+# Compiles plug-ins with tools/subject. Most plug-ins are three lines of C++ for some of the signatures that
+# ccd/nearmiss_functions.hpp knows. They call tests/plugin/foreign.hpp, which stands for a user's library.
+# Asks each plug-in queries. Then checks that tools/subject says in one line why it cannot compile something.
 # Usage: subject_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -49,7 +49,8 @@ refused() {
 }
 # is NAME TEXT: expects that `nearmiss subjects` says TEXT about the plug-in NAME.so.
 is() { "$nearmiss" subjects "./$1.so" >said || true; grep -qF -- "$2" said || fail "$1: expected '$2', found $(cat said)"; }
-# answers SUBJECT KIND EXPECTED QUERY [OPTION...]: asks a subject one query, and expects this answer.
+# answers SUBJECT KIND EXPECTED QUERY [OPTION...]: asks a subject one query. Expects that the answer matches
+# EXPECTED.
 answers() {
   local said
   said=$("$nearmiss" verdict --kind "$2" --subject "$1" "${@:5}" <<<"$4" 2>&1) || said="exit code $?: $said"
@@ -69,7 +70,7 @@ declare -A hit=(
 )
 half='1 unspecified 0x1\.fffffff.*p-2'  # 1/2, less a millionth of it
 
-# The signatures of ipc-toolkit: members with default arguments, for all kinds.
+# The signatures of ipc-toolkit: member functions with default arguments, for all kinds.
 narrow=NEARMISS_CALL\(foreign::ipc::Narrow
 adapter ipc ".vertex_triangle($narrow().point_triangle_ccd)).edge_edge($narrow().edge_edge_ccd))
   .vertex_edge($narrow().point_edge_ccd)).vertex_vertex($narrow().point_point_ccd))"
@@ -85,11 +86,9 @@ adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(forei
 compile plain ADAPTER "${by_flags[@]}" -std=c++20
 is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
 
-# A plug-in with several detectors. Two detectors have the signatures of CTCD; the second of these has a
-# contract, and another sort of time than its signature says. One detector has the signatures of El Topo,
-# which are overloaded and take indices. Others: a CCD for edges that gives times; distances with a CCD, and
-# without; a filter of steps, which lets nothing move; a detector with an option; and a detector that takes
-# separations for only one of its kinds.
+# A plug-in with several detectors. "contract" has another sort of time than its signature implies. The
+# functions of "eltopo" are overloaded and take indices. "still" is a filter of steps that lets nothing move.
+# "mixed" takes separations for only one of its kinds.
 cat >all.cpp <<'END'
 #include "foreign.hpp"
 #include "ccd/nearmiss_functions.hpp"
@@ -155,7 +154,6 @@ done
 asked fuzz --subject ./ipc.so,./accd.so,./all.so:ctcd --separation drawn
 asked fuzz --subject ./all.so:contract
 
-# For each mistake, one line says what is wrong.
 adapter forgotten '.vertex_triangle(foreign::forgotten)'
 refused 'the plug-in cannot be loaded: ' forgotten.cpp "${by_flags[@]}"
 [[ ! -e forgotten.so ]] || fail "forgotten.so is left"

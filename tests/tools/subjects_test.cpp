@@ -1,5 +1,5 @@
-// Subjects on the command line: nearmiss subjects, contracts, and the names by which commands replay
-// findings.
+// Tests subjects on the command line: nearmiss subjects, contracts, and the names of subjects in the commands
+// that replay findings.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -89,8 +89,8 @@ TEST_F(CommandLine, DetectorsOfAPluginAreDescribed) {
 
 class ReplayOfASubject : public CommandLine {
  protected:
-  /// The options of the command that replays the first finding of a campaign with a subject that misses
-  /// something.
+  /// Runs a campaign with a subject that misses collisions. Expects that the command in the first finding
+  /// replays the miss, and returns the options of this command.
   [[nodiscard]] std::string options(const std::string& subject) const {
     expect_code(1, "fuzz --family small-integer --cases 100 --db a.db --subject '" + subject + "'");
     const std::string again = report_of("a.db", 1)["findings"][0]["again"];
@@ -132,7 +132,7 @@ TEST_F(CommandLine, APluginMayBeInAnyFolder) {
   for (const std::string& command : {fuzz, fuzz + "--resume", std::string("report a.db -o report")})
     expect_code(1, command, there);
   const std::string again = read_json(folder + "/report/report.json")["findings"][0]["again"];
-  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // a store has no line ends
+  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // the full path has a line end; a store has none
 }
 
 TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
@@ -146,7 +146,7 @@ TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
   EXPECT_THAT(again, HasSubstr(" --query-time 7s --query-memory 2147483648"));
 }
 
-/// The counter with this name; 0 if `counts` do not have it.
+/// The number `name` in `counts`, or 0 if `counts` has no such number.
 std::uint64_t count(const nlohmann::json& counts, const std::string& name) { return counts.value(name, 0U); }
 
 TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
@@ -163,7 +163,7 @@ TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
     EXPECT_GT(count(keeping["faults"], "contract"), 0U);
     EXPECT_EQ(count(keeping["faults"], "contract") + count(beyond["faults"], "contract"),
               count(keeping, "queries"));
-    // Contact at the start is always a collision, and this plug-in misses all of them.
+    // Queries beyond this contract have contact at the start, so all are collisions; the plug-in misses each.
     EXPECT_EQ(count(beyond, "false_negatives"), count(keeping["faults"], "contract"));
   }
 }
@@ -175,7 +175,7 @@ TEST_F(CommandLine, MissesBeyondAContractDoNotCount) {
   EXPECT_TRUE(json_of(0, "power --way uniform --time 1s --subject " + subject)[0]["failure"].is_null());
 }
 
-// Root parity misses contact with an even number of roots, about which it promises nothing.
+// Root parity misses collisions with an even number of roots; its contract excludes these collisions.
 TEST_F(CommandLine, FailuresBeyondAContractAreShownButNeverCount) {
   const std::string fuzz = "fuzz --family small-integer --cases 2000 --subject parity --beyond-contract";
   expect_code(0, fuzz + " --seed 2 --db before.db");

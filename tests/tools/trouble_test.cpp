@@ -1,4 +1,4 @@
-// Tests the command line with failures while a command works, and with little memory.
+// Tests trouble while a command runs: locks, interrupts, full disks, closed streams, and too little memory.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// A terminal, both of whose ends are open.
+/// A pseudo-terminal. The test reads from `ours` what a command writes to the file `path`.
 struct Terminal {
   int ours = posix_openpt(O_RDWR | O_NOCTTY), side = -1;
   std::string path;
@@ -45,7 +45,7 @@ struct Terminal {
   }
 };
 
-// ^S stops the output of a terminal. The campaign shows progress there, and ends all the same.
+// ^S stops the output of a terminal. A campaign that shows its progress on such a terminal ends all the same.
 TEST_F(CommandLine, AStoppedTerminalStopsNothing) {
   const Terminal terminal;
   ASSERT_EQ(tcflow(terminal.side, TCOOFF), 0);
@@ -178,7 +178,7 @@ TEST_F(CommandLine, AMergeOnASmallDiskIsCompleteOrLeavesNothing) {
   for (const std::uintmax_t percent : {50, 90, 110}) {
     SCOPED_TRACE(percent);
     std::filesystem::remove_all(file("disk"));
-    // The content of the disk, which exists as long as the shell runs, is copied to the folder "left".
+    // The disk exists as long as the shell runs, so the shell copies the disk's content to the folder "left".
     const std::string with_disk = fmt::format(
         "rm -rf left; unshare -rm sh -c 'mkdir disk && mount -t tmpfs -o size={} none disk && "
         "\"$@\"; code=$?; cp -r disk left; exit $code' sh",
@@ -201,7 +201,7 @@ TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
   EXPECT_EQ(output.error, "nearmiss: standard output cannot be written: File too large\n");
 }
 
-/// A mesh of triangles that are all in one place, so that it takes minutes to look at all pairs.
+/// A mesh of 20,000 triangles in the same place. A command needs minutes to look at all of their pairs.
 std::string crowd() {
   constexpr int triangles = 20'000;
   std::string vertices;
@@ -254,7 +254,8 @@ TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
 }
 
 TEST_F(CommandLine, FewThreadsAreEnoughIfTheyAreLimited) {
-  // A limit on the number of processes does not apply to root. A thread of TBB has a stack of 4 MB.
+  // Stacks of 4 MB, TBB's default, for 1,500 threads do not fit into 4 GB of address space. A limit on the
+  // number of processes does not apply to root.
   const std::string user = geteuid() == 0 ? "setpriv --reuid 12345 --regid 12345 --clear-groups " : "";
   std::vector<std::string> limits{"ulimit -s 8192; ulimit -v 4000000;",
                                   "ulimit -s 2000000; ulimit -v 4000000;"};
@@ -283,8 +284,8 @@ TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   expect_code(0, replay + "a.db", "", "<&-");
   const Output silent = expect_code(0, replay + "b.db", "", "2>&-");
   EXPECT_THAT(silent.out, HasSubstr(" ok  wang: reports the collision\n"));
-  // No printed text gets into the store or its lock, although these files may get the numbers of closed
-  // streams.
+  // Printed text never gets into the store or its lock file, although these files may get the descriptors of
+  // closed streams.
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
   for (const char* store : {"a.db", "b.db", "c.db"})
     EXPECT_EQ(run(std::string("report ") + store + " -o report").code, 0) << store;
@@ -312,7 +313,6 @@ class SmallCgroup {
   }
 
   [[nodiscard]] bool exists() const { return exists_; }
-  /// The command with which a shell enters this cgroup.
   [[nodiscard]] std::string enter() const { return "echo $$ >" + (folder_ / "cgroup.procs").string() + ";"; }
 
  private:
@@ -327,7 +327,7 @@ class SmallCgroup {
   bool exists_ = false;
 };
 
-// The system ends only processes of the plug-in, no matter which process it chooses.
+// When the memory of the cgroup is used up, the kernel ends only processes of the plug-in, never nearmiss.
 TEST_F(CommandLine, APluginThatUsesUpTheMemoryOfACgroupEndsAlone) {
   const SmallCgroup small;
   if (!small.exists()) GTEST_SKIP() << "found no cgroup whose memory can be limited";

@@ -26,7 +26,7 @@ double exact_double(const mpq_class& value) {
   return same;
 }
 
-/// Takes all of these characters, perhaps none, from the front.
+/// Removes characters from the front of `rest`, as long as they are in `characters`, and returns them.
 std::string_view take(std::string_view& rest, std::string_view characters) {
   const std::string_view taken = rest.substr(0, rest.find_first_not_of(characters));
   rest.remove_prefix(taken.size());
@@ -69,13 +69,14 @@ mpq_class number(std::string_view text) {
   return value;
 }
 
-/// The library's message without its name of the error, as in "[json.exception.parse_error.101] ...".
+/// The JSON library's message, without the name of the error that it begins with, such as
+/// "[json.exception.parse_error.101] ".
 std::string message(const Json::exception& error) {
   const std::string_view text = error.what();
   return std::string(text.substr(text.find("] ") + 2));
 }
 
-/// The library's parser does not recurse; it calls `look` as it goes.
+/// The JSON library's parser does not recurse, and calls `look` for each bracket, key and value.
 Json parse(std::string_view line) try {
   if (line.size() > longest_line) throw Unreadable("a line of more than 512 KiB");
   // The library would take a zero byte for the end of the line.
@@ -121,8 +122,8 @@ Statement read_statement(const Json& object) {
   return is;
 }
 
-/// The rows, multiplied by one positive integer that makes all numbers integers, and padded with zeros to one
-/// length.
+/// The rows, multiplied by one positive integer that makes all numbers integers, and padded with zeros to the
+/// same length.
 std::vector<Integers> integers(const std::vector<Rationals>& rows) {
   mpz_class scale = 1;
   std::size_t size = 0;
@@ -136,7 +137,8 @@ std::vector<Integers> integers(const std::vector<Rationals>& rows) {
   return all;
 }
 
-// Polynomials f[0] + f[1] t + ... in the time t. Their degree is the one written, zeros at the end included.
+// Below, Integers f are a polynomial f[0] + f[1] t + ... in the time t, of degree f.size() - 1 even if the
+// last coefficients are 0. The components of a Vector are such polynomials.
 using Vector = std::array<Integers, 3>;
 
 Integers product(const Integers& f, const Integers& g) {
@@ -160,15 +162,15 @@ Vector cross(const Vector& a, const Vector& b) {
   return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
-/// {{P, Q}, {D, D}}, for the times from p = P / D to q = Q / D.
+/// The times from p = P / D to q = Q / D, as {{P, Q}, {D, D}}.
 using Piece = std::vector<Integers>;
 Piece piece(const mpq_class& p, const mpq_class& q) { return integers({{p, q}, {1, 1}}); }
 
 /// The Bernstein coefficients b[i] of f over [p, q], each times a positive factor. For u, v >= 0, not both 0,
 /// t = (P u + Q v) / (D u + D v) takes all values in [p, q] and no others, and by Horner's rule
 ///   (D u + D v)^m f(t) = b[0] u^m + b[1] u^(m-1) v + ... + b[m] v^m    for f of degree m.
-/// So if all b[i] > 0, f > 0 on [p, q]; if all b[i] >= 0, f >= 0; if also b[0] > 0, f > 0 on [p, q), where
-/// u > 0. b[0] has the sign of f(p), and b[m] that of f(q).
+/// So if all b[i] > 0, f > 0 on [p, q]. If all b[i] >= 0, f >= 0 on [p, q]. If also b[0] > 0, f > 0 on
+/// [p, q), because u > 0 there. b[0] has the sign of f(p), and b[m] has the sign of f(q).
 Integers bernstein(const Integers& f, const Piece& piece) {
   Integers b(f[f.size() - 1], 1), power(1, 1);
   for (std::size_t i = f.size() - 1; i-- > 0;) {
@@ -204,11 +206,11 @@ Query read_query(const Statement& statement) {
   return query;
 }
 
-/// dist > h on the piece, as n . d > h |n| for all differences d of a vertex of A and one of B. Proof: The
-/// difference d of any two points of A and B is a convex combination of these differences, so it also
-/// satisfies n . d > h |n|; n is not 0; and n . d <= |n| |d|, hence |d| > h. Not strict: n . d > 0 and n . d
-/// >= h |n|, hence |d| >= h. We compare n . d with 0 and (n . d)^2 with h^2 n . n. Open: all of this holds at
-/// every time before the end of the piece.
+/// Proves dist > h on the piece: tests whether n . d > h |n| for all differences d of a vertex of A and a
+/// vertex of B, by comparing n . d with 0 and (n . d)^2 with h^2 n . n. Then n . d > h |n| also for the
+/// difference d of any point of A and any point of B, which is a convex combination of the tested
+/// differences. So n is not 0, and |d| > h, because n . d <= |n| |d|. If not strict, tests n . d > 0 and
+/// n . d >= h |n|, which proves |d| >= h. If open, the tests hold at all times before the end of the piece.
 void prove_piece(const Piece& piece, const Vector& n, const Query& query, bool strict, bool open) {
   const auto enough = [open](const Integers& b) { return b[0] > 0 && (open ? b.min() >= 0 : b.min() > 0); };
   const Integers limit = query.h == 0 ? Integers() : mpz_class(query.h * query.h) * dot(n, n);
@@ -224,7 +226,7 @@ void prove_piece(const Piece& piece, const Vector& n, const Query& query, bool s
     }
 }
 
-/// n(t) times a positive integer.
+/// The normal n(t), times a positive integer.
 Vector read_normal(const std::vector<Rationals>& n) {
   demand(n.size() == 3, "a normal that has not three components");
   for (const auto& f : n) demand(!f.empty() && f.size() <= 5, "a polynomial without 1 to 5 coefficients");
@@ -232,7 +234,7 @@ Vector read_normal(const std::vector<Rationals>& n) {
   return {rows[0], rows[1], rows[2]};
 }
 
-/// The pieces cover [from, to] without a gap, and the claim holds on each of them.
+/// Proves that the pieces cover [from, to] without a gap, and that the claim holds on each piece.
 void prove_apart(const Json& proof, const Query& query, const Statement& claim) {
   demand_keys(proof, {"times", "normals", "open", "strict"});
   const auto times = proof.at("times").get<Rationals>();
@@ -250,7 +252,7 @@ void prove_apart(const Json& proof, const Query& query, const Statement& claim) 
                 claim.open && i + 1 == normals.size());
 }
 
-/// At one time in [from, to], one point of A and one point of B, given by weights, are near enough.
+/// Proves that, at a time in [from, to], a point of A and a point of B, given by weights, are near enough.
 void prove_at(const Json& proof, const Query& query, const Statement& claim) {
   demand_keys(proof, {"at", "weights", "strict"});
   const auto t = proof.at("at").get<mpq_class>();
@@ -270,24 +272,26 @@ void prove_at(const Json& proof, const Query& query, const Statement& claim) {
   demand(claim.strict ? excess < 0 : excess <= 0, "points that are too far apart");
 }
 
-/// F and the weights of a contact. With ai = xi - x0, w1 a1 + w2 a2 + w3 a3 = -F N and w1 + w2 + w3 = N . N
-/// at all times. So where F = 0 and all weights are positive, x0 is the weighted mean of x1, x2 and x3.
+/// F and the weights w1, w2, w3 for a vertex and a triangle. With ai = xi - x0, w1 a1 + w2 a2 + w3 a3 = -F N
+/// and w1 + w2 + w3 = N . N at all times. So when F = 0 and all weights are positive, x0 is the mean of x1,
+/// x2 and x3 with these weights.
 std::vector<Integers> vertex_triangle(const std::vector<Vector>& x) {
   const Vector N = cross(x[2] - x[1], x[3] - x[1]);
   const auto weight = [&](std::size_t j, std::size_t k) { return dot(N, cross(x[j] - x[0], x[k] - x[0])); };
   return {dot(N, x[0] - x[1]), weight(2, 3), weight(3, 1), weight(1, 2)};
 }
 
-/// F and the weights for two edges. With e = x1 - x0 and f = x3 - x2, s e - u f = (N . N) r - F N at all
-/// times. Where F = 0 and all weights are positive, x0 + (s / N . N) e = x2 + (u / N . N) f, and the two
-/// factors are between 0 and 1.
+/// F and the weights s, N . N - s, u, N . N - u for two edges. With e = x1 - x0 and f = x3 - x2,
+/// s e - u f = (N . N) r - F N at all times. So when F = 0 and all weights are positive,
+/// x0 + (s / N . N) e = x2 + (u / N . N) f, and both factors s / N . N and u / N . N are between 0 and 1.
 std::vector<Integers> edge_edge(const std::vector<Vector>& x) {
   const Vector e = x[1] - x[0], f = x[3] - x[2], r = x[2] - x[0], N = cross(e, f);
   const Integers NN = dot(N, N), s = dot(N, cross(r, f)), u = dot(N, cross(r, e));
   return {dot(N, r), s, NN - s, u, NN - u};
 }
 
-/// F(p) F(q) <= 0, so F = 0 at a time in [p, q]. There all weights are positive, and so is N . N, their sum.
+/// Proves contact: F(p) F(q) <= 0, so F = 0 at a time in [p, q]. At this time, all weights are positive, and
+/// so is N . N, which is a sum of weights.
 void prove_crossing(const Piece& piece, const std::vector<Integers>& F_and_weights) {
   const Integers F = bernstein(F_and_weights[0], piece);
   demand(F[0] * F[3] <= 0, "an F that does not change its sign");
@@ -295,9 +299,10 @@ void prove_crossing(const Piece& piece, const std::vector<Integers>& F_and_weigh
     demand(positive(F_and_weights[i], piece), "a weight that is not positive");
 }
 
-/// W = (v - y) x (z - y) is a polynomial g(t) times a constant vector k, as its coefficients have rank 1, and
-/// W(p) . W(q) = |k|^2 g(p) g(q) < 0. So W = 0 at a time in [p, q], when v is on the line yz. It is between
-/// y and z, because (v - y) . (z - y) and (z - v) . (z - y) are positive.
+/// Proves that v is on the edge from y to z at a time in [p, q]. The coefficients of W = (v - y) x (z - y)
+/// have rank 1, so W is a polynomial g(t) times a constant vector k. W(p) . W(q) = |k|^2 g(p) g(q) < 0, so
+/// W = 0 at a time in [p, q]. At this time, v is on the line through y and z, and between y and z, because
+/// (v - y) . (z - y) and (z - v) . (z - y) are positive.
 void prove_on_edge(const Piece& piece, const Vector& v, const Vector& y, const Vector& z) {
   const Vector W = cross(v - y, z - y);
   mpz_class sign = 0;
@@ -312,7 +317,7 @@ void prove_on_edge(const Piece& piece, const Vector& v, const Vector& y, const V
   demand(positive(dot(z - v, z - y), piece), "a vertex that may be beyond z");
 }
 
-/// Contact at a time in [p, q], which need not be rational.
+/// Proves contact at a time in [p, q], which may be irrational.
 void prove_bracket(const Json& proof, const Query& query, const Statement& claim) {
   demand_keys(proof, {"bracket", "edge"});
   const auto ends = proof.at("bracket").get<Rationals>();

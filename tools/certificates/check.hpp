@@ -10,9 +10,9 @@
 
 namespace certificates {
 
-/// The claim that a line proves. At time t, a vertex is at (1 - t) x0 + t x1, exactly, and dist(t) is the
-/// distance of the primitives A and B. These are closed points, segments or triangles, and may be
-/// degenerate.
+/// The claim that a line proves. A vertex that moves from s to e is at (1 - t) s + t e at time t, exactly.
+/// dist(t) is the distance of the primitives A and B, which are closed points, segments or triangles, and may
+/// be degenerate.
 ///   apart: dist(t) > h for all t in [from, to]; not strict: dist(t) >= h; open: only for t in [from, to).
 ///   meets: dist(t) <= h for some t in [from, to]; strict: dist(t) < h.
 struct Statement {
@@ -30,12 +30,12 @@ inline constexpr std::size_t longest_line = 1 << 19;  ///< in bytes, without the
 struct Refused : std::runtime_error {  ///< the line proves nothing; what() says why
   using std::runtime_error::runtime_error;
 };
-struct Unreadable : Refused {  ///< the line is not even a JSON object, or too long
+struct Unreadable : Refused {  ///< the line is no JSON object in ASCII, or is too long
   using Refused::Refused;
 };
 
-/// Returns what the line proves, or throws Refused. Compare the statement with your question: a line may
-/// prove something true about another query or another interval.
+/// Returns the statement that the line proves, or throws Refused. Compare the statement with your question: a
+/// line may prove a true statement about another query or another interval.
 Statement check(std::string_view line);
 
 }  // namespace certificates

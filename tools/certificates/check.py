@@ -1,14 +1,14 @@
 """Check certificates of continuous collision detection (CCD) in exact arithmetic.
 
 The primitives A and B of a query are convex hulls of vertices. A vertex is at (1 - t) s + t e; x
-lists all s, then all e. With h >= 0 and 0 <= from <= to <= 1, a certificate proves one claim:
+lists s of all vertices, then e of all. For h >= 0, a certificate proves one claim:
   apart: their distance is > h ("strict": false: >= h) at all t in [from, to] ("open": [from, to))
   meets: their distance is <= h ("strict": true: < h) at some t in [from, to].
-The functions apart, at, bracket and edge say why their tests suffice. On [p, q] a polynomial f of
-degree n has a form: put t = (p u + q v) / (u + v) and multiply f by (u + v)^n. Each t in [p, q]
-has such u, v >= 0 with u + v = 1, so f > 0 on [p, q] if all coefficients of the form are positive:
-they are f's Bernstein coefficients times binomials. The first is f(p), the last f(q); if f(p) > 0
-and the others are >= 0, f > 0 on [p, q). Positive factors, as in whole(), change no sign.
+The functions apart, at, bracket and edge say why their tests suffice. On [p, q], a polynomial f of
+degree n has a form, a polynomial in u and v: f((p u + q v) / (u + v)) times (u + v)^n. For each t
+in [p, q], t = p u + q v with some u, v >= 0 and u + v = 1. So f > 0 on [p, q] if all coefficients
+of the form are > 0, and f > 0 on [p, q) if the first is > 0 and the others are >= 0. The first is
+f(p), and the last is f(q). A positive factor of all coefficients, as in whole(), changes no sign.
 Compare the Statement with your question: a line may prove something other than you asked."""
 
 import re
@@ -23,10 +23,10 @@ from math import lcm
 KINDS = {'vv': 'AB', 've': 'ABB', 'vt': 'ABBB', 'ee': 'AABB'}  # the primitive of each vertex
 AREAS = {'vt': ('023', '031', '012'), 'ee': ('023', '132', '021', '013')}  # triangles in bracket()
 NUMBER = r'(-?)(\d+)(?:/0*([1-9]\d*))?|(-?0x[01])(?:\.([\da-f]+))?p([+-]?)(\d{1,4})'
-# integer() converts 600 digits at a time, because int() may be limited to 640.
+# integer() converts 600 digits at a time, because the limit of int() may be as low as 640 digits.
 integer = lambda s: reduce(lambda n, d: n * 10 ** len(d) + int(d), re.findall('.{1,600}', s), 0)
 is_double = lambda v: abs(v) < 2**1024 - 2**970 and Fraction(float(v)) == v
-# An object becomes a tuple of pairs, a bare number its length (not a string), NaN an error.
+# Makes an object a tuple of pairs, a number that is not in a string its length, and NaN an error.
 JSON = JSONDecoder(object_pairs_hook=tuple, parse_int=len, parse_float=len, parse_constant=int)
 Statement = namedtuple('Statement', 'kind x h claim from_ to open strict')
 
@@ -53,7 +53,7 @@ def read(line):
 
 
 def numbers(value, *lengths):
-    """Return the number in a string or, given allowed lengths, those in an array of arrays."""
+    """Return the number in a string or, if lengths are given, the numbers in nested arrays."""
     if lengths:
         require(isinstance(value, list) and len(value) in lengths[0], 'an array has a bad length')
         return [numbers(item, *lengths[1:]) for item in value]
@@ -73,7 +73,7 @@ def whole(values):
 
 
 class Row(tuple):
-    """A form: the coefficients of u^n, u^(n-1) v, ..., v^n. Or a vector: three forms."""
+    """A form, as the coefficients of u^n, u^(n-1) v, ..., v^n; or a vector of three forms."""
 
     __add__ = lambda a, b: Row(i + j for i, j in zip(a, b))
     __sub__ = lambda a, b: Row(i - j for i, j in zip(a, b))
@@ -99,8 +99,8 @@ def forms(vectors, p, q):
 
 
 def apart(s, vectors, body):
-    """On each piece [p, q], n . (a - b) > 0 and (n . (a - b))^2 > h^2 n . n: n . (a - b) > h |n|
-    for vertices a of A and b of B. It holds for all points too: they are averages of vertices."""
+    """On each piece, n . (a - b) > 0 and (n . (a - b))^2 > h^2 n . n for all vertices a of A and b
+    of B. So |n| |a - b| >= n . (a - b) > h |n|, for all points too, as averages of vertices."""
     times = numbers(body['times'], range(2, 20002))
     require(times[0] == s.from_ and times[-1] == s.to, '"times" does not span "from" to "to"')
     normals = numbers(body['normals'], [len(times) - 1], [3], range(1, 6))
@@ -129,8 +129,8 @@ def at(s, vectors, body):
 
 
 def bracket(s, vectors, body):
-    """F = n . (x2 - x0) is zero at a time in [p, q]. Then the vertices are in a plane normal to n,
-    and weights / n . n are the barycentric coordinates of a point: positive, so in A and in B."""
+    """F = n . (x2 - x0) is zero at a time in [p, q], when all vertices are in a plane normal to n.
+    Then weights / n . n are barycentric coordinates of a point of A and of B: all are positive."""
     p, q = numbers(body['bracket'], [2])
     require(s.h == 0 and s.from_ <= p < q <= s.to, 'h is not 0, or not from <= p < q <= to')
     *x, h = forms(vectors, p, q)
@@ -145,8 +145,8 @@ def bracket(s, vectors, body):
 
 
 def edge(kind, x, names):
-    """All components of (v - y) x (z - y) are multiples of one that is zero at a time in [p, q].
-    Then v is on the line through y and z; two inner products say that it is between y and z."""
+    """At a time in [p, q], a component of (v - y) x (z - y) is zero, and all are multiples of it.
+    So v is on the line through y and z. Two inner products say that v is between y and z."""
     edges = [e for e in permutations(range(len(x)), 3) if kind[e[0]] != kind[e[1]] == kind[e[2]]]
     require(names in [[*map(str, e)] for e in edges], '"edge" is not a vertex and an edge')
     v, y, z = (x[int(name)] for name in names)

@@ -1,4 +1,5 @@
-# Writes the definition of commit() (tools/commit.hpp) to FILE, if it has changed. Runs at each build:
+# Writes the definition of commit() (tools/commit.hpp) to FILE, if the definition has changed. Runs at each
+# build:
 #   cmake -D SOURCE=... -D FILE=... -P commit.cmake
 function(git result)
   execute_process(COMMAND git -C ${SOURCE} ${ARGN} OUTPUT_VARIABLE output ERROR_QUIET RESULT_VARIABLE code)

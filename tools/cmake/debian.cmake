@@ -29,8 +29,8 @@ file(CONFIGURE OUTPUT ${debian}/changelog.Debian CONTENT "nearmiss (${version}) 
 " @ONLY)
 execute_process(COMMAND gzip -9nkf ${debian}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
 
-# nearmiss_package(NAME SECTION COMPONENT...): makes a package of these components. Its description is
-# tools/debian/NAME.txt.
+# nearmiss_package(NAME SECTION COMPONENT...): makes a package of these components. The file
+# tools/debian/NAME.txt describes the package.
 macro(nearmiss_package name section)
   string(MAKE_C_IDENTIFIER ${name} group)
   string(TOUPPER ${group} GROUP)

@@ -1,5 +1,5 @@
 # The target `documentation` writes documentation/html/index.html in the build folder, from the headers that
-# are installed and the pages beside them. Every warning is an error.
+# are installed and the pages in oracle/interface/. Every warning is an error.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()

@@ -1,13 +1,13 @@
-# Copies headers with named edits, such as planted defects, which a program can switch on and off while it
-# runs.
+# Makes copies of headers. The copies have named edits, such as planted defects, that a program can switch on
+# and off while it runs.
 #
 # A list of edits has this form:
 #
 #   == GROUP ==
 #
 #   NAME in FILE: what the edit makes wrong
-#   - the text of an expression or a statement, which must be in the file once; blanks and line ends match
-#     any others
+#   - the text of an expression or a statement, which must be in FILE once; its blanks and line ends match
+#     any blanks and line ends
 #   + the text that replaces it
 #   and in FILE (2 of 3)
 #   - the text at another place of the same edit: the second of three places in FILE with this text
@@ -63,7 +63,7 @@ macro(nearmiss_read_edits list)
   endwhile()
 endmacro()
 
-# Finds a place in a text: sets `start` and `end` to its offsets in bytes.
+# Finds a place in a text. Sets `start` and `end` to the offsets, in bytes, of the place's beginning and end.
 function(nearmiss_find_place place text)
   string(REGEX REPLACE "([][+.*()^?|$])" "\\\\\\1" pattern "${place_${place}_before}")
   string(REGEX REPLACE "[ \n]+" "[ \n]+" pattern "${pattern}")
@@ -88,7 +88,7 @@ function(nearmiss_find_place place text)
   endif()
 endfunction()
 
-# Sets `result` to a text with switches at all places in it.
+# Sets `result` to the text of a file, with a switch at each place of the list that is in this file.
 function(nearmiss_switch file text result)
   set(spans "")
   foreach(place RANGE 1 ${places})
@@ -130,8 +130,8 @@ endfunction()
 # nearmiss_edited_copies(LIST SPACE SWITCH HEADER...): copies each header "folder/file.hpp" to
 # "SPACE/folder/file.hpp" in the build folder, and puts the copy into the namespace nearmiss::SPACE. A copy
 # has a switch for each edit of its header in the file LIST, which names headers without their folders. The
-# copies include each other in place of the originals, and the header SWITCH, which declares `makes`; they
-# cause no warnings. "SPACE/edits.inc" is the table of the edits.
+# copies include each other in place of the originals. They also include the header SWITCH, which declares
+# `makes`. The compiler gives no warnings about the copies. "SPACE/edits.inc" is the table of the edits.
 function(nearmiss_edited_copies list space switch)
   nearmiss_read_edits(${list})
   list(TRANSFORM ARGN REPLACE ".*/" "" OUTPUT_VARIABLE files)

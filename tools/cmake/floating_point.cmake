@@ -1,6 +1,6 @@
 # Theorem 4.1 of the paper assumes that every operation is rounded to IEEE double. Therefore this file
-# switches contraction off, and refuses a compiler that reorders or widens operations. So does every header
-# of ccd/.
+# switches contraction off, and refuses a compiler that reorders or widens operations. Every header of ccd/
+# refuses such a compiler, too.
 include(CheckCXXSourceCompiles)
 
 add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)

@@ -1,4 +1,4 @@
-# The libraries that nearmiss builds on, all from Debian 12 or 13; tools/packages.txt gives the reasons.
+# The libraries that nearmiss uses, all from Debian 12 or 13; tools/packages.txt says what needs each of them.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 if(NEARMISS_HEADERS_ONLY)
   return()

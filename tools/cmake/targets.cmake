@@ -1,8 +1,9 @@
-# Settings of all our targets: warnings as errors, sanitizers, clang-tidy, ccache.
+# Settings of all our targets, such as warnings as errors, sanitizers, clang-tidy and ccache.
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  # ccache caches a file with precompiled headers only if it may ignore macros of the headers and their times.
+  # ccache caches a file that uses a precompiled header only if it may ignore changed #defines, and the macros
+  # __DATE__ and __TIME__.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
@@ -22,7 +23,8 @@ if(NEARMISS_LIBFUZZER)
   add_link_options(-fsanitize=undefined)  # provides the runtime of coverage to executables without libFuzzer
 endif()
 
-# The compiler options for the vector instructions of x86-64. Those of other processors need no options.
+# The compiler options for the vector instructions of x86-64. Other processors' vector instructions need no
+# options.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(nearmiss_avx2 -mavx2)
   set(nearmiss_avx512 -mavx512f -mavx512dq -mavx512vl)
@@ -49,8 +51,8 @@ endfunction()
 set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statistics.hpp)
 
 # nearmiss_precompile(TARGET HEADER...): precompiles the headers that most files of a target include; most of
-# these headers belong to other libraries. The preset debug does not precompile them, so it checks that each
-# file includes what it uses.
+# these headers belong to other libraries. The preset debug precompiles no headers, so its build fails if a
+# file does not include what it uses.
 # nearmiss_precompile(TARGET REUSE_FROM OTHER): uses the precompiled headers of a target with the same options.
 function(nearmiss_precompile target)
   if("${ARGV1}" STREQUAL REUSE_FROM)
@@ -63,20 +65,20 @@ function(nearmiss_precompile target)
     # g++ 12 gives false warnings about the code of std::string if the header <string> is precompiled (bug
     # 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
-    # The precompiled headers alone fill the default heap of g++. Without this option, g++ would spend a
-    # sixth of its time on collecting garbage.
+    # The precompiled headers already fill the default heap of g++. Without this option, g++ would spend a
+    # sixth of its time on garbage collection.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=400000)
   endif()
 endfunction()
 
-# nearmiss_seldom_runs(TARGET): optimizes less, for code that seldom runs. Full optimization would take half
-# of the compile time of such code, and save no run time.
+# nearmiss_seldom_runs(TARGET): compiles code that seldom runs with less optimization. Full optimization would
+# double the compile time of such code, and save no run time.
 function(nearmiss_seldom_runs target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # nearmiss_library(FOLDER LIB...): makes a library of the .cpp files directly in a folder. The folder's
-# CMakeLists.txt adds those of its subfolders.
+# CMakeLists.txt adds the .cpp files of its subfolders.
 function(nearmiss_library folder)
   get_filename_component(name ${folder} NAME)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
@@ -96,7 +98,7 @@ function(nearmiss_tests folder)
   gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
-# nearmiss_uses_cgal(TARGET): settings of a target that includes CGAL's number types.
+# nearmiss_uses_cgal(TARGET): makes the settings for a target that includes CGAL's number types.
 function(nearmiss_uses_cgal target)
   target_link_libraries(${target} PRIVATE CGAL::CGAL)
   # The compiler must know that interval arithmetic changes the rounding mode.

@@ -54,13 +54,13 @@ struct Input {
   Queries queries;  ///< queries that pass the box test
 };
 
-/// The name of an input, with the separation if one is given.
 std::string named(std::string name, const SeparationOption& separation) {
   return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
 }
 
-/// For each kind that is asked, the first `count` queries of a family that pass the box test; made on all
-/// processors. Throws Error if fewer than one query in 1000 passes, and Stopped if the user ends the command.
+/// Makes an input, on all processors: for each kind that is asked, the first `count` queries of a family that
+/// pass the box test. Throws Error if fewer than one query in 1000 passes, and Stopped if the user ends the
+/// command.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};
@@ -104,14 +104,14 @@ Input file_input(const std::filesystem::path& path, const SeparationOption& sepa
   return input;
 }
 
-/// The median over the runs of a ratio: a subject's time divided by the first subject's time in the same run.
+/// The median, over the runs, of a subject's time divided by the first subject's time in the same run.
 double median_ratio(const RunTimes& times, const RunTimes& first) {
   RunTimes ratios;
   for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / first[i]);
   return median(ratios);
 }
 
-/// The measurements of all kinds together, each kind weighted by its number of queries.
+/// The times for all kinds together. Each kind is weighted by its number of queries.
 std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind,
                                const std::vector<double>& weights) {
   const std::size_t runs = by_kind.front().front().times.size();
@@ -125,7 +125,6 @@ std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind
   return sum;
 }
 
-/// The chosen families, each with the chosen kinds. Throws Error for an unknown family or kind.
 std::vector<Family> families_of(const Options& options) {
   std::vector<Kind> kinds;
   for (const std::string& each : options.kinds) kinds.push_back(parse_kind(each, "--kind"));
@@ -138,8 +137,8 @@ std::vector<Family> families_of(const Options& options) {
   return families;
 }
 
-/// Throws Error unless there is memory for the random queries of a family, their answers, and the memory
-/// that nearmiss shares with each plug-in.
+/// Throws Error if memory is too small for the random queries of any one family, the answers, and what
+/// nearmiss shares with each plug-in.
 void expect_room(const Options& options, const std::vector<Family>& families, const Subjects& subjects,
                  const isolation::PluginLimits& limits) {
   std::uint64_t bytes = options.queries * sizeof(Verdict);
@@ -152,7 +151,7 @@ void expect_room(const Options& options, const std::vector<Family>& families, co
   isolation::expect_memory(fmt::format("--queries {}", options.queries), bytes + most);
 }
 
-/// Throws Error if there are queries with a separation, and a subject can answer none of their kinds.
+/// If queries have a separation, throws Error for their kinds as expect_separations() does.
 void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
                            const Options& options, const Subjects& subjects) {
   std::set<Kind> separated;
@@ -165,7 +164,6 @@ void expect_separations_of(const std::vector<Input>& inputs, const std::vector<F
   if (!separated.empty()) expect_separations(subjects, std::vector(separated.begin(), separated.end()));
 }
 
-/// A number with some decimals, as a table shows it.
 std::string in_table(double number, int decimals) {
   return std::isnan(number) ? "no answer" : fmt::format("{:.{}f}", number, decimals);
 }
@@ -187,7 +185,6 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
   }
 }
 
-/// The results for all inputs that were timed.
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};

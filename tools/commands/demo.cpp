@@ -34,7 +34,8 @@ struct Options {
   std::filesystem::path out = "nearmiss-demo.case";
 };
 
-/// Whether a query is easy to draw: small coordinates, and not always in one plane.
+/// Whether a query is easy to draw: its coordinates are small, and its vertices are not coplanar at all
+/// times.
 bool is_plain(const Query& query) {
   return explain(query).roots > 0 &&
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
@@ -72,10 +73,10 @@ struct PlainMiss {
   }
 };
 
-/// Prints a paragraph in lines of at most 100 columns.
 void say(const std::string& paragraph) { fmt::print("{}", wrapped(paragraph, "", 10, 100)); }
 
-/// What a CCD misses in ordinary families: its simplest miss, and the picture.
+/// Prints a miss in ordinary families, the simplest query that the CCD misses in the same way, and a picture
+/// of this query.
 void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
   say(fmt::format(
       "{} is a textbook CCD: it solves a cubic for the times at which the four vertices are coplanar, in "
@@ -98,8 +99,8 @@ void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
   fmt::print("\n");
 }
 
-/// The answers of other CCDs to an ordinary query; then the simplest miss of one of these CCDs, in other
-/// queries.
+/// Prints the answers of wang and basic to an ordinary query, and then a simplified miss of basic in families
+/// that are not ordinary.
 void show_exotic_miss(const Query& ordinary) {
   const auto answer = [&](const Subject& subject) {
     return subject.decide(ordinary).hit ? "reports" : "misses";

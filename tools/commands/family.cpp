@@ -49,8 +49,8 @@ void print_queries(const Options& options, const Family& family) {
   }
 }
 
-/// For each kind, prints how many queries are ordinary, and how many queries each rule makes not ordinary.
-/// Then prints these numbers for only the collisions.
+/// For each kind, prints how many queries are ordinary, and how many are not, by the rule that excludes them.
+/// Also prints how many of these queries are collisions.
 void print_classes(const Options& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;

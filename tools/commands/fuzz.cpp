@@ -28,7 +28,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// A line for each family with its class, followed by a line for its parameter if it has one.
+/// A line for each family with its class; if the family has a parameter, a line about the parameter follows.
 std::string list_of_families() {
   std::string lines;
   for (const Family& family : all_families()) {
@@ -84,7 +84,7 @@ std::vector<std::string> default_scalars() {
   return names;
 }
 
-/// The files of the plug-ins among some subjects. Throws Error if no subject is a plug-in.
+/// The shared objects of those subjects that are plug-ins. Throws Error if there are none.
 std::vector<std::filesystem::path> files_to_watch(const std::vector<std::string>& subjects) {
   std::vector<std::filesystem::path> files;
   for (const std::string& subject : subjects)
@@ -104,7 +104,7 @@ std::vector<std::filesystem::file_time_type> written(const std::vector<std::file
   return times;
 }
 
-/// Waits until one of the files is written, and all of them are complete.
+/// Waits until a file has changed since `before`, and all files exist and no longer change.
 void wait_for_a_change(const std::vector<std::filesystem::path>& files,
                        const std::vector<std::filesystem::file_time_type>& before) {
   constexpr std::chrono::milliseconds pause{300};

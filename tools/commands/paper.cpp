@@ -1,5 +1,5 @@
-// nearmiss audit shows the paper's rounding constants beside the constants that its rules give for our code
-// and the constants that are proven. nearmiss paper shows the paper's quantitative claims beside our
+// nearmiss audit shows the paper's rounding constants beside those that the paper's rules give for our code,
+// and beside those that are proven. nearmiss paper shows the paper's quantitative claims beside our
 // measurements.
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -188,7 +188,6 @@ ordered_json results_of(std::string_view command) {
   return ordered_json::parse(contents(output.get()));
 }
 
-/// The commands of a claim, as a user types them.
 std::vector<std::string> commands_of(const Claim& claim) {
   std::vector<std::string> commands;
   for (const std::string_view command : claim.commands)

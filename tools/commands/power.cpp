@@ -102,7 +102,7 @@ std::string output_of(const std::string& command) {
   std::vector<char> buffer(most_bytes);
   bool has_ended = false;
   bool is_open = true;
-  // The command may leave a process behind that keeps the pipe open and writes to it without end.
+  // The command may leave a process behind that keeps the pipe open and writes to the pipe without end.
   constexpr int most_reads_after_the_end = 64;
   int reads_after_the_end = 0;
   auto kill_at = std::chrono::steady_clock::time_point::max();

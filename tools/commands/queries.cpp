@@ -58,9 +58,9 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// "1" for yes, "0" for no. As in the library, a smallest distance of exactly h > 0 is a yes. "-" if a
-/// complete method cannot tell, or if any other method, such as root parity, gives no answer for such
-/// queries.
+/// "1" if the primitives touch or come within h, otherwise "0". As in the library, a smallest distance of
+/// exactly h > 0 gives "1". "-" if a complete method cannot tell, or if any other method, such as root
+/// parity, does not answer the query.
 const char* show(const Answer& answer, Claim claim) {
   const auto said = answer.at_most ? answer.at_most : answer.collision;
   if (!said && (claim == Claim::complete || !answer.is_answer())) return "-";
@@ -185,7 +185,6 @@ Certificates statements_about(const Query& query, const CertifyOptions& options)
   return all;
 }
 
-/// The text that is printed if a statement about a query has no certificate: the reason.
 const char* why_none(const Query& query) {
   return query.separation > 0
              ? "no proof was found: perhaps the distance reaches h at an irrational time, and neither falls "
@@ -233,8 +232,8 @@ struct VerdictOptions {
   bool rounded = false;
 };
 
-/// The bound B by which a false positive is judged: " B claimed" if the subject claims a bound, otherwise "
-/// B wang" with wang's bound.
+/// The distance bound by which a false positive is judged, and whose it is: " 0x1p-9 claimed" if the subject
+/// claims a bound, otherwise wang's bound, " 0x1p-9 wang".
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
   const BoundAnswer answer = judge.ask_unit(query);
   if (answer.fault == Fault::error)

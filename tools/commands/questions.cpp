@@ -94,7 +94,7 @@ template <class Question>
 int run(const Options& options, const Command& of) {
   const Stop at_signals(interrupted());
   isolation::PluginLimits limits = options.limits.limits();
-  limits.stop = &at_signals;  // at the time limit, the last answer is awaited
+  limits.stop = &at_signals;  // a signal ends the wait for an answer; the time limit of the command does not
   const Subjects subjects = make_subjects(options.subjects, limits);
   QuestionPlan plan{.kinds = kinds_of(options),
                     .search = !options.no_search,

@@ -45,7 +45,7 @@ std::string family_of(const std::string& name) {
   return printable(folder.filename().string()) + "/";
 }
 
-/// Says on stderr which records of a recording are left out, and why.
+/// Says on stderr how many records of a recording are left out, and why.
 void say(const fs::path& path, const LeftOut& left) {
   const auto line = [&](std::uint64_t count, std::string_view why) {
     if (count > 0)
@@ -59,13 +59,12 @@ void say(const fs::path& path, const LeftOut& left) {
   line(left.rounded, "their tmax is not 1, and doubles do not hold what was asked");
 }
 
-/// Subjects, and the cases that they decide.
 struct Pass {
   Subjects subjects;
   std::function<void(const CaseSink&)> read;
 };
 
-/// Passes with recorded answers, which ask no subject.
+/// The passes that judge recorded answers, and ask no subject.
 std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {
@@ -101,7 +100,6 @@ Pass pass_of_cases(const Options& options, std::set<Kind>& seen, const Stop& sto
   return pass;
 }
 
-/// The cases that were replayed.
 struct Replayed {
   std::uint64_t cases = 0;
   Query last = {};
@@ -138,7 +136,7 @@ void hold(const Options& options, const Pass& pass, const Stop& stop, Record& re
   });
 }
 
-/// Says which subjects were not asked about cases, because they answer for contact only.
+/// Says which subjects were not asked about cases with separations, because they answer for contact only.
 void print_unasked(const Subjects& subjects, const Replayed& replayed, std::FILE* out) {
   for (const auto& subject : subjects) {
     std::uint64_t not_asked = 0;
@@ -150,7 +148,6 @@ void print_unasked(const Subjects& subjects, const Replayed& replayed, std::FILE
   }
 }
 
-/// The only case that was replayed.
 OneCase one_case(const Options& options, const Query& query) {
   OneCase one{query, {}, {}};
   if (options.paths.size() == 1 && fs::is_regular_file(options.paths.front()))
@@ -161,7 +158,7 @@ OneCase one_case(const Options& options, const Query& query) {
   return one;
 }
 
-/// Everything that the results depend on.
+/// The facts on which the results depend, and the command that repeats the run.
 RunInfo run_info(const Options& options, const Subjects& subjects) {
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + printable_argument(path.string());

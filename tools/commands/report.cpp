@@ -86,8 +86,8 @@ std::string load_distances(const std::filesystem::path& file) {
   return text;
 }
 
-/// Throws Error if the stores are so large that their report might take all memory: it needs about 20 bytes for
-/// each byte of its stores.
+/// Throws Error if the stores are so large that their report might take all memory. For each byte of the
+/// stores, the report needs about 20 bytes of memory.
 void expect_to_fit(const ReportOptions& options) {
   constexpr std::uintmax_t most = std::uintmax_t{128} << 20;
   std::uintmax_t bytes = 0;
@@ -104,7 +104,7 @@ void expect_to_fit(const ReportOptions& options) {
       }
 }
 
-/// The files that the command reads or writes.
+/// The files that the command reads or writes, except that of --junit.
 std::vector<OptionFile> other_files(const ReportOptions& options) {
   std::vector<OptionFile> files{{options.power, "--power"},
                                 {options.audit, "--audit"},
@@ -117,7 +117,6 @@ std::vector<OptionFile> other_files(const ReportOptions& options) {
   return files;
 }
 
-/// Writes the report, and returns the exit code.
 int report(const ReportOptions& options) {
   expect_to_fit(options);
   options.ci.expect_writable(other_files(options));

@@ -48,7 +48,6 @@ struct Options {
 const std::map<std::string, LeaveOut> leave_outs{
     {"nothing", LeaveOut::nothing}, {"boxes", LeaveOut::boxes}, {"all", LeaveOut::all}};
 
-/// Prints a line for each built-in scene.
 void list_scenes(std::FILE* out) {
   fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
   for (const BuiltInScene& scene : built_in_scenes())
@@ -64,7 +63,8 @@ class Export {
     for (const Kind kind : kinds_of_meshes)
       files_.try_emplace(kind, fmt::format("{}.{}", file.string(), short_name(kind)));
   }
-  /// Writes the pairs of a step that subjects are asked about. Throws Stopped if the user ends the command.
+  /// Writes those pairs of a step about which subjects are asked. Throws Stopped if the user ends the
+  /// command.
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
@@ -72,7 +72,7 @@ class Export {
     };
     follow_plan(Plan(mesh, leave_out, jobs, is_over), write, {}, is_over);
   }
-  /// Gives all files that are not empty their names. Throws Error if a file could not be written.
+  /// Gives each file its name, unless the file is empty. Throws Error if a file could not be written.
   void finish() {
     for (auto& [kind, file] : files_) {
       file.close();
@@ -110,7 +110,7 @@ struct Held {
   std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
 };
 
-/// The scene's name and size, for the terminal. `mesh` is the mesh of its first step.
+/// The scene's name and size, for the terminal. `mesh` is the mesh of the scene's first step.
 std::string describe(const Scene& scene, const MovingMesh& mesh) {
   return fmt::format("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
                      counted(mesh.start.size(), "vertex", "vertices"),
@@ -119,7 +119,7 @@ std::string describe(const Scene& scene, const MovingMesh& mesh) {
                      counted(static_cast<std::size_t>(bodies(scene.mesh).count), "body", "bodies"));
 }
 
-/// Goes through all steps of a scene.
+/// Asks the subjects about all steps of a scene. With --verify-plan, verifies the plan of each step.
 Held hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
                  const Stop& stop) {
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
@@ -166,7 +166,8 @@ Held hold_trials(const Options& options, const Scene& scene, const Subjects& sub
   return held;
 }
 
-/// A line for each subject that missed nothing, but was asked too few collisions for this to say much.
+/// A line for each subject that missed nothing, but was asked too few collisions to show a low rate of
+/// misses.
 std::string what_few_collisions_show(const Statistics& statistics) {
   constexpr double much = 0.01;  // a rate of misses
   std::string lines;
@@ -181,8 +182,8 @@ std::string what_few_collisions_show(const Statistics& statistics) {
   return lines;
 }
 
-/// The family of queries around the scene's pairs; nothing if a kind has no pairs in the scene. Throws
-/// Stopped if there are too many pairs to collect them in a few seconds.
+/// The family of queries around the scene's pairs; nothing if the scene has no pairs. Throws Stopped if the
+/// pairs are too many to collect them in a few seconds.
 std::optional<Family> family_around(const Options& options, const Scene& scene) {
   constexpr std::chrono::seconds patience(5);
   Stop until(interrupted());
@@ -231,7 +232,6 @@ std::string hunt_around(const Options& options, const Family& family, const Subj
   return line + "\n";
 }
 
-/// The command that hunts around a scene for longer.
 std::string longer_hunt(const Options& options) {
   std::string scene;
   for (const std::string& each : options.scene) scene += " " + printable_argument(each);

@@ -1,4 +1,4 @@
-// nearmiss simulate: the same cloth with each subject as its CCD, judged step by step.
+// nearmiss simulate: simulates the same cloth or hair with each subject as its CCD, and judges each step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,6 @@ void list_scenes(std::FILE* out) {
     fmt::print(out, "{:<10}{:>7}  {}\n", scene.name, scene.default_size, scene.description);
 }
 
-/// The facts of a run, including every option on which its results depend.
 RunInfo run_info(const Options& options, const Subjects& subjects) {
   const SimulationOptions& of = options.simulation;
   RunInfo info = options.trial.run_info("simulate " + of.scene, subjects);

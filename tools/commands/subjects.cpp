@@ -43,7 +43,6 @@ std::string further_questions(const DetectorInfo& info) {
   return text;
 }
 
-/// Prints some lines about a subject that is a plug-in.
 void print(const Subject& subject) {
   const DetectorInfo& info = *plugin_info(subject);
   constexpr std::array<const char*, 4> times{"no time", "an estimate of the time",
@@ -170,7 +169,6 @@ std::vector<std::string> family_names() {
   return names;
 }
 
-/// The families that have a parameter.
 std::vector<std::string> sweep_names() {
   std::vector<std::string> names;
   for (const Family& family : all_families())
@@ -178,9 +176,9 @@ std::vector<std::string> sweep_names() {
   return names;
 }
 
-/// A completion script for bash. It completes subcommands, options, the last name in a list of families,
-/// sweeps or subjects (which may be files), and files everywhere else. Bash passes "--option=value" to it as
-/// three words.
+/// A completion script for bash. The script completes subcommands, options, the last name in a list of
+/// families, sweeps or subjects (which may be files), and files everywhere else. Bash passes "--option=value"
+/// to the script as three words.
 std::string bash_script(const CLI::App& app) {
   std::vector<std::string> names;
   std::string options;

@@ -80,7 +80,7 @@ void expect_different(const std::vector<std::string>& values) {
                                 excerpt(at->second), excerpt(value)));
 }
 
-/// The subjects. One with KEY=* occurs once for each value, with the value in place of the star. Throws
+/// The subjects. A subject with KEY=* occurs once for each value, with the value in place of the star. Throws
 /// Error if no subject has a star.
 std::vector<std::string> with_values(const std::vector<std::string>& subjects,
                                      const std::vector<std::string>& values) {
@@ -128,7 +128,7 @@ void add_tolerance_options(CLI::App& command, Options& options) {
   options.campaign.record.add_to(command);
 }
 
-/// Adds the options of a campaign that asks a CCD with each value of one of its options.
+/// Adds the options of a campaign that puts a CCD on trial with each value of one of the CCD's options.
 void add_value_options(CLI::App& command, Options& options) {
   CampaignOptions& campaign = options.campaign;
   campaign.trial.subjects.clear();

@@ -28,7 +28,6 @@ using enum Judgement;
 Judgement holds_if(bool it_does) { return it_does ? holds : does_not_hold; }
 Judgement with_condition_if(bool it_does) { return it_does ? holds_with_condition : does_not_hold; }
 
-/// The sum of a subject's counter over all kinds.
 std::uint64_t count(const ordered_json& results, const std::string& subject, const std::string& key) {
   std::uint64_t sum = 0;
   for (const auto& kind : results.at("subjects").at(subject)) sum += kind.at(key).get<std::uint64_t>();
@@ -99,8 +98,8 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// The largest ratio of run times that counts as the overhead of the paper; leaves room for the noise of a
-/// busy machine.
+/// The largest ratio of run times that counts as a small overhead, as the paper claims it. Leaves room for
+/// the noise of a busy machine.
 constexpr double small_overhead = 1.1;
 
 std::string in_words(const Ratios& ratios) {
@@ -109,7 +108,7 @@ std::string in_words(const Ratios& ratios) {
 
 constexpr std::array<std::string_view, 4> scenes{"knot", "cloths", "spikes", "hair"};
 
-/// The values of a counter in all steps of a simulation with this subject.
+/// The values of the counter `key` in all steps of a simulation with a subject as its CCD.
 const ordered_json& steps(const ordered_json& results, std::string_view scene, const std::string& subject,
                           const std::string& key) {
   return results.at("simulations").at(fmt::format("scene:sim:{}", scene)).at(subject).at(key);
@@ -122,8 +121,8 @@ std::uint64_t simulated(const ordered_json& results, std::string_view scene, con
   return sum;
 }
 
-/// By how much a count is larger with wang than with exact. The increase is given for each scene, as a
-/// fraction of the count with exact, and in words for all scenes together.
+/// By how much a counter is larger with wang than with exact. `parts` has the increase in each scene, as a
+/// fraction of the counter with exact. `text` has all increases in words.
 struct Changes {
   std::vector<double> parts;
   std::string text;

@@ -24,11 +24,10 @@ enum class Judgement {
 /// The name of a judgement in tables, such as "holds with a condition".
 std::string_view name(Judgement judgement);
 
-/// The judgement with this name; nothing for any other name.
 std::optional<Judgement> judgement_named(std::string_view name);
 
 struct Measured {
-  std::string text;  ///< what was measured, with all figures, and the condition if the claim holds with one
+  std::string text;  ///< what was measured, with all figures, and the condition of holds_with_condition
   Judgement judgement = Judgement::not_measured;
 };
 
@@ -46,7 +45,7 @@ struct Claim {
   std::string_view name;     ///< the claim's name on the command line, which no other claim has
   std::string_view section;  ///< the section of the paper
   std::string_view says;
-  Commands commands = {};  ///< those that measure the claim; if there are none, `measure` works alone
+  Commands commands = {};  ///< the commands that give `measure` its results, if it needs any
   Measured (*measure)(const Results& results, const Stop& stop) = nullptr;
   std::string_view why_not = {};  ///< if `measure` is null, why the claim cannot be measured here
 

@@ -1,6 +1,6 @@
-// Lets the interpreter exit while other threads are still in a call. Once the interpreter exits, Python ends
-// every other thread that asks for Python's lock, and a thread that Python ends within C++ aborts the
-// program.
+// Lets the interpreter exit while other threads are still in a call of this package. Once the interpreter
+// exits, Python ends every other thread that asks for Python's lock (the GIL). If Python ended a thread
+// within C++, the program would abort.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,7 +15,7 @@ namespace nearmiss::python {
 /// Whether the interpreter is exiting.
 inline std::atomic<bool> is_ending = false;
 /// The thread in which the interpreter exits. Functions that Python calls at its exit may still make calls
-/// in it.
+/// in this thread.
 inline std::thread::id ending_thread;
 /// The number of calls that are under way, and their threads. `threads_of_calls` may be used only with
 /// Python's lock.
@@ -32,8 +32,8 @@ inline bool must_end() { return is_ending && std::this_thread::get_id() != endin
   throw pybind11::error_already_set();
 }
 
-/// A flag that becomes true when calls in this thread must end. It stays false for calls that Python makes
-/// at its exit.
+/// A flag that becomes true when calls in this thread must end. The flag stays false for calls that Python
+/// makes at its exit.
 inline const std::atomic<bool>& ending() {
   static constinit const std::atomic<bool> never = false;
   return is_ending && !must_end() ? never : is_ending;

@@ -13,10 +13,10 @@
 
 namespace nearmiss::python {
 
-/// Calls function(kind, x, separation) for queries of one kind, with x of shape (n, 2, v, 3), where v is the
-/// kind's number of vertices, and separation of shape (n,). The function returns bools (n,); if the subject
-/// gives times, it returns times (n,) as well. src/nearmiss/_trials.py checks the answers. Passes on
-/// exceptions of the function. The caller must not hold Python's global interpreter lock.
+/// A subject that calls function(kind, x, separation) for queries of one kind. x has the shape (n, 2, v, 3),
+/// where v is the kind's number of vertices, and separation has the shape (n,). The function returns n bools
+/// and, if the subject gives times, n times; src/nearmiss/_trials.py checks the answers. The subject passes
+/// on exceptions of the function. The caller must not hold Python's global interpreter lock.
 class FunctionSubject final : public DescribedSubject {
  public:
   FunctionSubject(DetectorInfo info, pybind11::function function)
@@ -33,9 +33,9 @@ class FunctionSubject final : public DescribedSubject {
   pybind11::function function_;
 };
 
-/// Queries as an array (n, 2, v, 3), and their separations (n,). All queries must have the v vertices of
-/// `kind`.
+/// The coordinates of n queries, (n, 2, v, 3). All queries must have the v vertices of `kind`.
 pybind11::array_t<double> coordinates_of(Kind kind, std::span<const Query> queries);
+/// The separations of n queries, (n,).
 pybind11::array_t<double> separations_of(std::span<const Query> queries);
 
 }  // namespace nearmiss::python

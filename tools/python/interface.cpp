@@ -96,16 +96,15 @@ class PlainBlock {
   std::optional<PlainArithmetic> guard_;
 };
 
-/// An array with one element for each query.
 template <class T>
 py::array_t<T> one_for_each(const Queries& queries) {
   return py::array_t<T>(static_cast<py::ssize_t>(queries.size()));
 }
 
-/// Calls ask(part, first) for one part of the queries after the other, until the interpreter exits. Between
-/// parts, at most every tenth of a second, lets Python handle signals. If queries are slow, takes smaller
-/// parts, so that signals do not wait long. Stops at the first status other than NEARMISS_OK, and returns
-/// this status.
+/// Calls ask(part, first) for one part of the queries after the other; `first` is the number of the part's
+/// first query. Between parts, at most every tenth of a second, lets Python handle signals. If queries are
+/// slow, takes smaller parts, so that signals do not wait long. Stops when the interpreter exits, or at the
+/// first status other than NEARMISS_OK, and returns this status.
 template <class Ask>
 int ask_until_the_end(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
@@ -128,7 +127,7 @@ int ask_until_the_end(const Queries& queries, const Ask& ask) {
   return NEARMISS_OK;
 }
 
-/// Does what ask_until_the_end does, but without Python's lock, so that other Python threads run.
+/// Calls ask_until_the_end without Python's lock, so that other Python threads run.
 template <class Ask>
 int ask_in_parts(const Queries& queries, const Ask& ask) {
   const Running this_call;
@@ -140,8 +139,8 @@ int ask_in_parts(const Queries& queries, const Ask& ask) {
   return status;
 }
 
-/// Raises the exception for a status. Only the part of the queries that was asked last has no answers.
-/// Therefore the first query without an answer is in this part, and the message is the fault of this query.
+/// Raises the exception for a status. For NEARMISS_NOT_FINITE, the message is about the first query without
+/// an answer. This query is in the part that was asked last: all earlier parts are answered.
 template <class IsAnswered>
 void check(int status, const Queries& queries, const IsAnswered& is_answered) {
   if (status == NEARMISS_OK) return;
@@ -195,8 +194,7 @@ py::tuple time_of_impact(const Queries& queries, double tmax) {
   return py::make_tuple(answers, times);
 }
 
-/// Calls a function of the C interface that computes two numbers for each query, which enclose a time or a
-/// distance.
+/// Calls a function of the C interface that encloses a time or a distance of each query by two numbers.
 template <int (*enclose)(const nearmiss_queries*, double, double*, double*)>
 py::tuple enclosures(const Queries& queries, double width) {
   auto lower = one_for_each<double>(queries);
@@ -227,7 +225,8 @@ std::vector<std::optional<std::string>> certificates(const Queries& queries, int
   return texts;
 }
 
-/// Records n queries, (n, 6 v), and what a CCD answered; all other arrays are (n,).
+/// Records n queries and what a CCD answered to them. `x` has the shape (n, 6 v), for queries with v
+/// vertices; all other arrays have the shape (n,).
 void record(int kind, const py::array_t<double, py::array::c_style>& x, const py::array_t<double>& separation,
             const py::array_t<double>& tmax, const py::array_t<int>& answer, const py::array_t<double>& toi,
             bool keep) {

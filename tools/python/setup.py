@@ -29,7 +29,7 @@ class CMakeBuild(build_ext):
             (package,) = pathlib.Path(prefix).rglob('nearmiss/__init__.py')
             destination = pathlib.Path(self.build_lib) / 'nearmiss'
             shutil.copytree(package.parent, destination, dirs_exist_ok=True)
-            # The copyright file is about the libraries whose headers are compiled in.
+            # The file `copyright` is about the libraries whose headers are compiled into the modules.
             for terms in ('LICENSE', 'tools/debian/copyright'):
                 shutil.copy(root / terms, destination)
 

@@ -99,7 +99,6 @@ std::vector<Family> families_of(const std::vector<std::string>& names, const Sub
   return families_asked(names, kinds);
 }
 
-/// Lets Python handle the signals that have come.
 void let_python_handle_signals() {
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -108,7 +107,7 @@ void let_python_handle_signals() {
 /// A function that receives the number of decided cases and the number of misses so far.
 using Report = std::function<void(std::uint64_t cases, std::uint64_t missed)>;
 
-/// What is known about each subject before a batch.
+/// For each subject, what is known from earlier cases of the batch's kind and family.
 std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, const SoFar& so_far) {
   std::vector<Known> known;
   for (const auto& subject : subjects)
@@ -156,14 +155,13 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
   }
 }
 
-/// The largest distance / bound of a false positive; infinity for the largest double, which stands for a
-/// bound of 0.
+/// The largest ratio of a false positive's distance to its bound. A ratio of the largest double stands for a
+/// bound of 0, and is replaced by infinity.
 double farthest(const Counts& counts) {
   const double ratio = counts.max_ratio();
   return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;
 }
 
-/// The counters of each subject, kind and family.
 py::list counts_of(const Statistics& statistics) {
   py::list rows;
   for (const auto& [key, counts] : statistics.counts)
@@ -175,7 +173,6 @@ py::list counts_of(const Statistics& statistics) {
   return rows;
 }
 
-/// A list with one text for each finding, such as its family.
 template <class Of>
 py::list column(const std::vector<Finding>& findings, const Of& of) {
   py::list values;
@@ -244,7 +241,6 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }
 
-/// The name and the description of each family.
 std::vector<std::pair<std::string, std::string>> known_families() {
   std::vector<std::pair<std::string, std::string>> known;
   for (const Family& family : all_families()) known.emplace_back(family.name, family.about);
@@ -268,7 +264,6 @@ py::tuple make(const std::string& family, const std::string& kind_name, std::siz
   return py::make_tuple(coordinates_of(kind, queries), separations_of(queries));
 }
 
-/// What happens in a query, in words.
 std::string explanation(const std::string& kind_name, const py::array_t<double, py::array::c_style>& x,
                         double separation) {
   const PlainArithmetic guard;

@@ -9,7 +9,8 @@ Interval(lo=0.5, hi=0.5)
 
 A query consists of vertices that move linearly from t = 0 to t = 1 and form two closed primitives. The
 question is whether the distance of the primitives is at most the separation at some t in [0, 1]. All
-coordinates have the same, arbitrary unit; times are fractions of the step. Every function takes
+coordinates have the same, arbitrary unit; times are fractions of the step. Every function takes these
+arguments:
 
 kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, 'ee' for the edges x0x1 and x2x3, 'vv' for the vertices
        x0 and x1, or 've' for a vertex x0 and an edge x1x2
@@ -18,9 +19,9 @@ x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices
        (8, 3) is one query, and its results are NumPy scalars instead of arrays (n,). Functions read float64
        and float32 in place, with any strides, and convert integers to float64.
 
-and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation
-that is negative or not finite. Other Python threads run during a call. trial() puts CCDs on trial, such as a
-Python function; wrap the function in a Subject to describe it.
+Every function raises a ValueError that names the first query with a coordinate that is not finite, or with a
+separation that is negative or not finite. Other Python threads run during a call. trial() puts CCDs on trial,
+such as a Python function. To say more about the function, wrap it in a Subject.
 """
 
 from nearmiss import _built  # noqa: F401, before all that needs the compiled modules

@@ -72,7 +72,7 @@ class Finding:
         return ax
 
     def _places(self) -> NDArray[np.float64]:
-        """The vertices at t = 0, and at contact or, without contact, at t = 1: (2, v, 3)."""
+        """The vertices at two times, (2, v, 3): at t = 0, and at contact, or at t = 1 without contact."""
         end = float(earliest_time(self.kind, self.x, self.separation).lo)
         t = end if 0 < end <= 1 else 1.0
         with np.errstate(all='ignore'):
@@ -134,7 +134,7 @@ def _picture(kind: str, places: NDArray[np.float64]) -> str:
 
 
 def finding_of(columns: dict[str, Any], explain: Callable[..., str]) -> Finding:
-    """Makes a finding. `columns` has its properties, under the names of those of Findings."""
+    """Makes a finding. `columns` has its element of each array of Findings, by the array's name."""
     kind: Any = str(columns['kind'])
     count = _LAYOUTS[kind_of(kind)].vertices
     shrunk = bool(columns['is_shrunk'])

@@ -78,14 +78,15 @@ def collides(
     *,
     decided_by: bool = False,
 ) -> Any:
-    """Whether the primitives come within the separation at some t in [0, 1]; 0 asks whether they touch.
+    """Whether the primitives come within the separation at some t in [0, 1].
 
-    The answer is that of exact arithmetic, even for degenerate, huge and subnormal queries. If the
-    smallest distance is exactly the separation, the answer is yes.
+    A separation of 0 asks whether the primitives touch. The answer is that of exact arithmetic, even for
+    degenerate, huge and subnormal queries. If the smallest distance is exactly the separation, the answer is
+    yes.
 
     kind, x:    the queries, as help(nearmiss) describes them
     separation: a number for all queries, or (n,), in the unit of the coordinates
-    decided_by: if true, returns a pair: the answers, and what decided each of them, as values of DecidedBy
+    decided_by: if true, returns a pair: the answers, and what decided each query, as values of DecidedBy
     """
     asked = Asked(kind, x, separation)
     answers, deciders = _interface.collides(asked.queries)
@@ -104,7 +105,7 @@ def earliest_time(
 
     By default, lo and hi are equal if t* is a double, and neighbouring doubles if it is not. With `width`,
     hi - lo may be as large as `width`. lo is a safe time of impact: the distance exceeds the separation at
-    all earlier times. Both are infinite if there is no collision.
+    all earlier times. lo and hi are infinite if there is no collision.
 
     kind, x, separation: as for collides()
     """
@@ -122,10 +123,10 @@ def time_of_impact(
     """Whether each query is a collision at some t in [0, tmax], and its time of impact.
 
     The time is the largest double that is not after t* (earliest_time()), so the distance exceeds the
-    separation at all earlier times. It is infinite if there is no collision.
+    separation at all earlier times. The time is infinite if there is no collision.
 
     kind, x, separation: as for collides()
-    tmax:                the end of the part of the step to look at, at most 1
+    tmax:                the queries are about t in [0, tmax]; at most 1
     """
     tmax = at_most_1('tmax', tmax)
     asked = Asked(kind, x, separation)
@@ -160,7 +161,7 @@ def certificate(
     *,
     prove: Literal['decision', 'time', 'distance'] = 'decision',
 ) -> Any:
-    """A proof of the answer to each query, which a short program checks with nothing but fractions.
+    """A proof of the answer to each query. A short program checks the proof, in exact fractions.
 
     For one query, returns the proof as a string; for several, returns an array (n,) of strings. A string has
     one or two lines of JSON. check() of tools/certificates/check.py, in the sources, reads a line and
@@ -168,8 +169,8 @@ def certificate(
     certificate takes a millisecond and has a thousand characters.
 
     A certificate contains only the statements that can be proved. A statement has no proof only if the
-    distance reaches the separation at an irrational time, and neither falls below it nor stays equal to it.
-    If no statement is left, returns None in place of a string.
+    distance reaches the separation at an irrational time, and then neither falls below the separation nor
+    stays equal to it. If no statement is left, returns None in place of a string.
 
     kind, x, separation: as for collides()
     prove: 'decision': the answer of collides();
@@ -209,7 +210,8 @@ def wang_bound(
     """The most by which the distance of a false positive of wang() exceeds the separation, in the unit of the
     coordinates.
 
-    For contact, it is about 41 B ε^¼, where B is the size of the pair and ε the machine epsilon of double.
+    Without a separation, this bound is about 41 B ε^¼, where B is the size of the pair and ε the machine
+    epsilon of double.
 
     kind, x, separation: as for wang()
     """
@@ -229,15 +231,15 @@ def record(
     keep: bool = False,
 ) -> None:
     """Records queries and answers in the file that the environment variable NEARMISS_RECORD names, as
-    nearmiss_record.h does in C; without the variable, does nothing. `nearmiss replay FILE --as-answered` judges
-    them.
+    nearmiss_record.h does in C. Does nothing if the variable is not set. `nearmiss replay FILE
+    --as-answered` judges the answers.
 
     x:       the queries, (n, 2, v, 3) or (n, 2 v, 3), with v = 4, or 2 for 'vv' and 3 for 've'; without n for one query
-    answers: what the CCD answered: bools, or 0, 1 and 2 for "cannot tell"
+    answers: what the CCD answered: bools, or 0 for no, 1 for yes and 2 for "cannot tell"
     times:   the times that the CCD gave, NaN where it gave none
     tmax:    the CCD was asked about t in [0, tmax]
     keep:    whether to keep these records longer, as for slow queries
-    All but x are a number for all queries, or (n,). Other shapes raise a ValueError.
+    answers, times, separation and tmax: a number for all queries, or (n,). Other shapes raise a ValueError.
     """
     number, vertices = _LAYOUTS[kind_of(kind)]
     rows = np.ascontiguousarray(x, np.float64)

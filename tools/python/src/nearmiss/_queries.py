@@ -64,7 +64,8 @@ def kind_of(kind: KindLike) -> Kind:
 
 
 def is_by_time(shape: tuple[int, ...], v: int) -> bool:
-    """Whether an array of queries of v vertices has an axis for the two times. Raises a ValueError for other arrays."""
+    """Whether an array of queries with v vertices has an axis for the two times. Raises a ValueError for a
+    shape that no such array has."""
     by_time = shape[-3:] == (2, v, 3)
     is_known = by_time or shape[-2:] == (2 * v, 3)
     if not is_known or len(shape) not in (2 + by_time, 3 + by_time):
@@ -129,12 +130,12 @@ def asked_of_wang(kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: Ar
 
 
 def not_negative(name: str, value: Any) -> float:
-    """The value of an option as a nonnegative double. Raises TypeError or ValueError with its name."""
+    """The value of an option as a nonnegative double, or a TypeError or ValueError with the option's name."""
     return _option(name, value, 'a double that is not negative', lambda number: number >= 0)
 
 
 def at_most_1(name: str, value: Any) -> float:
-    """The value of an option as a double that is at most 1. Raises TypeError or ValueError with its name."""
+    """The value of an option as a double up to 1, or a TypeError or ValueError with the option's name."""
     return _option(name, value, 'a double that is at most 1', lambda number: number <= 1)
 
 
@@ -155,7 +156,7 @@ def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool
 
 
 def _numbers(values: ArrayLike, name: str) -> Coordinates:
-    """The values as an aligned float64 or float32 array. Raises an exception if that needs rounding."""
+    """The values as an aligned float64 or float32 array. Values that need rounding raise an exception."""
     array = np.asarray(values)
     if array.dtype not in (np.float64, np.float32):
         if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:

@@ -1,4 +1,4 @@
-"""Puts Python functions on trial: asks them hard random queries, and compares with the exact answers."""
+"""Puts Python functions on trial: asks them hard random queries, and compares the answers with exact ones."""
 
 import atexit
 import dataclasses
@@ -40,8 +40,8 @@ class Subject:
     name:     the subject's name in results; by default, the name of the function
     time:     unless it is 'none', the function returns (bools, times), with a time in [0, 1] for each
               collision. 'estimate': the times are near the earliest times; 'lower-bound': the times are
-              never after the earliest times; 'free-step': also, the rounded step to x0 + time (x1 - x0) has
-              no contact on the way
+              never after the earliest times; 'free-step': in addition, the step to the time, rounded to
+              doubles, has no contact on the way
     kinds:    the kinds of queries that the subject is asked
     takes_separation: whether the subject is asked queries with a separation h > 0
     """
@@ -112,10 +112,10 @@ class Counts:
     missed: int = 0  # collisions that it did not report
     false_positives: int = 0  # queries that it reported and that are no collisions
     late: int = 0  # times after the earliest time, although promised as lower bounds
-    committed: int = 0  # sound times to which the rounded step has contact before its end
+    committed: int = 0  # times that are not late, although the rounded step to them has contact
     no_answer: int = 0  # queries without an answer, such as a collision without a time
     beyond_contract: int = 0  # queries that it was not asked, because its contract excludes them
-    farthest: float = 0.0  # largest distance of a false positive / bound (or wang's bound)
+    farthest: float = 0.0  # largest distance of a false positive / its bound (otherwise wang's)
 
     def __add__(self, other: 'Counts') -> 'Counts':
         sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
@@ -125,8 +125,9 @@ class Counts:
 
 @dataclass(frozen=True)
 class Findings:
-    """Queries on which subjects fail, with an array for each property. findings[mask] has some of them, and
-    findings[i] is one of them, a Finding. `for finding in findings` also gives each as a Finding.
+    """Queries on which subjects fail, with an array for each property. findings[mask] has some of the
+    queries, and findings[i] is one query, a Finding. `for finding in findings` gives each query as a
+    Finding.
 
     x, separation:             the queries: (m, 2, 4, 3) and (m,); 'vv' and 've' repeat their last vertex
     shrunk, shrunk_separation: where is_shrunk is true, the simplest queries that fail in the same way;
@@ -136,8 +137,8 @@ class Findings:
                                'oracle-disagreement'
     class_:                    'ordinary', 'degenerate' or 'extreme'
     subject, family:           names
-    signature:                 what findings of the same kind have in common, such as the features of the
-                               first contact
+    signature:                 what findings that fail in the same way have in common, such as the features
+                               of the first contact
     provenance:                family:seed:index
     """
 
@@ -199,7 +200,7 @@ class TrialResult:
     def counts(
         self, subject: str, *, kind: Optional[KindLike] = None, family: Optional[str] = None
     ) -> Counts:
-        """The counters of a subject, summed over kinds and families unless they are given."""
+        """The counters of a subject, summed over all kinds and families, or only over those given."""
         if subject not in self.subjects:
             known = ', '.join(self.subjects)
             raise ValueError(f'found the subject {subject!r}, expected one of {known}')
@@ -250,20 +251,20 @@ def trial(
 ) -> TrialResult:
     """Asks subjects hard random queries, and compares their answers with the exact ones.
 
-    subjects: one or several of these: a Subject; a function as a Subject has it; the name of a CCD or the
+    subjects: one or several of these: a Subject; a function like that of a Subject; the name of a CCD or the
               path of a plug-in, as for `nearmiss fuzz` ('wang', 'fcl', './mine.so'). Plug-ins and published
               CCDs run in processes of their own, for which they need the program nearmiss of the same version
     cases:    total number of queries, divided among the families
-    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists them. By
-              default, all families that ask for contact, and those of vertices and edges, which
-              draw separations; without those of kinds that none of the functions decides
+    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists the names. By default,
+              all families that ask for contact, and the families of vertices and edges, which draw
+              separations, but no family of kinds that none of the functions decides
     seed:     seed of the random queries; `nearmiss fuzz` asks the same queries with the same families, cases
               and seed
     shrunk:   how many findings of each signature and class are shrunk; shrinking one finding may ask a
               subject thousands of queries
     progress: whether a line on stderr shows the progress; by default, only in a terminal or a notebook
 
-    Exceptions of a function end the trial, and are passed on.
+    An exception that a function raises ends the trial, and is passed on.
     """
     chosen = _subjects_of(subjects)
     cases, seed, shrunk = (
@@ -348,7 +349,7 @@ def _count(name: str, value: Any) -> int:
 
 
 def families() -> dict[str, str]:
-    """The names of the families of random queries, each with what is hard about its queries."""
+    """The names of the families of random queries, and for each name what is hard about the queries."""
     return dict(_extension().families())
 
 
