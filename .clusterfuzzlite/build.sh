@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Builds the libFuzzer targets the way OSS-Fuzz and ClusterFuzzLite expect: from the current folder, with the
 # compilers and flags of the environment. $OUT receives each target, its seeds, its options, its dictionary
-# and its libraries. Arguments name targets; without arguments, all are built.
+# and its libraries. The arguments are names of targets; without arguments, the script builds all targets.
 set -euo pipefail
 source tools/options.sh
 options '' "$@"
 
-# Ubuntu's libraries are built with libstdc++, so a program that links them must use it too. Warnings of a
-# newer clang must not stop the build, hence -w.
+# Ubuntu's libraries are built with libstdc++, so a program that links them must use libstdc++, too. -w,
+# because warnings of a newer clang must not stop the build.
 CXXFLAGS="${CXXFLAGS//-stdlib=libc++/} -w"
 
 build=$WORK/build
@@ -30,7 +30,7 @@ for target in "$@"; do
     cp fuzz/libfuzzer/reader_target.dict "$OUT/$name.dict"
   fi
   cp "fuzz/libfuzzer/${kind}_target.options" "$OUT/$name.options"
-  # The machine that runs the target has the libraries of glibc for certain, and no others.
+  # Copies all libraries but those of glibc, since the machine that runs the target may have only these.
   ldd "$build/$name" | awk '$2 == "=>" && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ {print $3}' |
     xargs cp -Lt "$OUT/lib"
 done

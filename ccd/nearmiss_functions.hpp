@@ -1,13 +1,13 @@
-// Makes plug-ins from functions with the field's usual signatures, in C++17. A plug-in includes the
-// functions' own header, then this one, and describes a detector; tools/subject compiles it:
+// Makes plug-ins from functions with the field's usual signatures, in C++17. The source of a plug-in includes
+// the header of the functions, then this one, and describes a detector. tools/subject compiles it:
 //
 //   #include "mine.hpp"
 //   #include "ccd/nearmiss_functions.hpp"
 //   NEARMISS_SUBJECT(detector("mine").vertex_triangle(point_triangle_ccd).edge_edge(edge_edge_ccd))
 //
-// The signature of each function is recognised. V stands for the vertices x0 x1 .. at t = 0, then at t = 1: 8
-// for a vertex and a triangle, and for two edges; 6 for a vertex and an edge; 4 for two vertices. X stands
-// for the vertices at t = 0, D for their displacements, and h for the separation:
+// This header recognises the signature of each function. V stands for the vertices x0 x1 .. at t = 0, then
+// those at t = 1: 8 arguments for vt and ee, 6 for ve, 4 for vv. X stands for the vertices at t = 0, D for
+// their displacements, and h for the separation:
 //
 //   signature                                          as in                gives times       takes h
 //   bool f(V, double& toi, double h, double tmax)      ipc-toolkit          lower bounds      yes
@@ -18,29 +18,30 @@
 //   bool f(x0, x0 at t = 1, 0, x1, x1 at t = 1, 1, ..) El Topo              none              no
 //   Answer f(const Question&)                          everything else      none              no
 //
-// The compiler cannot tell that a function wants its vertices in another order, such as the triangle first,
-// or that two numbers mean something else than in the table: call such a function from one that takes a
+// The compiler does not notice if a function takes its vertices in another order, such as the triangle first,
+// or if its numbers mean something else than in the table. Call such a function from one that takes a
 // Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts,
 // the detector claims the weakest sort.
 //
-// Codim-IPC's functions get eta = 0.1, toi = 1, and rounded displacements; their thickness is the separation.
-// A vertex may be a const double*, any type of Eigen's if Eigen is included before this header, or a type
-// that is made from three numbers by T{x, y, z}. `int` may take the place of `bool`.
+// A function with the signature of Codim-IPC gets eta = 0.1, toi = 1 and rounded displacements; the
+// separation is its thickness h. A function may take a vertex as a const double*, as a vector of Eigen if
+// Eigen is included before this header, or as a type T that T{x, y, z} makes from three numbers. It may
+// return `int` in place of `bool`.
 //
-// A function that is overloaded, has default arguments or is a member is passed as NEARMISS_CALL(f), such as
-// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() overrides the table, and sets any other field of
-// nearmiss_subject.h:
+// Pass a function f that is overloaded, has default arguments or is a member as NEARMISS_CALL(f), such as
+// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() sets any field of nearmiss_subject.h, also to
+// another value than the table gives:
 //
 //   .set(&nearmiss_subject::time_sort, NEARMISS_NO_TIME).set(&nearmiss_contract::apart_at_start, 1)
 //
-// A function that returns the distance of two primitives at rest, from the vertices x0 x1 .., is added in the
-// same way; squared(f) is for a function that returns the square of the distance:
+// A detector may also have functions that return the distance of primitives with the vertices x0 x1 .. at
+// rest. squared(f) makes such a function from one that returns the squared distance:
 //
 //   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
 //
-// A filter of steps is a double f(const Question&, double* y), added by .edge_edge_step(f), and so on. It
-// writes the positions at the end of the safe step to y, and returns the clearance that it claims on the way
-// there (nearmiss_subject.h).
+// .edge_edge_step(f), and so on, add a filter of steps, double f(const Question&, double* y). It writes the
+// positions at the end of the safe step to y. It returns the clearance that it claims during this step
+// (nearmiss_subject.h).
 #pragma once
 
 #include <algorithm>
@@ -62,7 +63,7 @@
 
 namespace nearmiss::plugin {
 
-/// Converts to exactly the type Number, since compilers differ in whether T{x, y, z} may round a double.
+/// Converts to Number and to no other type. (Compilers differ in whether T{x, y, z} may round a double.)
 template <class Number>
 struct Exactly {
   template <class T, class = std::enable_if_t<std::is_same_v<T, Number>>>
@@ -85,7 +86,7 @@ constexpr bool is_eigen =
     false;
 #endif
 
-/// A vertex that converts to any vector type that a function takes.
+/// A vertex that converts to any type in which a function may take a vertex.
 class Point {
  public:
   explicit Point(const double* x) : x_(x) {}
@@ -95,7 +96,7 @@ class Point {
   operator T() const {  // NOLINT(google-explicit-constructor): functions take it as their vector
     if constexpr (std::is_same_v<T, const double*>) return x_;
 #ifdef EIGEN_WORLD_VERSION
-    else if constexpr (is_eigen<T>)  // without a copy, so that a Ref may refer to the coordinates
+    else if constexpr (is_eigen<T>)  // copies nothing, so that an Eigen::Ref may refer to the coordinates
       return T(Eigen::Map<const Eigen::Vector3d>(x_).template cast<typename T::Scalar>());
 #endif
     else if constexpr (is_braced<T, double>)
@@ -108,7 +109,6 @@ class Point {
   const double* x_;
 };
 
-/// How many vertices a query of a kind has.
 constexpr std::size_t vertices_of(int kind) {
   return kind == NEARMISS_VERTEX_VERTEX ? 2 : kind == NEARMISS_VERTEX_EDGE ? 3 : 4;
 }
@@ -128,7 +128,7 @@ struct Answer {
   int value = NEARMISS_NO_COLLISION;
   double time = std::numeric_limits<double>::quiet_NaN();
 
-  /// The answer of a function that returns whether there is a collision.
+  /// The answer of a function that returns only whether there is a collision.
   static Answer of(bool collides) { return {collides ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION}; }
   static Answer of(bool collides, double time) { return {of(collides).value, time}; }
 
@@ -136,20 +136,19 @@ struct Answer {
   explicit operator bool() const { return value != NEARMISS_NO_COLLISION; }
 };
 
-/// The vertices of a query as a tuple: at t = 0, then at t = 1.
+/// The vertices of a query at t = 0, then those at t = 1, as a tuple.
 template <std::size_t... i>
 auto points(const Question& q, std::index_sequence<i...> /*vertices*/) {
   return std::tuple(q.start(i)..., q.end(i)...);
 }
 
-/// Calls act(start 0, start 1, ..., end 0, end 1, ...) for a query of n vertices. n is 4 unless the query's
-/// kind is vv or ve.
+/// Calls act(start 0, start 1, ..., end 0, end 1, ...) for a query of n vertices.
 template <std::size_t n = 4, class Act>
 auto with_vertices(const Question& q, const Act& act) {
   return std::apply(act, points(q, std::make_index_sequence<n>()));
 }
 
-/// A query's coordinates at t = 0, then the displacements, which are rounded.
+/// A query's coordinates at t = 0, then the rounded displacements of its vertices.
 inline std::array<double, 24> displaced(const Question& q) {
   const std::size_t n = 3 * vertices_of(q.kind);
   std::array<double, 24> x;
@@ -168,7 +167,7 @@ template <class Result>
 constexpr bool is_answer =
     std::is_same_v<Result, bool> || std::is_same_v<Result, int> || std::is_same_v<Result, Answer>;
 
-/// Whether a function of type F takes these arguments, and returns an answer.
+/// Whether a function of type F takes arguments of these types, and returns an answer.
 template <class Void, class F, class... Argument>
 constexpr bool answers = false;
 template <class F, class... Argument>
@@ -176,7 +175,7 @@ constexpr bool answers<std::void_t<std::invoke_result_t<const F&, Argument...>>,
     is_answer<std::invoke_result_t<const F&, Argument...>>;
 
 /// Asks a function of type F about queries of one kind, as its signature requires. `State` is the tuple of
-/// the function's first arguments: the options, or nothing.
+/// arguments before those of the signature: the options, or nothing.
 template <class F, class State, int kind>
 class Asked {
   using Vertices = std::make_index_sequence<vertices_of(kind)>;
@@ -192,13 +191,13 @@ class Asked {
 
   using Points = decltype(points(std::declval<Question>(), Vertices()));
   using Indexed = decltype(indexed(std::declval<Question>(), Vertices()));
-  /// Whether the function takes its state, the vertices, and these arguments.
+  /// Whether the function takes the state, then the tuple First of vertices, then these arguments.
   template <class First, class... Argument>
   static constexpr bool takes = Takes<decltype(std::tuple_cat(
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
 
   static constexpr bool is_question = takes<std::tuple<const Question&>>;
-  // The time must be a reference. A plain number in its place means something else.
+  // A function that takes a number in place of the reference double& toi has another signature.
   static constexpr bool is_ipc =
       takes<Points, double&, double, double> && !takes<Points, double, double, double>;
   static constexpr bool is_displaced =
@@ -255,10 +254,10 @@ class Asked {
 template <class Settings>
 Settings owner_of(const Option<Settings>* /*option*/);
 
-/// The task of a detector's function: it decides queries, gives a distance, or filters a step.
+/// The task of a function of a detector: to decide queries, to give distances, or to filter steps.
 enum class Role { decide, measure, step };
 
-/// A function of a detector for primitives of a kind.
+/// A function of a detector, with its role and the kind of queries for which it is.
 template <Role its_role, int its_kind, class F>
 struct Part {
   static constexpr Role role = its_role;
@@ -266,14 +265,14 @@ struct Part {
   F f;
 };
 
-/// Whether a function of type F takes these arguments, and returns a number.
+/// Whether a function of type F takes arguments of these types, and returns a number.
 template <class F, class Arguments>
 constexpr bool gives_number = false;
 template <class F, class... Argument>
 constexpr bool gives_number<F, std::tuple<Argument...>> =
     std::is_invocable_r_v<double, const F&, Argument...>;
 
-/// Calls a function that gives the distance of the primitives with these vertices.
+/// The distance of the primitives with the coordinates x according to f. `front` has f's first arguments.
 template <class F, class Front, std::size_t... i>
 double distance_by(const F& f, const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) {
   auto arguments = std::tuple_cat(front, std::tuple(Point(x + 3 * i)...));
@@ -283,7 +282,6 @@ double distance_by(const F& f, const Front& front, const double* x, std::index_s
   return 0;
 }
 
-/// Turns a function that returns a squared distance into one that returns the distance.
 template <class F>
 auto squared(F f) {
   return [f](auto&&... argument) -> decltype(std::sqrt(f(std::forward<decltype(argument)>(argument)...))) {
@@ -293,7 +291,7 @@ auto squared(F f) {
 
 struct NoOptions {};
 
-/// A detector, described step by step: each of its functions returns a copy with one more part or setting.
+/// A description of a detector. Each member function returns a copy of it with one more part or setting.
 template <class Settings, class... Parts>
 struct Detector {
   nearmiss_subject subject;
@@ -353,7 +351,7 @@ struct Detector {
     return with<Role::step, NEARMISS_VERTEX_EDGE>(f);
   }
 
-  /// Sets a field of nearmiss_subject.h.
+  /// Sets a field of nearmiss_subject, or of its contract.
   template <class T, class Value>
   Detector set(T nearmiss_subject::*field, Value value) const {
     Detector changed = *this;
@@ -367,8 +365,8 @@ struct Detector {
     return changed;
   }
 
-  /// Lets the user set these options, KEY=NUMBER. Every function then gets them as its first argument, a
-  /// const Settings&.
+  /// Lets the user set these options, KEY=NUMBER. Every function then gets their values in its first
+  /// argument, whose type is the struct that the options are members of.
   template <const auto& settings>
   auto options() const {
     using State = decltype(owner_of(settings.data()));
@@ -393,12 +391,11 @@ struct Detector {
       return {*static_cast<const Settings*>(state)};
   }
 
-  /// Calls act(part) for each function.
   template <class Act>
   void for_each_part(const Act& act) const {
     std::apply([&](const auto&... part) { (act(part), ...); }, parts);
   }
-  /// Calls act(part) for the functions with a role for a kind.
+  /// Calls act(part) for each function that has this role for this kind.
   template <Role role, class Act>
   void for_parts_of(int kind, const Act& act) const {
     for_each_part([&](const auto& part) {
@@ -406,16 +403,16 @@ struct Detector {
         if (part.kind == kind) act(part);
     });
   }
-  /// How the function that decides queries of a kind is asked.
+  /// The type Asked for a function that decides queries.
   template <int kind, class F>
   static Asked<F, Front, kind> asked(const Part<Role::decide, kind, F>& /*part*/) {
     return {};
   }
 };
 
-constexpr int from_signatures = -1;  ///< the value of a field that follows from the functions' signatures
+constexpr int from_signatures = -1;  ///< in a field that is to be set from the functions' signatures
 
-/// A detector that decides nothing yet. Users see its name, its version and the line `about`.
+/// A detector without functions. nearmiss shows its name, its version and the line `about` to users.
 inline Detector<NoOptions> detector(const char* name, const char* version = "", const char* about = "") {
   nearmiss_subject subject{};
   subject.interface_version = NEARMISS_INTERFACE;
@@ -427,14 +424,14 @@ inline Detector<NoOptions> detector(const char* name, const char* version = "", 
   return {subject, {}};
 }
 
-/// The detector number i of `Described`, a type whose describe() returns a tuple of detectors.
+/// Detector number i in the tuple of detectors that Described::describe() returns.
 template <class Described, std::size_t i>
 const auto& described() {
   static const auto all = Described::describe();
   return std::get<i>(all);
 }
 
-/// Answers n queries of a kind with the detector's function that decides this kind.
+/// Answers n queries of a kind with the detector's function for this kind, as decide() of nearmiss_subject.h.
 template <class Detector>
 void decide_each(const Detector& detector, void* state, int kind, std::size_t n, const double* x,
                  const double* h, int* answer, double* toi) {
@@ -472,11 +469,11 @@ double step_of(void* state, int kind, const double* x, double* y) {
   return clearance;
 }
 
-/// The description of a detector, without its functions.
+/// The nearmiss_subject of a detector, without pointers to functions.
 template <class Detector>
 nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
-  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // sort: the weakest that any function gives
+  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // sort: the weakest of all functions
   detector.for_each_part([&](const auto& part) {
     constexpr Role role = std::decay_t<decltype(part)>::role;
     if constexpr (role == Role::decide) {
@@ -497,7 +494,8 @@ nearmiss_subject described_by(const Detector& detector) {
   return subject;
 }
 
-/// The description of a detector without options. The state that decide() gets is a pointer to the detector.
+/// The nearmiss_subject of a detector without options, with only decide(), whose state is a pointer to the
+/// detector.
 template <class... Parts>
 nearmiss_subject described_by_itself(const Detector<NoOptions, Parts...>& detector) {
   using Its = Detector<NoOptions, Parts...>;

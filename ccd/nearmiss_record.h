@@ -1,19 +1,19 @@
-/* Records the queries that a program asks its CCD, and the answers. C99 or C++, g++ or clang, POSIX. After
- * each call of the CCD, the program calls
+/* Records the queries that a program asks its CCD, and the CCD's answers. C99 or C++, g++ or clang, POSIX.
+ * After each call of the CCD, the program calls
  *
  *   nearmiss_record(NEARMISS_EDGE_EDGE, x, h, 1, answer, toi, 0);
  *
- * This keeps the latest queries in a file of fixed size, a ring:
+ * The file of these records has a fixed size; the latest records replace the oldest:
  *
- *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is its size; by default 64M
+ *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is the size; by default 64M
  *   nearmiss replay run.nmq --as-answered                judges the answers
  *
- * Without the environment variable, a call costs about a nanosecond. With it, any number of threads may
- * record at once, and a child that a process forks shares its file. If another process, or a shared object
- * with a recorder of its own, already records to this file, the new recording gets the process's number in
- * its name: run-4711.nmq. An earlier recording in run.nmq becomes run.nmq~. If the program crashes, the file
- * has everything except records that were just being written. If there is no room for the file, a line on
- * stderr says so, and nothing is recorded. */
+ * If the environment variable NEARMISS_RECORD is not set, a call costs about a nanosecond. If it is set, any
+ * number of threads may record at once, and a forked child process records to the file of its parent. If
+ * another process, or a shared object with a recorder of its own, already records to run.nmq, the name of the
+ * new file contains the number of the process: run-4711.nmq. A finished recording in run.nmq is renamed to
+ * run.nmq~. If the program crashes, only records that were just being written are lost. If the disk has no
+ * room for the file, a line on stderr says so, and nothing is recorded. */
 #ifndef NEARMISS_RECORD_H
 #define NEARMISS_RECORD_H
 
@@ -50,28 +50,31 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag: keep this record longer, in a part of the file that is only for records with the flag. Set it for
- * queries that matter: slow ones, those with a time of 0, or those of a step that ends in an intersection. */
+/* A flag that keeps a record longer: such records have a part of the file to themselves. Set it for queries
+ * that matter, such as slow ones, those with a time of impact of 0, and those of a step that ends in an
+ * intersection. */
 #define NEARMISS_KEEP 1
 
-/* The file: this header, then `slots` records, then `kept_slots` records with NEARMISS_KEEP. */
+/* Values in the header of a recording. */
 #define NEARMISS_RECORDING_MAGIC "NEARMISS"
 #define NEARMISS_RECORDING_VERSION 1
 #define NEARMISS_RECORDING_BYTE_ORDER 0x01020304
 
+/* The header of a recording. In the file, it is followed by `slots` records without the flag NEARMISS_KEEP,
+ * then by `kept_slots` records with this flag. */
 typedef struct {
   char magic[8];
   uint32_t version, byte_order;
   uint64_t slots, kept_slots;
   uint64_t unused[12];
-  uint64_t next[8];      /* next[0]: the number of records so far, of both parts */
+  uint64_t next[8];      /* next[0]: the number of records so far, in both parts of the file */
   uint64_t next_slot[8]; /* next_slot[0]: the number of records so far in the first part */
   uint64_t next_kept[8]; /* next_kept[0]: the number of records so far in the second part */
-  uint64_t rest[472];    /* up to 4096 bytes */
+  uint64_t rest[472];    /* makes the header 4096 bytes long */
 } nearmiss_recording;
 
 typedef struct {
-  uint64_t number; /* from 1 on, in order; 0 while the record is written */
+  uint64_t number; /* 1 for the first record, 2 for the next, ...; 0 while the record is being written */
   uint32_t check;  /* nearmiss_record_check() */
   uint8_t kind, is_float, flags;
   int8_t answer;
@@ -80,9 +83,10 @@ typedef struct {
   uint64_t unused[3];
 } nearmiss_record_slot;
 
-/* The program's recorder. All source files share it, and so do the shared objects that can see its symbol. */
+/* The recorder of the program. All its source files share this recorder, as do all shared objects that can
+ * see the symbol. */
 typedef struct {
-  int state;  /* 0: not yet asked; 1: off; 2: on; 3: a thread is deciding */
+  int state;  /* 0: not yet known; 1: off; 2: on; 3: a thread is opening the file */
   int opener; /* the process that opens the file, while `state` is 3 */
   nearmiss_recording* file;
 } nearmiss_recorder;
@@ -100,7 +104,7 @@ __attribute__((unused)) static uint32_t nearmiss_record_check(const nearmiss_rec
   uint64_t words[28], sum = 0;
   size_t i;
   memcpy(words, (const char*)slot + offsetof(nearmiss_record_slot, check), sizeof words);
-  words[0] &= ~(uint64_t)UINT32_MAX; /* leaves out `check`, in the byte order of x86 and ARM */
+  words[0] &= ~(uint64_t)UINT32_MAX; /* clears `check`, in the byte order of x86 and ARM */
   for (i = 0; i < 28; ++i) sum = (sum << 7 | sum >> 57) ^ words[i];
   sum *= UINT64_C(0x9e3779b97f4a7c15);
   return (uint32_t)(sum >> 32);
@@ -112,8 +116,9 @@ __attribute__((unused)) static int nearmiss_record_fails(const char* file, const
   return 0;
 }
 
-/* Opens and locks a new file of this name. An earlier file that no process uses gets a ~ after its name.
- * Returns -1 for an error; EWOULDBLOCK means that a process uses the file. */
+/* Opens and locks a new file with the name `file`, and returns its descriptor. Renames an earlier file with
+ * this name to `file`~ unless a process uses it. Returns -1 after an error; errno is EWOULDBLOCK if a process
+ * uses the earlier file. */
 __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   struct stat found, named;
   char earlier[4097];
@@ -139,7 +144,7 @@ __attribute__((unused)) static int nearmiss_record_open(const char* file) {
     return -1;
   }
   if (found.st_size == 0) return fd;
-  old = fd; /* stays locked until the new file is */
+  old = fd; /* stays locked until the new file is locked */
   fd = rename(file, earlier) == 0 ? open(file, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
   why = errno == EEXIST ? EWOULDBLOCK : errno;
   if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0) {
@@ -152,8 +157,8 @@ __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   return fd;
 }
 
-/* Opens the file. If another process or shared object uses it, opens one with this process's number in its
- * name instead. Writes the name of the opened file to `own`. */
+/* Opens a new file with the name `file`. If another process or shared object uses that file, opens one whose
+ * name also contains the number of this process. Writes the name of the opened file to `own`. */
 __attribute__((unused)) static int nearmiss_record_open_own(const char* file, char* own, size_t size) {
   const char* dot = strrchr(file, '.');
   const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
@@ -177,7 +182,7 @@ __attribute__((unused)) static int nearmiss_record_may_have(size_t size) {
   return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
 }
 
-/* Makes a file for this many bytes of records, and maps it into memory. Returns whether that succeeds. */
+/* Makes a file for `bytes` bytes of records, and maps it into memory. Returns 1 for success, else 0. */
 __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t bytes) {
   char own[4097];
   nearmiss_recording* head;
@@ -195,7 +200,7 @@ __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t 
   memory = error == 0 ? mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
   if (memory == MAP_FAILED) {
     if (error == 0) error = errno;
-    unlink(own); /* this process made it, or found it empty */
+    unlink(own); /* this process made the file, or found it empty */
     close(fd);
     return nearmiss_record_fails(own, strerror(error));
   }
@@ -209,8 +214,8 @@ __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t 
   return 1;
 }
 
-/* Records to this file from now on, whatever the environment says; NULL ends recording for good. Returns
- * whether queries are recorded from now on. Call it before other threads record. */
+/* Makes the recorder write to `file` from now on, whatever the environment says; NULL ends recording for
+ * good. Returns 1 if queries are now recorded, else 0. Call this function before other threads record. */
 __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t bytes) {
   int is_on;
   nearmiss_the_recorder.opener = (int)getpid();
@@ -220,8 +225,8 @@ __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t b
   return is_on;
 }
 
-/* The number of bytes that a text gives, such as 1000000, 64K, 64M or 1G: `otherwise` if the text is NULL or
- * empty, and 0 if it is no such number. */
+/* Reads a number of bytes, such as 1000000, 64K, 64M or 1G. Returns `otherwise` if the text is NULL or empty,
+ * and 0 if it is not a number of bytes. */
 __attribute__((unused)) static size_t nearmiss_record_bytes(const char* text, size_t otherwise) {
   unsigned long long number;
   char* end;
@@ -238,16 +243,16 @@ __attribute__((unused)) static size_t nearmiss_record_bytes(const char* text, si
 /* Starts recording if the environment asks for it. Only the first call has an effect. */
 __attribute__((unused, noinline)) static void nearmiss_record_begin(void) {
   int asked = 0;
-  nearmiss_the_recorder.opener = (int)getpid(); /* the same for every thread that may open the file */
+  nearmiss_the_recorder.opener = (int)getpid(); /* all threads that get here write the same number */
   if (!__atomic_compare_exchange_n(&nearmiss_the_recorder.state, &asked, 3, 0, __ATOMIC_ACQ_REL,
                                    __ATOMIC_ACQUIRE))
-    return; /* another thread opens it */
+    return; /* another thread opens the file */
   nearmiss_record_to(getenv("NEARMISS_RECORD"),
                      nearmiss_record_bytes(getenv("NEARMISS_RECORD_BYTES"), (size_t)64 << 20));
 }
 
-/* Whether queries are recorded. The first call opens the file; other threads wait for it. A child process
- * that is forked while the file is being opened records nothing. */
+/* Returns whether queries are recorded. The first call opens the file, and calls in other threads wait until
+ * it is open. A child process that is forked during this time records nothing. */
 static inline int nearmiss_record_is_on(void) {
   int state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
   if (state == 0) nearmiss_record_begin();
@@ -260,7 +265,7 @@ static inline int nearmiss_record_is_on(void) {
   return state == 2;
 }
 
-/* Sets the number and the checksum of a record, and writes the record. */
+/* Writes a record to the file, with its number and its checksum. */
 __attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_record_slot* record) {
   nearmiss_recording* const file = nearmiss_the_recorder.file;
   nearmiss_record_slot* slot = (nearmiss_record_slot*)(file + 1);
@@ -276,7 +281,7 @@ __attribute__((unused, noinline)) static void nearmiss_record_write(nearmiss_rec
   __atomic_store_n(&slot->number, number, __ATOMIC_RELEASE);
 }
 
-/* How many coordinates a query of a kind has: 24, 18 or 12. */
+/* The number of coordinates of a query of this kind: 24, 18 or 12. */
 __attribute__((unused)) static int nearmiss_record_size(int kind) {
   return kind == NEARMISS_VERTEX_VERTEX ? 12 : kind == NEARMISS_VERTEX_EDGE ? 18 : 24;
 }
@@ -297,11 +302,11 @@ __attribute__((unused)) static nearmiss_record_slot nearmiss_record_of(int kind,
 }
 
 /* Records one query and its answer.
- *   x: x0 x1 .. at t = 0, then at t = 1; x, y, z of each
- *   separation: 0 if the CCD is asked for contact
- *   tmax: the CCD is asked about t in [0, tmax]; usually 1
+ *   x: the coordinates x, y, z of x0 x1 .. at t = 0, then those at t = 1
+ *   separation: the distance for which the CCD is asked; 0 for contact
+ *   tmax: usually 1; the CCD is asked about t in [0, tmax]
  *   answer: NEARMISS_COLLISION and so on
- *   toi: the time that the CCD gives, NAN if none
+ *   toi: the time of impact that the CCD gives; NAN if it gives none
  *   flags: 0 or NEARMISS_KEEP */
 static inline void nearmiss_record(int kind, const double* x, double separation, double tmax, int answer,
                                    double toi, int flags) {
@@ -312,7 +317,7 @@ static inline void nearmiss_record(int kind, const double* x, double separation,
   nearmiss_record_write(&record);
 }
 
-/* nearmiss_record() for a program in float, whose numbers are kept exactly. */
+/* nearmiss_record() for a CCD in float. The record has exactly the given numbers. */
 static inline void nearmiss_record_float(int kind, const float* x, float separation, float tmax, int answer,
                                          float toi, int flags) {
   nearmiss_record_slot record;

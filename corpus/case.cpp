@@ -22,7 +22,6 @@ namespace {
 /// Labels of the points, in the order of Query::x.
 constexpr std::array<std::string_view, 8> point_labels{"x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3"};
 
-/// The points of Query::x that a kind has.
 std::vector<std::size_t> points_of(Kind kind) {
   std::vector<std::size_t> points;
   for (std::size_t i = 0; i < point_labels.size(); ++i)

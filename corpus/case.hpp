@@ -12,16 +12,16 @@ namespace nearmiss {
 
 /// A query with its origin and the reason to keep it.
 struct Case {
-  std::string name;  ///< source file, with the line if the file has several cases
+  std::string name;  ///< the source file, with the number of the line if the file has several cases
   Query query;
   std::optional<bool> truth = {};  ///< whether the query is a collision, if that is recorded
   std::string why = {};            ///< why the query is kept; may have several lines
   std::string provenance = {};     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
-/// The format of *.case files. The lines of `why` come first, as comments. Each point is one line of three
-/// numbers, in decimal if that is exact, else as hex floats. All labels except `truth`, `separation` and
-/// `provenance` are required:
+/// Writes a case in the format of *.case files. The lines of `why` come first, as comments. Each point is one
+/// line of three numbers, in decimal if that is exact, else as hex floats. All labels except `truth`,
+/// `separation` and `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee
@@ -30,10 +30,11 @@ struct Case {
 ///     x0 0 1 0   (x0 .. x3 at t = 0, then y0 .. y3 at t = 1)
 std::string to_text(const Case& each);
 
-/// Parses the format of to_text. Throws Error with file and line.
+/// Parses the format of to_text. Throws an Error that names the file and the line.
 Case parse_case(std::istream& in, const std::string& file);
 
-/// Writes a case to a file in the format of to_text. The file is written whole or not at all. Throws Error.
+/// Writes a case to a file in the format of to_text. The file is written whole or not at all. Throws Error if
+/// it cannot be written.
 void write_case(const Case& each, const std::filesystem::path& file);
 
 }  // namespace nearmiss

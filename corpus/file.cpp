@@ -34,7 +34,6 @@ bool write(const fs::path& file, std::string_view text) {
   return static_cast<bool>(out);
 }
 
-/// Makes a file with a new name, in the folder of `place`.
 fs::path new_file_beside(const fs::path& place) {
   for (int number = 0;; ++number) {
     const std::string name =
@@ -62,8 +61,8 @@ std::array<KnownPart, 16>& known_parts() {
   return parts;
 }
 
-/// Lets a signal handler find a part file, so that it can remove the file. A part file stays behind if too
-/// many others are known already, or if its path is too long.
+/// Notes the path of a part file, so that a signal handler can remove the file. The handler leaves the file
+/// behind if too many part files were noted before, or if the path is too long.
 void remember(const fs::path& path) {
   const std::string& text = path.native();
   for (KnownPart& part : known_parts()) {
@@ -138,7 +137,6 @@ bool is_written_through(const fs::path& file) {
   return fs::exists(status) && (!fs::is_regular_file(status) || is_open_file(file));
 }
 
-/// The file that a link leads to; the file itself if it is not a link.
 fs::path target_of(const fs::path& file) { return fs::is_symlink(file) ? true_path(file) : file; }
 
 }  // namespace
@@ -180,7 +178,7 @@ std::string read_all(std::istream& in, std::string_view name) {
 }
 
 std::string read_whole_file(const fs::path& file) {
-  constexpr std::uintmax_t most_bytes = 1 << 30;  // a sparse file has any size
+  constexpr std::uintmax_t most_bytes = 1 << 30;  // a sparse file may have any size
   expect_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));

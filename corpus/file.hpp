@@ -9,8 +9,8 @@
 
 namespace nearmiss {
 
-/// A temporary file in the folder of `place`. put_in_place() renames it to `place`; without that, the
-/// destructor removes it.
+/// A temporary file in the folder of `place`. put_in_place() renames this file to `place`; otherwise, the
+/// destructor removes the file.
 class PartFile {
  public:
   /// Makes an empty file. Throws Error if that fails.
@@ -21,7 +21,7 @@ class PartFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Asks the system to write the file's content to disk and drop it from memory. Without this, removing a
+  /// Asks the system to write the file's content to disk, and to drop it from memory. Otherwise, removing a
   /// file of gigabytes takes seconds.
   void write_out() const;
 
@@ -32,15 +32,15 @@ class PartFile {
   std::filesystem::path place_, path_;
 };
 
-/// Removes all part files. A signal handler that ends the program may call this.
+/// Removes all part files. A signal handler that ends the program may call this function.
 void remove_part_files() noexcept;
 
-/// Replaces the content of a file, or of the file that a link leads to, with this text. No reader ever sees
-/// half of the text, and a full disk leaves the old file unchanged. If the file is a pipe or a device
+/// Replaces the content of a file, or of the file that a link leads to, with `text`. No reader ever sees a
+/// part of the text, and a full disk leaves the old file unchanged. If the file is a pipe or a device
 /// (/dev/stdout), the text is written to it directly. Throws Error if the file cannot be written.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
-/// Throws Error if the file or its folder would make replace_file throw.
+/// Throws Error if replace_file() could not replace this file.
 void expect_replaceable(const std::filesystem::path& file);
 
 /// The absolute path of a file with all links resolved. The file need not exist.
@@ -50,7 +50,8 @@ std::filesystem::path true_path(const std::filesystem::path& path);
 /// that leads to nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
 
-/// The whole content of a stream. If it cannot be read to its end, throws an Error that names it `name`.
+/// The whole content of a stream. If the stream cannot be read to its end, throws an Error that calls it
+/// `name`.
 std::string read_all(std::istream& in, std::string_view name);
 
 /// The whole content of a regular file. Throws Error if the file is something else, cannot be read, or has

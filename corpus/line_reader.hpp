@@ -1,4 +1,4 @@
-// Text, line by line, in bounded memory.
+// Reads text line by line, in bounded memory.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,12 @@ class LineReader {
   /// Messages use `name` for the stream.
   LineReader(std::istream& in, std::string_view name);
 
-  /// Goes on to the next line. Returns false at the end of the stream, or if it cannot be read further. Throws
-  /// Error if the line is longer than `most_line_bytes`.
+  /// Goes on to the next line. Returns false at the end of the stream, or if the stream cannot be read
+  /// further. Throws Error if the line is longer than `most_line_bytes`.
   bool next();
 
-  /// The current line, without its '\n'. In the first line, a byte order mark is skipped. Valid until `next`.
+  /// The current line, without its '\n'. In the first line, a byte order mark is skipped. The text is valid
+  /// until next() is called.
   [[nodiscard]] std::string_view text() const { return text_; }
 
   /// The number of the current line, from 1.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view separators = " \t\r,";
 
-/// Removes the first word from `rest` and returns it; empty at the end of the line.
+/// Removes the first word from `rest`, and returns the word; "" at the end of the line.
 std::string_view next_word(std::string_view& rest) {
   const auto first = rest.find_first_not_of(separators);
   if (first == std::string_view::npos) return rest = {};
@@ -74,7 +74,7 @@ std::size_t significant_digits(std::string_view scientific) {
 /// nearest decimal with its number of digits. So it is exact if it has as many digits as the value's exact
 /// decimal.
 bool has_exact_decimal(double value) {
-  constexpr int most_digits = 767;  // of any double
+  constexpr int most_digits = 767;  // the largest number of digits of a double
   std::array<char, most_digits + 10> text;
   const auto shortest = std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific);
   const std::size_t digits = significant_digits({text.data(), shortest.ptr});

@@ -39,7 +39,7 @@ void expect_end(const std::istream& in, const std::string& name) {
   if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
 }
 
-/// The records of a recording as cases. Throws Error if there is none.
+/// Passes the records of a recording to `sink` as cases. Throws Error if there are no such records.
 void read_records(const fs::path& path, const CaseSink& sink) {
   const std::string name = path.string();
   bool any = false;
@@ -76,8 +76,8 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   expect_end(in, name);
 }
 
-/// Reads the truth that a comment " expect=1 ..." records for the next query; none if it says "expect=-" or
-/// "expect=?". Other comments change nothing.
+/// Reads the truth that a comment " expect=1 ..." records for the next query; `truth` becomes empty if the
+/// comment says "expect=-" or "expect=?". Other comments change nothing.
 void read_truth(std::string_view comment, std::string_view where, std::optional<bool>& truth) {
   constexpr std::string_view label = "expect=";
   comment.remove_prefix(std::min(comment.find_first_not_of(" \t#"), comment.size()));

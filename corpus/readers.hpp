@@ -16,16 +16,17 @@ using CaseSink = std::function<void(Case&&)>;
 /// Reads a file, or all files below a folder in the order of their paths. The name of a file determines its
 /// format:
 ///  - *.case: one case (case.hpp);
-///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the
-///    truth. Every coordinate must be exactly a double. The name of the folder (edge-edge or vertex-face), or
-///    the end of the file's name (ee or vf), determines the kind. FOLDER/NAME.csv may have no truths, or have
-///    them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as CCD-Query-IO does;
-///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. A recording whose own path is
-///    given may have any name;
+///  - *.csv: sample queries of eight rows each. A row has x y z as rational numbers (numerator, denominator),
+///    and the truth. Every coordinate must be exactly a double. The name of the folder (edge-edge or
+///    vertex-face), or the end of the file's name (ee or vf), determines the kind. FOLDER/NAME.csv may have
+///    no truths, or have them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as in
+///    CCD-Query-IO;
+///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If `path` is a recording, it may
+///    have any name;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
-/// with file and line, also for a file that is empty, unreadable or of another format, for a recording without
-/// a usable record, for a line of more than 1 MiB, and for a folder without a case.
+/// with file and line, also for a file that is empty, unreadable or of another format, for a recording
+/// without a usable record, for a line of more than 1 MiB, and for a folder without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
 /// Reads a stream with one query a line. Messages use `name` for the stream. Throws Error if a line is no

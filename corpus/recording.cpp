@@ -18,7 +18,7 @@ namespace nearmiss {
 
 namespace {
 
-/// A record in our types; nothing if its kind is unknown.
+/// Converts a record; returns nothing if its kind is unknown.
 std::optional<Recorded> recorded(const nearmiss_record_slot& slot) {
   const auto kind = kind_of_bit(slot.kind);
   if (!kind) return std::nullopt;
@@ -82,8 +82,8 @@ UnusedRecords read_recording(const std::filesystem::path& file,
   std::memcpy(all.data(), bytes.data() + sizeof head, all.size() * sizeof(nearmiss_record_slot));
 
   UnusedRecords unused;
-  // Each part has been filled up to its number of records. Records beyond the end of a file that was cut are
-  // lost.
+  // The number of records that were begun in the two parts of the file. If the file was cut, the records
+  // beyond its end are lost.
   const auto filled = std::min(head.next_slot[0], head.slots) + std::min(head.next_kept[0], head.kept_slots);
   std::erase_if(all, [](const nearmiss_record_slot& each) {
     return each.number == 0 || nearmiss_record_check(&each) != each.check;

@@ -20,21 +20,21 @@ struct Recorded {
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 
-  /// The query whose step ends at tmax. Each operation is rounded to double.
+  /// The query whose step ends at tmax. The positions at tmax are computed in double.
   [[nodiscard]] Query asked() const;
 };
 
 /// How many records of a file cannot be used, and why.
 struct UnusedRecords {
-  std::uint64_t unfinished = 0;   ///< they were being written when the program or the file ended
-  std::uint64_t not_queries = 0;  ///< no query has their kind, coordinates, separation or tmax
+  std::uint64_t unfinished = 0;   ///< were being written when the program or the file ended
+  std::uint64_t not_queries = 0;  ///< have a kind, coordinates, a separation or a tmax that no query can have
 };
 
 /// Whether a stream begins as a recording does. Returns the stream to its beginning.
 bool begins_as_recording(std::istream& in);
 
-/// Passes the records of a file to `sink` in the order of the calls. Throws Error if it is no recording of
-/// this version.
+/// Passes the usable records of a file to `sink`, in the order of the calls. Throws Error if the file is no
+/// recording of this version.
 UnusedRecords read_recording(const std::filesystem::path& file,
                              const std::function<void(const Recorded&)>& sink);
 

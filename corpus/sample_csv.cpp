@@ -57,7 +57,7 @@ class SeparateTruths {
     are_known_ = true;
   }
 
-  /// The truth of the query with this number. Throws Error if the file of truths ends before it.
+  /// The truth of the query with this number. Throws Error if the file of truths has no truth for it.
   [[nodiscard]] std::optional<bool> operator[](std::size_t query) const {
     if (!are_known_) return std::nullopt;
     if (query >= truths_.size()) refuse_count("more");
@@ -73,7 +73,7 @@ class SeparateTruths {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     return first == std::string_view::npos ? "" : text.substr(first);
   }
-  /// Removes white space, and then this word. Returns whether the word was there.
+  /// Removes leading white space, and then `word`. Returns whether the word was there.
   static bool skip(std::string_view& text, std::string_view word) {
     text = trimmed(text);
     if (!text.starts_with(word)) return false;
@@ -105,7 +105,7 @@ std::vector<std::string> split_commas(std::string_view line) {
   return words;
 }
 
-/// numerator / denominator, which must be exactly a double.
+/// The quotient numerator / denominator, which must be exactly a double.
 double exact_quotient(const std::string& numerator, const std::string& denominator,
                       const std::string& where) {
   mpz_class n, d;

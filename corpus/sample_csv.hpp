@@ -12,10 +12,11 @@
 
 namespace nearmiss {
 
-/// Reads the *.csv format of read_cases. `path` determines the kind, and errors name it.
+/// Reads the *.csv format of read_cases. `path` determines the kind, and errors name `path`.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
-/// The name of a folder, and the end of a file's name, that determine the kind of the queries in a file.
+/// The name of a folder, and the end of a file's name. Either of the two determines the kind of the queries
+/// in a file.
 struct SampleNames {
   std::string_view folder, ending;
 };

@@ -25,10 +25,10 @@ using certified::above;
 using certified::below;
 using certified::Conversion;
 
-/// Whether the primitives touch, whatever the query's separation is.
 bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
-/// The middle of two positive numbers; if their magnitudes are far apart, the middle of their exponents.
+/// The middle of two positive numbers; if their magnitudes are far apart, 2^m for the middle m of their
+/// exponents.
 double middle_of(double lo, double hi) {
   const int low = std::ilogb(lo);
   const int high = std::ilogb(hi);
@@ -43,9 +43,9 @@ class Narrowing {
 
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
-  /// Compares the distance with one more number; false if no double is left between the ends. Most distances
-  /// are just below the upper end, so the first numbers are near it. For later ones, `middle_of` is applied
-  /// to the distances of the ends from `base`.
+  /// Compares the distance with one more number, and narrows the enclosure; returns false if no double is
+  /// left between the ends of the enclosure. Most distances are just below the upper end, so the first
+  /// numbers are chosen near this end. A later number is base + middle_of(lo - base, hi - base).
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);
@@ -65,13 +65,13 @@ class Narrowing {
   exact::SmallestDistance& smallest_;
   double base_;
   Enclosure distance_;
-  std::uint64_t step_ = 64;  ///< how many doubles below the upper end to compare next
+  std::uint64_t step_ = 64;  ///< the next number is this many doubles below the upper end
 };
 
-/// distance_in_units for a caller to whom only the part of the distance above `base` matters: if hi <= base /
-/// unit, needed_of(hi) is at most base / unit, too.
+/// Like distance_in_units(), but if the smallest distance is at most `base`, [0, base] is narrow enough for
+/// the caller.
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
-  // The largest double is as near to infinity as a double can be.
+  // If needed_of(hi) is infinite, the largest double suffices as the lower end.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };
   const certified::VertexDifferences differences(query);
   const Conversion ratio(unit, differences.exponent());
@@ -109,7 +109,8 @@ Enclosure minimum_distance(const Query& query, double relative_width) {
   };
   if (1 - relative_width < 1) return to_width(relative_width);
 
-  // Bounds hardly ever meet, however precise they are. So exact comparisons narrow a rough enclosure.
+  // Certified lower and upper bounds are hardly ever equal, however precise they are. So exact comparisons
+  // narrow a rough enclosure.
   const Enclosure rough = to_width(0x1p-20);
   if (rough.lo == rough.hi) return rough;
   exact::SmallestDistance smallest(query);

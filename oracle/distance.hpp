@@ -12,29 +12,29 @@ namespace nearmiss {
 /// or lo and hi are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for primitives that do not touch.
-/// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
+/// An enclosure of d / unit, where d is the smallest distance over [0, 1] and unit > 0. Either lo >=
+/// needed(hi), or the enclosure of d is as narrow as doubles allow.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// An enclosure of (the smallest distance - h) / unit for the query's separation h > 0; 0 if the difference
-/// is negative. Up to rounding, lo >= needed(hi).
+/// An enclosure of (d - h) / unit, where d is the smallest distance and h > 0 the query's separation; (0, 0)
+/// if d < h. Up to rounding, lo >= needed(hi).
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of (the smallest distance - h) / unit for the query's separation h. It is infinite if the
-/// unit is 0. Its relative accuracy is 1e-3; for h = 0 and a quotient near 1, it is 1e-9.
+/// An upper bound of (d - h) / unit, where d is the smallest distance and h the query's separation. The bound
+/// is infinite if the unit is 0. Its relative accuracy is 1e-3, or 1e-9 for h = 0 and a quotient near 1.
 double closest_ratio(const Query& query, double unit);
 
 /// A time in [0, 1] at which the distance of the primitives is close to its minimum, for pictures.
 double closest_time(const Query& query);
 
-/// Whether the smallest distance over [0, 1] is above the bound, a number >= 0. The answer is always exact.
+/// Whether the smallest distance over [0, 1] is above `bound` >= 0. The answer is always exact.
 bool distance_exceeds(const Query& query, double bound);
 
 /// Whether the smallest distance is above h + bound. For h > 0, the sum is rounded up.
 bool distance_exceeds_separation_by(const Query& query, double bound);
 
-/// The distance with which distance_exceeds_separation_by() compares: the bound, or for h > 0 a number just
-/// above h + bound.
+/// The number with which distance_exceeds_separation_by() compares the smallest distance: the bound, or for h
+/// > 0 a number just above h + bound.
 double separation_and_bound(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -30,8 +30,8 @@ double rounded_down(const Number& x) {
   return d;
 }
 
-/// Two doubles that enclose a time in [0, 1], at most `width` apart or as near as doubles allow; both are the
-/// time itself if it is a double.
+/// Two doubles that enclose a time in [0, 1], at most `width` apart or as near as doubles allow. For width =
+/// 0, both are the time itself if the time is a double.
 Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
     const double lo = rounded_down(t.lo());
@@ -45,8 +45,8 @@ Enclosure enclose(Root t, double width) {
   }
 }
 
-// Comparisons narrow what is known about a root. The functions below compare copies of the root, so that the
-// answers to later questions do not depend on earlier ones.
+// Comparing a root with a number may refine the interval of the root. The functions below compare copies of
+// roots, so that the answers to later questions do not depend on earlier ones.
 bool is_below(Root t, double time) {
   Root at{Number(time)};
   return t.is_below(at);
@@ -63,8 +63,8 @@ exact::FirstApproach first_approach(const Query& query) {
 }
 
 /// The first contact, as a root of F. If `known.is_between`, certified bounds have shown that F changes its
-/// sign in the enclosure and that every root there is a contact. So if F has only one root there, that is the
-/// first contact.
+/// sign in the enclosure, and that every root of F in it is a contact. So if F has only one root in the
+/// enclosure, this root is the first contact.
 Root first_root(const Query& query, const KnownTime& known) {
   exact::Predicates predicates(query);
   if (known.is_between) {
@@ -80,10 +80,10 @@ Root first_root(const Query& query, const KnownTime& known) {
 }
 
 /// If `is_certified`, certified bounds show that the distance is above h at the beginning of the enclosure,
-/// unless that is 0, and below h at its end.
+/// unless the enclosure begins at 0, and below h at its end. Then t* is neither end.
 KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_certified && time.lo > 0}; }
 
-/// Whether all of an enclosure is on one side of `time`: 1 if t* < time, 0 if t* >= time, -1 if unknown.
+/// 1 if all numbers in the enclosure `known` of t* are below `time`, 0 if none is, -1 if some are.
 int comparison(const Enclosure& known, double time) {
   if (!(time > known.lo)) return 0;
   return time > known.hi ? 1 : -1;
@@ -119,7 +119,7 @@ bool EarliestTime::is_before(double time) {
 bool EarliestTime::makes_late(double time) {
   const PlainArithmetic guard;
   if (query_.separation == 0) return is_before(time);
-  // The enclosures contain both t* and the time at which the distance falls below h, if they are certified.
+  // If `is_certified_`, the enclosures contain both t* and the time at which the distance falls below h.
   if (!(time > rough_.time.lo)) return false;
   if (is_certified_) {
     int late = comparison(rough_.time, time);
@@ -132,7 +132,7 @@ bool EarliestTime::makes_late(double time) {
 Enclosure EarliestTime::enclosure(double width) {
   const PlainArithmetic guard;
   if (rough_.is_known_to(width)) return rough_.time;
-  const bool is_unique = width == 0;  // so a known exact time gives the same enclosure
+  const bool is_unique = width == 0;  // then the exact time gives the same enclosure
   if (!(is_unique && exact_) && narrow().is_known_to(width)) return narrow().time;
   return enclose(exact().time, width);
 }

@@ -19,7 +19,7 @@ struct FirstApproach;
 struct KnownTimes {
   std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show
   std::shared_ptr<const exact::FirstApproach>
-      exactly;  ///< what exact arithmetic found, if it was used; for h = 0, the contact
+      exactly;  ///< the first approach, if exact arithmetic found it; for h = 0, the first contact
 };
 
 /// The time t* in [0, 1] at which the distance of the primitives is first at most h. For h = 0, the
@@ -38,9 +38,9 @@ class EarliestTime {
   /// Whether t* < time. The answer is exact.
   [[nodiscard]] bool is_before(double time);
 
-  /// Whether `time` is late: something happens in [0, time). For h = 0, this means that t* < time. For h > 0,
-  /// it means that the distance is below h at some time before `time`; a distance of exactly h does not
-  /// count, because a subject may report it or not. The answer is exact.
+  /// Whether a subject that reports `time` is late. For h = 0, this means that t* < time. For h > 0, it means
+  /// that the distance is below h at some time before `time`. A distance of exactly h does not count, because
+  /// a subject may report it or not. The answer is exact.
   [[nodiscard]] bool makes_late(double time);
 
   /// An enclosure of t* that is at most `width` wide, or as narrow as doubles allow. Both ends are t* if t*

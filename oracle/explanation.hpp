@@ -19,18 +19,17 @@ struct Explanation {
     end,     ///< at t = 1
   };
 
-  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are, and
-  /// nothing if there are fewer vertices.
+  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are,
+  /// and nothing for kinds with fewer than four vertices.
   std::optional<int> roots;
   Contact contact{};         ///< the first contact, or the first approach to the separation
   bool is_approach = false;  ///< whether the query has a separation
-  /// There is a contact, but the number of roots that root parity counts is even.
+  /// Whether there is a contact although the number of roots that root parity counts is even.
   bool unseen_by_parity = false;
 
   bool operator==(const Explanation&) const = default;
 };
 
-/// Determines these facts about a query.
 Explanation explain(const Query& query);
 
 /// A text such as "contact inside the step; the vertices are coplanar once".

@@ -22,7 +22,6 @@ Multiplicity multiplicity(const exact::Polynomial& F, exact::Root& t) {
   return t.sign_of(F.derivative()) == 0 ? Multiplicity::multiple : Multiplicity::simple;
 }
 
-/// Whether the triangle or an edge has no extent at the time of contact, or edges are parallel.
 bool is_degenerate(const Query& query, exact::FirstContact& contact) {
   if (vertices(query.kind) == 4) return contact.meeting.degenerate;
   const auto x = moving_points(query, exact::Unit(query));

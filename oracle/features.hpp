@@ -12,13 +12,13 @@ namespace nearmiss {
 /// The earliest contact of a query's primitives, determined by exact arithmetic.
 struct ContactFeatures {
   enum class Multiplicity : std::uint8_t {
-    planar,    ///< F is identically zero
+    planar,    ///< F, the coplanarity of the vertices, is identically zero
     simple,    ///< the time is a simple root of F
     multiple,  ///< the time is a double or triple root of F
   };
   enum class Time : std::uint8_t { start, inside, end };  ///< t = 0, 0 < t < 1, t = 1
   enum class Location : std::uint8_t {
-    interior,  ///< no weight vanishes: inside the triangle, or inside both edges
+    interior,  ///< no barycentric weight vanishes: inside the triangle, or inside both edges
     border,    ///< one weight vanishes: on an edge of the triangle, or an end of one edge inside the other
     corner,    ///< two weights vanish: at a vertex of the triangle, or at an end of each edge
   };
@@ -26,7 +26,7 @@ struct ContactFeatures {
   Multiplicity multiplicity{};
   Time time{};
   Location location{};
-  bool degenerate = false;  ///< at that time, the triangle has no area, or edges are parallel or points
+  bool degenerate = false;  ///< the triangle has no area, the edges are parallel, or an edge is a point
 
   bool operator==(const ContactFeatures&) const = default;
 };
@@ -44,7 +44,8 @@ struct ApproachFeatures {
 
   ContactFeatures::Time time{};
   Closest closest{};
-  /// After the first approach, the distance does not fall below h at once: it stays at h, or grows again.
+  /// Whether the distance does not fall below h at once after the first approach: it stays at h, or grows
+  /// again.
   bool touches = false;
 
   bool operator==(const ApproachFeatures&) const = default;

@@ -1,4 +1,4 @@
-// The truth about a query, in exact arithmetic.
+// The exact answers to queries.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,17 @@ namespace nearmiss {
 
 /// The answer to a query, and the stage that found it.
 struct Decision {
-  /// For h = 0: the closed primitives share a point at some t in [0, 1]. For h > 0: their distance is below h
-  /// at some t.
+  /// For h = 0, whether the closed primitives share a point at some t in [0, 1]; for h > 0, whether their
+  /// distance is below h at some t in [0, 1].
   bool collision = false;
   FilterStage stage{};  ///< `undecided` if exact arithmetic decided
-  /// The smallest distance is exactly h > 0, so that both answers are right.
+  /// Whether the smallest distance is exactly h > 0. Then a subject may answer yes or no.
   bool is_tie = false;
-  KnownTimes known = {};  ///< where EarliestTime can start
+  KnownTimes known = {};  ///< results from which EarliestTime can start
 };
 
-/// The answer that a stage of the filter means; if the stage is `undecided`, exact arithmetic decides.
+/// The decision that follows from a stage of the filter; if the stage is `undecided`, exact arithmetic
+/// decides.
 Decision settle(const Query& query, FilterStage stage);
 
 /// Decides by the swept boxes, the certified filter, and, if these leave the query undecided, exact
@@ -30,11 +31,10 @@ Decision settle(const Query& query, FilterStage stage);
 /// ones.
 Decision decide(const Query& query);
 
-/// Decides many queries of any kinds. The filter processes the queries with h = 0 side by side. This changes
+/// Decides many queries of any kinds. If all have h = 0, the filter processes them side by side. This changes
 /// no answer, but may change a stage.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
-/// Whether decide() finds a collision.
 bool collides(const Query& query);
 
 /// The decision by exact arithmetic only, without the filters.

@@ -20,7 +20,6 @@ DoubleWord velocity(const Query& query, std::size_t point, std::size_t k) {
   return certified::two_sum(query.x[12 + 3 * point + k], -query.x[3 * point + k]);
 }
 
-/// Whether two points have exactly the same velocity.
 bool move_alike(const Query& query, std::size_t i, std::size_t j) {
   for (std::size_t k = 0; k < 3; ++k) {
     const DoubleWord a = velocity(query, i, k);
@@ -35,8 +34,8 @@ Point start(const Query& query, int i) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// The position of point i at t = 1 in the frame in which point j is at rest; nothing if its coordinates are
-/// not doubles.
+/// The position of point i at t = 1 in the frame in which point j is at rest; nothing if this position, or
+/// the velocity of point j, has coordinates that are not doubles.
 std::optional<Point> relative_end(const Query& query, int i, int j) {
   std::array<double, 3> end{};
   for (std::size_t k = 0; k < 3; ++k) {

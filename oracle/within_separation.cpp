@@ -22,15 +22,15 @@ class ApproachSearch {
     required_ = to_distance.at_least(above(query.separation));
   }
 
-  /// Whether the distance falls below the separation, with an enclosure of the first such time, which may be
+  /// Decides whether the distance falls below the separation. The enclosure of the first such time may be
   /// wide.
   [[nodiscard]] FirstTime decide() const {
     const FirstTime quick = QuickSearch(differences_, low_, required_).decide();
     return quick.never || quick.comes ? quick : thorough(1);
   }
 
-  /// Narrows the enclosure. If the distance is known to fall below the separation, it is below the separation
-  /// at the end of the new enclosure.
+  /// Narrows the enclosure of `known`. If `known.comes`, the distance is below the separation at the end of
+  /// the new enclosure.
   [[nodiscard]] FirstTime narrow(const FirstTime& known, double width) const {
     constexpr double least_quick_width = 0x1p-40;  // double does not give narrower enclosures
     if (known.comes && width >= least_quick_width) {

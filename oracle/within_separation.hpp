@@ -12,26 +12,24 @@ struct KnownApproach {
   /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: it falls below h. `undecided`:
   /// neither is known.
   FilterStage stage{};
-  /// Contains the earliest time at which the distance is at most h, and the time at which it falls below h,
-  /// if there are such times.
+  /// Contains the earliest time at which the distance is at most h, and the time at which the distance falls
+  /// below h, if there are such times.
   Enclosure time{0, 1};
   double estimate = 1;  ///< an uncertified estimate of the earliest time
 };
 
 /// Decides by boxes, planes, and a search for a time at which the distance is below h. The enclosure of the
-/// time is as wide as that search leaves it.
+/// time is as wide as this search leaves it.
 KnownApproach known_approach(const Query& query);
 
 /// Narrows the time of `known`, which must be the answer of known_approach(query). If a further search
-/// succeeds, its enclosure is at most `width` wide, or as narrow as doubles allow.
+/// succeeds, the enclosure in the result is at most `width` wide, or as narrow as doubles allow.
 KnownApproach narrowed(const Query& query, const KnownApproach& known, double width);
 
-/// The answer of known_approach(query), narrowed to `width`.
 inline KnownApproach known_approach(const Query& query, double width) {
   return narrowed(query, known_approach(query), width);
 }
 
-/// Only the stage of known_approach(query).
 inline FilterStage filter_with_separation(const Query& query) { return known_approach(query).stage; }
 
 }  // namespace nearmiss

@@ -3,7 +3,7 @@
 namespace nearmiss {
 
 std::string odd_arithmetic() {
-  // Detects the mode by computing, because control registers and their names differ between processors.
+  // Computes with known numbers to find the mode, because the control registers differ between processors.
   const volatile double one = 1;
   const volatile double minus_one = -1;
   const volatile double tiny = std::numeric_limits<double>::min();

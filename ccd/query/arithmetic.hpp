@@ -1,5 +1,5 @@
-// The assumptions of nearmiss about floating-point arithmetic: the compiler follows IEEE 754; the processor
-// rounds to nearest, keeps subnormals and does not trap.
+// What nearmiss assumes about floating-point arithmetic: the compiler follows IEEE 754, and arithmetic is
+// plain, that is, it rounds to nearest, keeps subnormals and does not trap.
 #pragma once
 
 #include <cfenv>
@@ -11,9 +11,9 @@
 #include <xmmintrin.h>
 #endif
 
-// Assumptions about the compiler. Only the plug-ins of fuzz/studies/environments, which measure other
-// arithmetic, define NEARMISS_ANY_ARITHMETIC. No macro shows whether a compiler contracts a product and a sum
-// to an FMA (README.md).
+// Only the plug-ins of fuzz/studies/environments, which measure other arithmetic, define
+// NEARMISS_ANY_ARITHMETIC. No macro shows whether a compiler contracts a product and a sum to an FMA
+// (ccd/README.md).
 #ifndef NEARMISS_ANY_ARITHMETIC
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
@@ -27,7 +27,7 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<doub
 
 namespace nearmiss {
 
-/// Whether this thread rounds to nearest, keeps subnormals and does not trap. Takes about a nanosecond.
+/// Whether this thread's arithmetic is plain. Takes about a nanosecond.
 inline bool is_arithmetic_plain() {
 #ifdef __SSE2__
   constexpr unsigned flags = 0x3f;    // exceptions raised so far
@@ -39,18 +39,17 @@ inline bool is_arithmetic_plain() {
 }
 
 /// How this thread's arithmetic differs from plain arithmetic, such as "rounds upward, flushes subnormals to
-/// zero"; "" if it is plain.
+/// zero", or "" if it does not differ.
 std::string odd_arithmetic();
 
-/// Makes this thread's arithmetic plain.
 inline void make_arithmetic_plain() {
   if (!is_arithmetic_plain()) [[unlikely]]
     std::fesetenv(FE_DFL_ENV);
 }
 
-/// Makes arithmetic plain within a scope and restores the caller's mode at its end. It guards every entry
-/// point that is certified for rounding to nearest. A build with NEARMISS_UNGUARDED omits it, to measure the
-/// effect.
+/// Makes this thread's arithmetic plain while the object exists, then restores the caller's mode. Every entry
+/// point whose results are proven only for plain arithmetic has such an object. A build with
+/// NEARMISS_UNGUARDED keeps the caller's mode.
 class PlainArithmetic {
  public:
   PlainArithmetic() {

@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// A word of the input as messages show it. If it has more than `most` bytes, it is cut between two UTF-8
-/// sequences and "..." is appended.
+/// A word of the input as messages show it. A word of more than `most` bytes is cut between two UTF-8
+/// sequences, and "..." is appended.
 inline std::string excerpt(std::string_view word, std::size_t most = 40) {
   if (word.size() <= most) return std::string(word);
   std::size_t end = most;

@@ -1,4 +1,4 @@
-// Reads queries in the caller's memory (queries.h) as values, block by block.
+// Makes Query values of queries that are in the caller's memory (queries.h), block by block.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 
 namespace nearmiss::interface {
 
-/// Whether the queries can be read: kind and type are known, and no pointer that is needed is null.
+/// Whether the queries can be read: their kind and type are known, and no required pointer is null.
 inline bool are_readable(const nearmiss_queries* queries) {
   return queries != nullptr && kind_of_bit(queries->kind).has_value() &&
          (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&
          (queries->count == 0 || (queries->start != nullptr && queries->end != nullptr));
 }
 
-/// The number in the caller's memory that is `offset` bytes after `base`.
+/// The number that is `offset` bytes after `base` in the caller's memory.
 template <class Number>
 Number number_at(const void* base, std::ptrdiff_t offset) {
   Number value;
@@ -31,12 +31,12 @@ Number number_at(const void* base, std::ptrdiff_t offset) {
   return value;
 }
 
-/// The separation of query q, if separations are given.
+/// The separation of query q. `queries.separation` must not be null.
 inline double separation_of(const nearmiss_queries& queries, std::size_t q) {
   return number_at<double>(queries.separation, static_cast<std::ptrdiff_t>(q) * queries.separation_stride);
 }
 
-/// Whether `count` queries from the query `first` on have the separation 0.
+/// Whether the queries `first` .. `first` + `count` - 1 all have the separation 0.
 inline bool ask_for_contact(const nearmiss_queries& queries, std::size_t first, std::size_t count) {
   if (queries.separation == nullptr) return true;
   if (queries.separation_stride == 0) count = std::min<std::size_t>(count, 1);
@@ -45,24 +45,23 @@ inline bool ask_for_contact(const nearmiss_queries& queries, std::size_t first, 
   return true;
 }
 
-/// Whether all queries have the separation 0.
 inline bool ask_for_contact(const nearmiss_queries& queries) {
   return ask_for_contact(queries, 0, queries.count);
 }
 
-/// Whether a query can be answered: its numbers are finite, and its separation is not negative.
+/// Whether all numbers of a query are finite, and its separation is not negative.
 inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
-/// Whether the coordinates of a query at one time are contiguous in memory, and of type T.
+/// Whether the coordinates of a query at t = 0, and those at t = 1, have the type T and are contiguous.
 template <class T>
 bool has_packed_points(const nearmiss_queries& queries) {
   return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
          queries.vertices == nullptr;
 }
 
-/// Whether all coordinates of a query are doubles that lie one after the other, as in Query::x.
+/// Whether each query is 24 contiguous doubles in the order of Query::x.
 inline bool lie_in_rows(const nearmiss_queries& queries) {
   return vertices(*kind_of_bit(queries.kind)) == 4 && queries.type == NEARMISS_DOUBLE &&
          has_packed_points<double>(queries) && static_cast<const double*>(queries.start) + 12 == queries.end;
@@ -105,11 +104,11 @@ class Reader {
   }
 
   const nearmiss_queries& queries_;
-  std::size_t vertices_;  ///< the number of vertices of each query
+  std::size_t vertices_;  ///< of each query
   bool is_packed_;
 };
 
-/// Query q of queries that can be read.
+/// Query q of queries for which are_readable() is true.
 inline Query query_at(const nearmiss_queries& queries, std::size_t q) {
   Query query{.kind = *kind_of_bit(queries.kind)};
   if (queries.type == NEARMISS_DOUBLE)
@@ -119,12 +118,12 @@ inline Query query_at(const nearmiss_queries& queries, std::size_t q) {
   return query;
 }
 
-/// The largest number of queries in a block.
+/// The largest number of queries that for_blocks() passes to `visit` at once.
 inline constexpr std::size_t block_size = 256;
 
-/// Divides the queries into blocks of at most `most`, and calls visit(block, first) for each, where `first`
-/// is the index of the block's first query. Returns the last status of `visit` that is not NEARMISS_OK, or
-/// NEARMISS_OK. `block_of(first, size)` makes a block.
+/// Divides `count` queries into blocks of at most `most`, and calls visit(block_of(first, size), first) for
+/// each block, where `first` is the index of its first query. Returns the last status of `visit` that is not
+/// NEARMISS_OK, or NEARMISS_OK if there is none.
 template <class BlockOf, class Visit>
 int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
   int status = NEARMISS_OK;
@@ -135,7 +134,7 @@ int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, cons
   return status;
 }
 
-/// Calls visit(block, first) for blocks that are copies of the queries.
+/// Copies the queries into blocks, and calls visit(block, first) for each. Coordinates have the type T.
 template <class T, class Visit>
 int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
   constexpr std::size_t most = 128;  // these fit into the L1 cache
@@ -154,8 +153,8 @@ int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
       visit);
 }
 
-/// Calls visit(block, first) for blocks of queries, which are copied if their layout requires it. Returns a
-/// status and throws nothing. The caller must have made arithmetic plain.
+/// Calls visit(block, first) for each block of queries. Copies the queries unless they lie in rows and ask
+/// for contact. Returns a status, and throws nothing. The caller must have made arithmetic plain.
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
@@ -175,8 +174,8 @@ int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   }
 }
 
-/// Calls answer(query, q) for each query that can be answered, and refuse(q) for each of the others. Returns
-/// a status and throws nothing.
+/// Calls answer(query, q) for each query q that is_answerable(), and refuse(q) for every other query. Returns
+/// a status, and throws nothing.
 template <class Answer, class Refuse>
 int for_each_query(const nearmiss_queries* queries, const Answer& answer, const Refuse& refuse) noexcept {
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {

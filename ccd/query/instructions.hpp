@@ -1,4 +1,4 @@
-// The vector instructions with which many queries are decided at once.
+// The sets of vector instructions with which code in lanes (lanes.hpp) decides many queries at once.
 #pragma once
 
 #include <array>
@@ -13,19 +13,17 @@ enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
 
 inline constexpr std::array all_instructions{Instructions::sse2, Instructions::avx2, Instructions::avx512};
 
-/// The number of doubles in a register.
+/// The number of doubles in a register of an instruction set.
 constexpr int lanes(Instructions instructions) { return 2 << static_cast<int>(instructions); }
 
-/// Whether this machine has the instruction set.
 bool has(Instructions instructions);
-/// The widest instruction set that this machine has.
 Instructions widest_instructions();
 
-/// The instruction set that is used: the widest one, unless the program has chosen another.
+/// The instruction set that this process uses: the widest one, unless choose_instructions() chose another.
 Instructions chosen_instructions();
 /// Chooses the instruction set with the given number of lanes, "2", "4" or "8", for the whole process. Throws
-/// Error for any other number, or if this machine does not have the instructions. No other thread may run
-/// meanwhile.
+/// Error for any other number, or if this machine lacks the instruction set. No other thread may run during
+/// the call.
 void choose_instructions(std::string_view given);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// The kinds of queries, and what their primitives are made of.
+// The kinds of queries, and the vertices and edges of their primitives.
 #pragma once
 
 #include <algorithm>
@@ -19,24 +19,22 @@ enum class Kind : std::uint8_t {
   vertex_edge,      ///< x0 is the vertex, x1x2 the edge
 };
 
-/// All kinds.
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::vertex_vertex,
                                   Kind::vertex_edge};
 
-/// The kinds of the pairs that decide whether triangle meshes collide. Families and scenes alternate between
-/// them.
+/// The kinds of pairs that decide whether triangle meshes collide.
 inline constexpr std::array kinds_of_meshes{Kind::vertex_triangle, Kind::edge_edge};
 
-/// The other kinds, with less than four vertices.
+/// The other kinds, whose queries have fewer than four vertices.
 inline constexpr std::array kinds_of_vertices{Kind::vertex_vertex, Kind::vertex_edge};
 
-/// A primitive, by the number of its vertices.
+/// The sorts of primitives. The value of each is its number of vertices.
 enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
 
 /// Two vertices, by their numbers in a query.
 struct VertexPair {
-  std::uint8_t from;  ///< the first one
-  std::uint8_t to;    ///< the second one
+  std::uint8_t from;
+  std::uint8_t to;
 };
 
 /// A vertex of one primitive and an edge of the other.
@@ -46,21 +44,22 @@ struct VertexAndEdge {
   std::uint8_t to;      ///< its other end
 };
 
-/// The names of a kind, the vertices and edges of its primitives, and pairs of such vertices and edges. No
-/// other place lists them.
+/// A kind's names, the vertices and edges of its primitives, and their pairs. No other place in the code
+/// lists them.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
   Primitive first;                    ///< the primitive with the vertices x[0 .. split)
   Primitive second;                   ///< the primitive with the vertices x[split .. vertices)
   std::span<const VertexPair> edges;  ///< the edges of both primitives
-  std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
-  /// Each vertex with each edge of the other primitive. Pairs with a vertex of the first primitive come
-  /// first. Two vertices count as a vertex x0 and an edge x1x2 of length 0.
+  std::span<const VertexPair> gaps;   ///< each vertex of the first primitive with each of the second
+  /// Each vertex with each edge of the other primitive; the vertices of the first primitive come first. Two
+  /// vertices count as a vertex x0 and an edge x1x2 of length 0.
   std::span<const VertexAndEdge> vertices_and_edges;
-  std::span<const VertexAndEdge> first_to_second;  ///< the part with a vertex of the first primitive
-  std::span<const VertexAndEdge> second_to_first;  ///< the part with a vertex of the second
-  /// p, q and r (x_to - x_from), where N = q × r is the normal and F = p · N the coplanarity (§3.3, §3.4).
+  std::span<const VertexAndEdge> first_to_second;  ///< those with a vertex of the first primitive
+  std::span<const VertexAndEdge> second_to_first;  ///< those with a vertex of the second primitive
+  /// The paper's vectors p, q and r, each as x_to - x_from. N = q × r is the normal, and F = p · N is the
+  /// coplanarity (§3.3, §3.4).
   std::array<VertexPair, 3> pqr;
 };
 
@@ -125,54 +124,51 @@ inline constexpr std::array<Topology, 4> of_kinds{
 
 }  // namespace topologies
 
-/// The topology of a kind.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
 /// "vt", "ee", "vv" or "ve".
 constexpr std::string_view short_name(Kind kind) { return topology(kind).short_name; }
 
-/// The vertices of the first primitive are x[0 .. split); the vertices of the second are x[split ..
-/// vertices).
+/// The number of vertices of the first primitive. They are x[0 .. split); those of the second primitive are
+/// x[split .. vertices).
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
-/// Whether triangle meshes have pairs of this kind: whether it is one of kinds_of_meshes.
 constexpr bool is_of_meshes(Kind kind) {
   return std::ranges::find(kinds_of_meshes, kind) != kinds_of_meshes.end();
 }
 
-/// The number of vertices of both primitives.
+/// The number of vertices of both primitives together.
 constexpr int vertices(Kind kind) { return split(kind) + static_cast<int>(topology(kind).second); }
 
-/// The number of coordinates at t = 0 and t = 1 together.
+/// The number of coordinates of a query: three for each vertex at t = 0, and three at t = 1.
 constexpr std::size_t coordinate_count(Kind kind) { return static_cast<std::size_t>(6 * vertices(kind)); }
 
-/// Whether the formulas of a vertex and a triangle apply: the edges x1x2 and x1x3 have weights α, β >= 0 with
-/// α + β <= 1. Then the second primitive is a triangle, an edge or a vertex; a query repeats its last vertex
-/// up to x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
+/// Whether the formulas for a vertex and a triangle apply, as they do for all kinds but two edges (see
+/// Query). A point of the triangle is x1 + α (x2 - x1) + β (x3 - x1) with α, β >= 0 and α + β <= 1. Points of
+/// two edges have a weight in [0, 1] each, α and β.
 constexpr bool has_triangle(Kind kind) { return kind != Kind::edge_edge; }
 
-/// The number of a kind in the C interfaces, such as NEARMISS_VERTEX_TRIANGLE: one bit of a set of kinds.
+/// The number of a kind in the C interfaces, such as NEARMISS_VERTEX_TRIANGLE. Sums of such numbers are sets
+/// of kinds.
 constexpr int bit_of(Kind kind) { return 1 << static_cast<int>(kind); }
 
-/// The set of all kinds, as a sum of their bits.
 inline constexpr int bits_of_all_kinds = (1 << kinds.size()) - 1;
 
-/// The kind with this bit; nothing for any other number.
+/// The kind whose bit_of() is `bit`; nothing if there is no such kind.
 constexpr std::optional<Kind> kind_of_bit(int bit) {
   for (const Kind kind : kinds)
     if (bit_of(kind) == bit) return kind;
   return std::nullopt;
 }
 
-/// Calls a function template for a kind that is known only at run time. Its argument is the kind whose
-/// formulas apply: vertex_triangle if has_triangle(kind), else edge_edge.
+/// Calls a function template for a kind that is known only at run time. The template argument is
+/// vertex_triangle if has_triangle(kind), else edge_edge.
 template <class Function>
 constexpr decltype(auto) with_kind(Kind kind, const Function& f) {
   return has_triangle(kind) ? f.template operator()<Kind::vertex_triangle>()
                             : f.template operator()<Kind::edge_edge>();
 }
 
-/// Calls a function template with each of kinds_of_meshes.
 template <class Function>
 constexpr void for_each_kind_of_meshes(const Function& f) {
   f.template operator()<Kind::vertex_triangle>();

@@ -1,4 +1,4 @@
-// Many doubles side by side, in the vector registers of the processor.
+// Vectors of doubles, in the vector registers of the processor.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,8 @@
 
 namespace nearmiss {
 
-/// n doubles; every operation acts on each lane as on a double. They are the compiler's vector types: for
-/// n = 2, 4 and 8 these are SSE2, AVX and AVX-512 registers if the code that uses them is compiled for these
-/// instructions.
+/// A vector of n doubles, its lanes. An operation acts on each lane as on a double. With n = 2, 4 or 8, the
+/// compiler keeps a vector in an SSE2, AVX or AVX-512 register if it compiles for that instruction set.
 template <int n>
 struct Lanes {
   using Vector [[gnu::vector_size(n * sizeof(double))]] = double;
@@ -38,7 +37,7 @@ struct Lanes {
     friend Mask operator!=(const Mask& a, const Mask& b) { return Mask(a.bits ^ b.bits); }
     friend Mask operator!(const Mask& a) { return Mask(~a.bits); }
     bool operator[](std::size_t lane) const { return std::bit_cast<EachInteger>(bits)[lane] != 0; }
-    /// `number` in the lanes in which the mask is true, and 0 in the others.
+    /// `number` in the lanes in which the mask is true, 0 in the others.
     [[nodiscard]] Integers as(std::int64_t number) const { return bits & number; }
 
     friend bool any_of(const Mask& a) {
@@ -89,7 +88,7 @@ struct Lanes {
   friend Mask operator==(const Lanes& a, const Lanes& b) { return Mask(a.v == b.v); }
   friend Mask operator!=(const Lanes& a, const Lanes& b) { return Mask(a.v != b.v); }
 
-  /// a in the lanes in which the mask is true, and b in the others.
+  /// a in the lanes in which the mask is true, b in the others.
   friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) {
     return Lanes(mask.bits ? a.v : b.v);
   }
@@ -103,12 +102,12 @@ struct Lanes {
     return gather([&](std::size_t lane) { return std::sqrt(a[lane]); });
   }
 
-  /// Turns n rows of n numbers into columns.
+  /// Transposes the n × n matrix whose rows are rows[0] .. rows[n - 1].
   static void transpose(Lanes* rows) { transpose<n / 2>(rows); }
 
  private:
-  /// Exchanges the off-diagonal blocks of s × s numbers, then does the same within all blocks, with half the
-  /// size.
+  /// Transposes each block of 2s × 2s numbers: exchanges its two off-diagonal quarters, then transposes all
+  /// quarters by calling itself for s/2.
   template <int s>
   static void transpose(Lanes* rows) {
     for (int i = 0; i < n; ++i)

@@ -10,7 +10,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The length of the UTF-8 sequence at the start of a text, if it is valid (RFC 3629) and printable; else 0.
+/// The length of the UTF-8 sequence at the start of a text; 0 if the sequence is not valid (RFC 3629), or its
+/// character is not printable.
 std::size_t printable_sequence(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
@@ -25,8 +26,8 @@ std::size_t printable_sequence(std::string_view text) {
   constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
   const bool is_control = code < 0xa0;
-  // Characters without a shape of their own: they end a line, change the direction of the text around them, or
-  // make two texts look alike.
+  // Characters that are not seen. They end a line, change the direction of other text, or make two different
+  // texts look alike.
   using Range = std::pair<std::uint32_t, std::uint32_t>;
   constexpr std::array<Range, 23> unseen{
       {{0xad, 0xad},       {0x34f, 0x34f},     {0x61c, 0x61c},    {0x115f, 0x1160}, {0x180b, 0x180f},

@@ -1,4 +1,4 @@
-// Makes text from outside safe to show on terminals, in files and on pages.
+// Makes text that others wrote safe to show on a terminal, in a file and on a web page.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// The text as valid UTF-8 without control characters, and without characters that are not seen: each such
-/// character, and each byte that is not part of a valid sequence, becomes '?', and each line end a blank.
+/// The text as valid UTF-8 of visible characters. A line end or a tab becomes a blank. Any other control
+/// character, a character that is not seen, and a byte that is not part of a valid sequence become '?'.
 std::string printable(std::string_view text);
 
 }  // namespace nearmiss

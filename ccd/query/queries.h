@@ -46,14 +46,14 @@ extern "C" {
   2 /**< nothing is answered: a null pointer, a number out of range, or a separation that wang does not take */
 #define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
-/** Queries of one kind, with n vertices each (nearmiss_vertices()). Coordinate k (0 to 2) of vertex i
- * (0 to n - 1) of query q is at
+/** Queries of one kind. Each has n vertices, the result of nearmiss_vertices(kind). Coordinate k (0 to 2) of
+ * vertex i (0 to n - 1) of query q is at
  *
  *     start + q * query_stride + v * vertex_stride + k * coordinate_stride
  *
- * at t = 0, and likewise from `end` at t = 1. Here v is vertices[n * q + i], or i if `vertices` is null.
- * Strides are in bytes, and may be 0 or negative. Addresses must be aligned for the type. nearmiss_packed()
- * and nearmiss_of_mesh() fill in the usual cases. */
+ * at t = 0. At t = 1, `end` takes the place of `start`. Here v is vertices[n * q + i], or i if `vertices` is
+ * null. Strides are in bytes, and may be 0 or negative. Coordinates must be aligned for their type.
+ * nearmiss_packed() and nearmiss_of_mesh() fill in the usual cases. */
 typedef struct {
   int kind;                    /**< NEARMISS_VERTEX_TRIANGLE or another kind */
   int type;                    /**< NEARMISS_DOUBLE or NEARMISS_FLOAT */
@@ -63,12 +63,12 @@ typedef struct {
   ptrdiff_t query_stride;      /**< from a query to the next, in bytes */
   ptrdiff_t vertex_stride;     /**< from a vertex to the next, in bytes */
   ptrdiff_t coordinate_stride; /**< from a coordinate to the next, in bytes */
-  const int32_t* vertices;     /**< numbers of vertices, n for each query; or null */
+  const int32_t* vertices;     /**< the numbers v, n for each query; or null */
   const double* separation;    /**< h of the first query; null: h = 0 for all */
   ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all share one */
 } nearmiss_queries;
 
-/** The number of vertices of a query of a kind; 0 for any other number. */
+/** The number of vertices of a query of this kind; 0 if `kind` is not a kind. */
 static inline int nearmiss_vertices(int kind) {
   switch (kind) {
     case NEARMISS_VERTEX_TRIANGLE:
@@ -83,8 +83,8 @@ static inline int nearmiss_vertices(int kind) {
   }
 }
 
-/** Queries whose vertices have three coordinates, one after the other. `query_size` is the number of
- * coordinates from one query to the next. */
+/** Queries whose vertices lie one after another, three coordinates each. Each query begins `query_size`
+ * coordinates after the one before. */
 static inline nearmiss_queries nearmiss_of_points(int kind, int type, size_t count, const int32_t* vertices,
                                                   const void* start, const void* end, ptrdiff_t query_size) {
   const ptrdiff_t of_float = sizeof(float);
@@ -95,7 +95,8 @@ static inline nearmiss_queries nearmiss_of_points(int kind, int type, size_t cou
   return queries;
 }
 
-/** Queries one after another: six coordinates for each vertex, x0 x1 .. at t = 0, then at t = 1. */
+/** Queries that lie one after another in `x`. Each query is the coordinates of x0 x1 .. at t = 0, then those
+ * at t = 1. */
 static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const double* x) {
   const ptrdiff_t half = 3 * nearmiss_vertices(kind);
   return nearmiss_of_points(kind, NEARMISS_DOUBLE, count, NEARMISS_NULL, x, x ? x + half : x, 2 * half);
@@ -107,8 +108,8 @@ static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, con
   return nearmiss_of_points(kind, NEARMISS_FLOAT, count, NEARMISS_NULL, x, x ? x + half : x, 2 * half);
 }
 
-/** Pairs of a moving mesh: `vertices` has the numbers of the vertices of each pair, and `start` and `end` have
- * three coordinates for each vertex of the mesh, at t = 0 and t = 1. For vertices with more than three
+/** Pairs of a moving mesh: `vertices` has the numbers of the vertices of each pair, and `start` and `end`
+ * have three coordinates for each vertex of the mesh, at t = 0 and t = 1. If each vertex has more than three
  * numbers, change vertex_stride. */
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,
                                                 const double* start, const double* end) {
@@ -121,11 +122,11 @@ static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, co
   return nearmiss_of_points(kind, NEARMISS_FLOAT, count, vertices, start, end, 0);
 }
 
-/** The version of the library: major, minor and patch, such as "1.0.0". Within a major version, programs keep
- * working without being compiled again. */
+/** The version of the library: major, minor and patch, such as "1.0.0". A program need not be compiled again
+ * for a later version with the same major number. */
 const char* nearmiss_version(void);
 
-/** A sentence that explains a status that a function returned. */
+/** The explanation of a status that a function of the library returned. */
 const char* nearmiss_message(int status);
 
 #undef NEARMISS_NULL

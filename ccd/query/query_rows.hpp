@@ -9,9 +9,9 @@
 
 namespace nearmiss {
 
-/// Queries whose 24 coordinates lie one after the other, in the order of Query::x, with repeated vertices if
-/// the kind has fewer than four. They are a span of Query values, or an array in another program's memory;
-/// the queries of such an array have one kind and h = 0. The memory must outlive this view.
+/// Queries of 24 contiguous coordinates each, in the order of Query::x and with repeated vertices. They are a
+/// span of Query values, or an array of doubles in a calling program; the queries of an array have one kind
+/// and the separation 0. The memory must outlive the view.
 class QueryRows {
  public:
   explicit QueryRows(std::span<const Query> queries)
@@ -19,7 +19,7 @@ class QueryRows {
         x_(reinterpret_cast<const std::byte*>(queries.data()) + offsetof(Query, x)),
         stride_(sizeof(Query)),
         size_(queries.size()) {}
-  /// @param stride from one query to the next, in bytes
+  /// `stride` is the number of bytes from one query to the next.
   QueryRows(Kind kind, const double* x, std::ptrdiff_t stride, std::size_t size)
       : kind_(kind), x_(reinterpret_cast<const std::byte*>(x)), stride_(stride), size_(size) {}
 
@@ -29,7 +29,7 @@ class QueryRows {
   }
   [[nodiscard]] Kind kind(std::size_t q) const { return queries_ == nullptr ? kind_ : queries_[q].kind; }
 
-  /// The rows first .. first + size - 1.
+  /// The queries first .. first + size - 1.
   [[nodiscard]] QueryRows part(std::size_t first, std::size_t size) const {
     QueryRows some = *this;
     if (queries_ != nullptr) some.queries_ += first;

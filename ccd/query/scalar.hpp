@@ -5,8 +5,8 @@
 
 namespace nearmiss {
 
-/// The type of the scalars that a T holds: T itself, unless T holds several and has a specialisation
-/// (lanes.hpp).
+/// The type of the scalars that a number of type T consists of: T itself, unless T has a specialisation, as
+/// Lanes has.
 template <class T>
 struct ScalarIn {
   using Type = T;

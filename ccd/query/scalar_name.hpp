@@ -1,4 +1,4 @@
-// Names of scalars, as in "wang:p40".
+// The names of scalars in the names of subjects, such as p40 in "wang:p40".
 #pragma once
 
 #include <charconv>
@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// A subject's name split into the algorithm and the scalar; a suffix "@B" is dropped. If the name has no
-/// scalar, `scalar` is "", which means double. Options belong to the algorithm: "wang-eps:h=0.001".
+/// A subject's name, divided into the algorithm and the scalar, without a suffix "@B". If the name has no
+/// scalar, `scalar` is "", which means double. Options, as in "wang-eps:h=0.001", belong to the algorithm.
 struct ScaledName {
   std::string_view algorithm, scalar;
 };
@@ -20,11 +20,11 @@ constexpr ScaledName split_scalar(std::string_view name) {
 }
 
 namespace ladder {
-/// The numbers of bits of the scalars p16 to p256.
+/// The fewest and the most bits of a scalar p16 .. p256.
 inline constexpr int fewest_bits = 16, most_bits = 256;
 }  // namespace ladder
 
-/// The exponent in ε = 2^exponent for the scalar of this name; nothing if the name is unknown.
+/// The exponent in ε = 2^exponent of the scalar with this name; nothing if the name is unknown.
 inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
   if (scalar.empty() || scalar == "double") return -52;
   if (scalar == "float") return -23;

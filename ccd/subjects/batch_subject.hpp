@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// A subject that implements decide() for batches; it decides a single query as a batch of one.
+/// A subject whose derived class implements decide() for batches. A single query is a batch of one.
 class BatchSubject : public Subject {
  public:
   explicit BatchSubject(std::string name) : name_(std::move(name)) {}

@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// A subject whose properties are what a detector says about itself. It decides batches of one kind.
+/// A subject with the properties that a detector states in its nearmiss_subject.
 class DescribedSubject : public BatchSubject {
  public:
   explicit DescribedSubject(DetectorInfo info) : BatchSubject(info.name), info_(std::move(info)) {}

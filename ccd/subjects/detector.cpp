@@ -18,7 +18,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The oldest version of the interface whose plug-ins still run.
+/// The oldest version of the plug-in interface that still works.
 constexpr int oldest_interface = 2;
 
 static_assert(bit_of(Kind::vertex_triangle) == NEARMISS_VERTEX_TRIANGLE);
@@ -42,7 +42,8 @@ Contract contract_of(const nearmiss_contract& given) {
           .longest = given.longest};
 }
 
-/// The fields that versions 3 and 4 added. A shared object that was compiled with an older version lacks them.
+/// The fields that versions 3 and 4 added to nearmiss_subject. A shared object that was compiled with an
+/// older version lacks them.
 struct NewFields {
   int separation_kinds = 0, distance_kinds = 0, step_kinds = 0;
   decltype(nearmiss_subject::distance_bound_within) distance_bound_within = nullptr;

@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// What a detector says about itself (nearmiss_subject.h).
+/// What a detector states about itself in its nearmiss_subject.
 struct DetectorInfo {
   std::string name;  ///< with its options
   std::string version = {}, about = {};
@@ -32,47 +32,44 @@ struct DetectorInfo {
   bool operator==(const DetectorInfo&) const = default;
 };
 
-/// Limits: the number of detectors in a shared object, the bytes of a detector's name, and the number of
-/// queries that it gets at once.
-inline constexpr std::size_t most_detectors = 64;
-inline constexpr std::size_t longest_name = 255;
-inline constexpr std::size_t largest_batch = 10'000'000;
+inline constexpr std::size_t most_detectors = 64;         ///< in a shared object
+inline constexpr std::size_t longest_name = 255;          ///< in bytes
+inline constexpr std::size_t largest_batch = 10'000'000;  ///< in queries
 
-/// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
+/// How a nearmiss_subject contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
 /// Throws an Error that begins with `where` if a detector contradicts nearmiss_subject.h, was compiled with
 /// an unknown version of it, or has one of `other_names`.
 void expect_usable(const std::string& where, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names = {});
+/// What is wrong with the name of a detector; "" if nothing is.
 std::string fault_of_name(std::string_view name);
+/// What is wrong with a contract; "" if nothing is.
 std::string fault_of(const Contract& contract);
 
-/// Whether a detector decides queries of a kind.
 bool decides(const DetectorInfo& info, Kind kind);
-/// Whether a detector gives the distance of primitives of a kind.
 bool gives_distance(const DetectorInfo& info, Kind kind);
-/// Whether a detector filters the steps of primitives of a kind.
 bool filters_step(const DetectorInfo& info, Kind kind);
-/// Whether a detector uses the separation of queries of a kind.
 bool takes_separation(const DetectorInfo& info, Kind kind);
-/// The query that a detector decides. If the detector is narrow, numbers are rounded to float; numbers beyond
-/// the range of float become the largest float.
+/// The query that a detector decides in place of `query`. For a narrow detector, all numbers are rounded to
+/// float, and numbers beyond the range of float become the largest float of their sign.
 Query rounded_for(const DetectorInfo& info, const Query& query);
-/// Writes the coordinates of query i, one of n queries of one kind, to the places in `x` at which a detector
-/// reads them.
+/// Writes the coordinates of query i of a batch of n queries to the places in `x` from which a detector reads
+/// them.
 void lay_out(const DetectorInfo& info, const Query& query, std::size_t i, std::size_t n, double* x);
-/// A detector's answer as a verdict. `time` is the time that it gave, or NaN.
+/// The verdict for a detector's answer and time of impact, which is NaN if the detector gave none.
 Verdict verdict_of(const DetectorInfo& info, int answer, double time);
 
 /// A loaded shared object.
 class PluginLibrary {
  public:
-  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject, or exports a subject that does
-  /// not follow nearmiss_subject.h.
+  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject(), or has a detector that
+  /// contradicts nearmiss_subject.h.
   explicit PluginLibrary(const std::string& path);
 
   [[nodiscard]] std::vector<std::string> names() const;
-  /// The subject of this name, or the first one if the name is "". Throws Error if there is no such subject.
+  /// The detector with this name, or the first detector if the name is "". Throws Error if no detector has
+  /// this name.
   [[nodiscard]] const nearmiss_subject& subject(std::string_view name) const;
 
  private:
@@ -85,13 +82,13 @@ class PluginLibrary {
   std::vector<const nearmiss_subject*> subjects_;  // `library_` owns them
 };
 
-/// A detector that is open, for one thread. The detector may change the rounding mode, the treatment of
-/// subnormals or the traps; arithmetic is plain again after each call.
+/// A detector that is open, for one thread. Arithmetic is plain after each call, whatever the detector does.
 class Detector {
  public:
-  /// Opens the detector. The subject must outlive it. Throws Error if the subject refuses the options.
+  /// Opens the detector that `subject` describes. `subject` must outlive this object. Throws Error if the
+  /// detector refuses the options.
   Detector(const nearmiss_subject& subject, const std::string& options);
-  /// Uses a detector that is already open, with the state `state`. The caller closes it.
+  /// Uses a state that the caller has opened and will close.
   Detector(const nearmiss_subject& subject, void* state);
   Detector(const Detector&) = delete;
   Detector& operator=(const Detector&) = delete;
@@ -100,20 +97,20 @@ class Detector {
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
   [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
 
-  /// Decides answers.size() queries of one kind, whose coordinates lie as nearmiss_subject.h says, and are
-  /// rounded to float if the detector is narrow.
+  /// Decides answers.size() queries of one kind. `x` and `separations` are as for decide() in
+  /// nearmiss_subject.h; for a narrow detector, the caller has rounded them to float.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
-  /// The bound that the detector claims for one query.
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
-  /// The detector's distance at t = 0, for a kind for which it gives distances.
+  /// The distance that the detector gives for the primitives at t = 0. It must give distances for this kind.
   [[nodiscard]] DistanceAnswer distance(Kind kind, const double* x) const;
-  /// The detector's safe part of the step, for a kind for which the detector filters steps.
+  /// The step that the detector makes of the query's step. It must filter steps for this kind.
   [[nodiscard]] StepAnswer step(Kind kind, const double* x) const;
-  /// The time that the last decision took without copies, in ns; 0 if the detector does not say it.
+  /// The time that the last decide() took without copies to and from a device, in ns; 0 if the detector does
+  /// not say it.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const;
 
-  /// A detector that does nothing and finds no collision.
+  /// A detector that answers every query with NEARMISS_NO_COLLISION and computes nothing.
   static const Detector& empty();
 
  private:

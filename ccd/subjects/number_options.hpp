@@ -1,4 +1,4 @@
-// Options of subjects that are numbers, as in "NAME:thickness=1e-6:barycentric=0.1".
+// Options with numbers as values, as in "NAME:thickness=1e-6:barycentric=0.1".
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// A number that the user may set, KEY=VALUE.
+/// A number in State that the user may set by KEY=VALUE.
 template <class State>
 struct Option {
   const char* key;
@@ -18,8 +18,8 @@ struct Option {
   double least, most;  ///< the range of allowed values
 };
 
-/// Sets the option KEY=VALUE, and marks it in `is_set`. Returns false if no option has this key, if it is
-/// already marked, or if the value is not allowed.
+/// Sets the option in `text`, KEY=VALUE, and marks it in `is_set`. Returns false if no option has this key,
+/// if the option is already marked, or if the value is not allowed.
 template <class State, std::size_t n>
 bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state,
                 std::array<bool, n>& is_set) {
@@ -40,7 +40,7 @@ bool set_option(const std::array<Option<State>, n>& options, const std::string& 
   return false;
 }
 
-/// Sets options such as "tolerance=1e-6:iterations=1000". Returns "", or what is wrong with them.
+/// Sets the options in `text`, such as "tolerance=1e-6:iterations=1000". Returns "", or the first fault.
 template <class State, std::size_t n>
 std::string set_options(const std::array<Option<State>, n>& options, const std::string& text, State& state) {
   std::array<bool, n> is_set{};

@@ -19,8 +19,8 @@ bool is_file(std::string_view path) {
 namespace {
 
 /// The path at the start of a plug-in's name: the shortest prefix that has a '/', is a file, and ends at a
-/// ':' or at the end of the name. If no prefix is a file, the path ends at the first ':' after the last '/'
-/// in front of the options, so that a message can name the path.
+/// ':' or at the end of the name. If no prefix is a file, a guess for the error message: the name up to the
+/// first ':' after the last '/' that comes before all options.
 std::string_view path_in(std::string_view name) {
   for (std::size_t end = 0; end != std::string_view::npos;) {
     end = name.find(':', end + 1);

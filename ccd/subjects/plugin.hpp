@@ -1,4 +1,4 @@
-// Plug-ins as subjects that run in this process.
+// Subjects that run the detectors of shared objects in this process.
 #pragma once
 
 #include <memory>
@@ -18,27 +18,27 @@ inline constexpr std::string_view program_prefix = "pipe:";
 
 inline bool is_program(std::string_view name) { return name.starts_with(program_prefix); }
 
-/// Whether a path leads to a regular file; false if that is unknown, as for a name that is too long.
+/// Whether a path leads to a regular file; false after an error, such as a path that is too long.
 bool is_file(std::string_view path);
 
-/// Whether a subject's name is that of a plug-in: a program, or a shared object whose path has a '/'.
+/// Whether a subject's name is that of a program or of a shared object, whose path must have a '/'.
 bool is_plugin(std::string_view name);
 
-/// A shared object as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path. The
-/// path is the shortest prefix that is a file and ends at a ':' or at the end of the name.
+/// A name on the command line, PATH[:SUBJECT][:KEY=VALUE]..., divided into its parts. The path is the
+/// shortest prefix that has a '/', is a file, and ends at a ':' or at the end of the name.
 struct PluginName {
   std::string path;
-  std::string subject;  ///< one of the shared object's subjects; "" if the name gives none
+  std::string subject;  ///< one of the shared object's detectors; "" if the name gives none
   std::string options;  ///< "KEY=VALUE:KEY=VALUE"
 
-  /// Throws Error if a subject is named twice, or after an option.
+  /// Throws Error if the name has two SUBJECTs, or one after a KEY=VALUE.
   static PluginName parse(std::string_view name);
 };
 
-/// A subject that runs a detector of a shared object in this process, one thread at a time.
+/// A subject that runs a detector of a shared object in this process, for one thread at a time.
 class Plugin final : public DescribedSubject {
  public:
-  /// Throws Error if the plug-in cannot be loaded, or refuses its options.
+  /// Throws Error if the shared object cannot be loaded, or if the detector refuses the options in the name.
   explicit Plugin(std::string_view name);
 
   using DescribedSubject::decide;
@@ -55,8 +55,8 @@ class Plugin final : public DescribedSubject {
   static Loaded load(const PluginName& name);
   explicit Plugin(Loaded loaded);
 
-  /// Returns act(detector, seen, x), where `seen` is the query as the detector sees it, and x are its
-  /// coordinates.
+  /// Returns act(detector, seen, x), where `seen` is the query rounded for the detector, and x has the
+  /// coordinates of `seen` in the detector's layout.
   template <class Act>
   auto ask(const Query& query, const Act& act) const;
 

@@ -1,4 +1,4 @@
-// The stopwatch that times all subjects alike, whichever process they run in.
+// Measures the run times of all subjects alike, whichever process they run in.
 #pragma once
 
 #include <sys/resource.h>
@@ -11,13 +11,14 @@
 
 namespace nearmiss {
 
-/// Number of queries decided before a batch is timed, to bring the subject's code back into the caches.
+/// The number of queries decided before a batch is timed, to bring the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
-/// Measures how long some work took, in ns, by two clocks. The wall clock is precise, since reading it takes
-/// about 20 ns, but it keeps running while another process has the processor. The CPU time is only that of
-/// this thread, or of all threads of this process, but is known less precisely. So the shorter of the two
-/// times counts. If the work itself waited for a device or a thread, the time of the wall clock counts.
+/// Measures the time since its construction by two clocks. Reading the wall clock takes only about 20 ns, but
+/// this clock also counts the time in which another process has the processor. The CPU time is only that of
+/// this thread, or of all threads of this process, but is known less precisely. So the result is the shorter
+/// of the two times. If the work itself waited for a device or a thread, the result is the time by the wall
+/// clock.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID
@@ -68,9 +69,9 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
   return watch.nanoseconds();
 }
 
-/// The shortest time of three tries, since a disturbance seldom affects all three. The CPU clock is too
-/// inaccurate for most decisions, and reading it takes longer than a decision. So only the wall clock times
-/// short work. If it shows that the work is long, both clocks time three more tries.
+/// The shortest time of three tries of `work`, since a disturbance seldom affects all three. The CPU clock is
+/// too inaccurate for most decisions, and reading it takes longer than a decision. So only the wall clock
+/// times short work. If the first try takes long, a Stopwatch times three more tries.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   constexpr std::uint64_t short_time = 5000;  // ns
@@ -85,19 +86,18 @@ std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   return std::min({time_of(clock, work), time_of(clock, work), time_of(clock, work)});
 }
 
-/// A time minus an overhead; 0 if the overhead is longer.
+/// `time` minus `overhead`, but at least 0.
 inline std::uint64_t less_overhead(std::uint64_t time, std::uint64_t overhead) {
   return time - std::min(overhead, time);
 }
 
-/// The time of `work` minus that of `nothing`, which is the same work without the subject's part.
+/// The time of `work` minus the time of `nothing`, which does the same without the subject.
 template <class Work, class Nothing>
 std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = time_of(clock, nothing);
   return less_overhead(time_of(clock, work), overhead);
 }
 
-/// The shortest of three times of `work`, minus the shortest of three times of `nothing`.
 template <class Work, class Nothing>
 std::uint64_t best_time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = best_time_of(clock, nothing);

@@ -1,4 +1,4 @@
-// The interface through which any CCD is put on trial.
+// The interface of all CCDs on trial.
 #pragma once
 
 #include <array>
@@ -17,25 +17,26 @@
 
 namespace nearmiss {
 
-/// For a collision: what a subject says about t*, the earliest time at which the distance is at most h.
+/// What the time of a subject's collision says about t*, the earliest time at which the distance is at most
+/// h.
 enum class TimeSort : std::uint8_t {
   none,         ///< nothing
-  estimate,     ///< a time near t*
-  lower_bound,  ///< a time that is not after t*: nothing happens before it
-  free_step,    ///< a lower bound; nothing happens on the step to the rounded positions at that time, either
+  estimate,     ///< the time is near t*
+  lower_bound,  ///< the time is not after t*
+  free_step,    ///< a lower bound; also, the step to the rounded positions at the time is free of collisions
 };
 
-/// Names of the sorts of time in reports, in order.
+/// The names of the sorts of times in reports.
 inline constexpr std::array<std::string_view, 4> time_sort_names{"none", "estimate", "lower-bound",
                                                                  "free-step"};
 
 constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_cast<std::size_t>(sort)]; }
 
-/// Whether times of this sort promise that nothing happens before them.
+/// Whether times of this sort are not after t*.
 constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
-/// A subject's assumptions. It is not judged on queries that violate them. A field that is 0 or false assumes
-/// nothing.
+/// What a subject assumes about queries. The subject is not judged on queries that violate an assumption. A
+/// field that is 0 or false assumes nothing.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h
   bool one_root = false;  ///< the volume that the vertices span has at most one root in [0, 1], a simple one
@@ -53,10 +54,10 @@ struct BoundAnswer {
   Fault fault = Fault::none;                                ///< if not `none`, there is no bound
   std::int32_t fault_code = 0;                              ///< as in Verdict
 
-  /// A number that a subject gave as its bound; an error if it is not a distance.
+  /// The answer with this bound. A number that is not a distance is an error.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
-  /// The bound as Subject::distance_bound returns it, or NaN if there is no bound.
+  /// The bound; NaN if there is none because of a fault.
   [[nodiscard]] double bound_or_nan() const {
     return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
   }
@@ -67,13 +68,13 @@ struct DistanceAnswer {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   double distance = none;
-  /// The weights of the vertices in the closest points. Those of each primitive add up to 1. NaN if the
-  /// subject gives none.
+  /// For each vertex, its weight in the closest point of its primitive. The weights of each primitive add up
+  /// to 1. All weights are NaN if the subject gives none.
   std::array<double, 4> weights{none, none, none, none};
   Fault fault = Fault::none;    ///< if not `none`, there is no distance
   std::int32_t fault_code = 0;  ///< as in Verdict
 
-  /// A number that a subject gave as the distance; a fault if it is not a distance.
+  /// The answer with this distance. A number that is not a distance is a fault.
   static DistanceAnswer given(double distance, const std::array<double, 4>& weights) {
     const bool is_distance = distance >= 0 && distance <= std::numeric_limits<double>::max();
     return {distance, weights, is_distance ? Fault::none : Fault::invalid};
@@ -83,12 +84,12 @@ struct DistanceAnswer {
 /// A subject's answer when it is asked to filter a step.
 struct StepAnswer {
   std::array<double, 12> y{};  ///< the positions to which the vertices may move; x, y, z of each
-  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< the clearance that it claims on the way
+  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< the distance that it claims to keep
   Fault fault = Fault::none;                                    ///< if not `none`, there is no answer
   std::int32_t fault_code = 0;                                  ///< as in Verdict
 
-  /// The step that a subject gave for this many vertices; a fault if it is not finite, or the clearance is
-  /// negative.
+  /// The answer with these positions of `vertices` vertices, and this clearance. A number that is not finite,
+  /// or a negative clearance, is a fault.
   static StepAnswer given(const std::array<double, 12>& y, double clearance, int vertices) {
     constexpr double most = std::numeric_limits<double>::max();
     bool is_finite = clearance >= 0 && clearance <= most;
@@ -100,13 +101,13 @@ struct StepAnswer {
   }
 };
 
-/// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
-/// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
+/// The time of a batch of answers, measured by a Stopwatch in the deciding thread or process. The time of an
+/// empty subject for the same queries is subtracted.
 struct BatchTime {
-  std::size_t queries = 0;  ///< timed queries; a part of a batch in which a process failed does not count
+  std::size_t queries = 0;  ///< the timed queries, without parts of the batch in which a process failed
   std::uint64_t nanoseconds = 0;
   std::uint64_t kernel_nanoseconds =
-      0;  ///< the part without copies to a device; 0 if the subject does not say
+      0;  ///< the time without copies to and from a device; 0 if the subject does not say it
 };
 
 /// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic
@@ -118,7 +119,7 @@ class Subject {
   Subject& operator=(const Subject&) = delete;
   virtual ~Subject() = default;
 
-  /// Name on the command line and in reports; for a plug-in, the name that it gives itself.
+  /// The name in reports. For a plug-in, it is the name that the detector gives itself.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
   /// Throws Error if a coordinate is not finite.
@@ -129,19 +130,20 @@ class Subject {
     for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
   }
 
-  /// Decides the queries and measures how long that took.
+  /// As decide(), and returns how long the decisions took.
   virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
 
-  /// The time of each query on its own, in ns: the shortest of three tries, or nothing if there is no answer.
+  /// The time for each query on its own, in ns: the shortest of three tries, or nothing if the subject does
+  /// not answer.
   virtual void time_each(std::span<const Query> queries,
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
-  /// The largest distance of a false positive, less the query's separation, that this subject claims, in the
-  /// query's unit of length. It is infinity if the subject claims nothing or more than the largest double,
-  /// and NaN if it fails to answer.
+  /// The bound that the subject claims: if it reports the query falsely, the smallest distance exceeds the
+  /// separation by at most this length, in the query's unit. Infinity if the subject claims nothing or more
+  /// than the largest double, NaN if it fails to answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
-  /// The distance bound, or why the subject fails to give it.
+  /// The distance bound, or the fault because of which there is none.
   [[nodiscard]] virtual BoundAnswer ask_bound(const Query& query) const {
     return BoundAnswer::given(distance_bound(query));
   }
@@ -151,7 +153,6 @@ class Subject {
     for (std::size_t i = 0; i < queries.size(); ++i) bounds[i] = ask_bound(queries[i]);
   }
 
-  /// Whether the subject gives distances of primitives of a kind.
   [[nodiscard]] virtual bool gives_distance(Kind /*kind*/) const { return false; }
 
   /// The distance of the primitives at t = 0, for a kind for which the subject gives distances.
@@ -159,64 +160,62 @@ class Subject {
     return {.fault = Fault::not_asked};
   }
 
-  /// Whether the subject filters steps of primitives of a kind.
   [[nodiscard]] virtual bool filters_step(Kind /*kind*/) const { return false; }
 
-  /// The part of the query's step that is safe, for a kind for which the subject filters steps.
+  /// The safe part of the query's step, for a kind for which the subject filters steps.
   [[nodiscard]] virtual StepAnswer ask_step(const Query& /*query*/) const {
     return {.fault = Fault::not_asked};
   }
 
-  /// Whether the subject claims a bound; it does so for all queries or for none.
+  /// Whether the subject claims a distance bound. It does so for all queries or for none.
   [[nodiscard]] virtual bool claims_bound() const { return true; }
 
-  /// Whether the subject decides queries of a kind. It is not asked about other kinds.
+  /// Whether the subject decides queries of a kind. It is asked only queries of such kinds.
   [[nodiscard]] virtual bool decides(Kind kind) const { return is_of_meshes(kind); }
 
-  /// Whether the subject answers queries of a kind with a separation h > 0. If not, it is not asked about
-  /// them.
+  /// Whether the subject decides queries of a kind with a separation h > 0. If not, it is asked only for
+  /// contact.
   [[nodiscard]] virtual bool takes_separation(Kind /*kind*/) const { return false; }
 
-  /// Whether the subject is asked queries of a kind, with or without separations h > 0.
+  /// Whether the subject is asked queries of this kind, with a separation h > 0 if `has_separation` is true.
   [[nodiscard]] bool is_asked(Kind kind, bool has_separation) const {
     return decides(kind) && (!has_separation || takes_separation(kind));
   }
 
-  /// What the time of a verdict means, for collisions.
+  /// What the time in a verdict says about a collision.
   [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }
 
-  /// The subject's assumptions.
   [[nodiscard]] virtual Contract contract() const { return {}; }
 
-  /// Whether the subject rounds coordinates to fewer digits than those of double.
+  /// Whether the subject rounds coordinates to fewer digits than a double has.
   [[nodiscard]] virtual bool rounds() const { return false; }
 
-  /// The query that the subject decides and is judged on; its coordinates are rounded if the subject rounds.
+  /// The query with the coordinates rounded as the subject rounds them. The subject is judged on this query.
   [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
 
-  /// The message behind a fault in one of this subject's verdicts: what an exception said, or why the subject
-  /// could not be loaded; "" for any other verdict.
+  /// The message for the fault in a verdict of this subject: what() of an exception, or why the subject could
+  /// not be loaded; "" for any other verdict.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
-  /// The last lines that the subject's process wrote to standard error before it last ended with such a
-  /// fault, and the stack of the crash if that is known. "" if nothing is known.
+  /// The last lines on standard error of the process that last ended with a fault like that of the verdict,
+  /// and the stack of the crash if it is known. "" if nothing is known.
   [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
 
-  /// How near the query is to the other answer. All accepting tolerances, taken as lengths (D, ψ^½, S, μ^⅓),
-  /// must be multiplied by this factor so that the subject just reports the query. The factor is at most 1 if
-  /// the subject reports the query, and larger otherwise. It guides directed search, is accurate to a few
-  /// bits, and is NaN if the subject does not say.
+  /// How near the query is to the opposite answer: the least factor for the accepting tolerances, taken as
+  /// lengths (D, ψ^½, S, μ^⅓), with which the subject reports the query. The factor is at most 1 if the
+  /// subject reports the query, and larger otherwise. It guides directed search. It is accurate to a few
+  /// bits, and NaN if the subject does not say it.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that decides nothing, but is asked in the same way as this subject. The time of the empty
-  /// subject is subtracted from the time of this one.
+  /// A subject that is called as this one, but computes nothing. Its run time is subtracted from that of this
+  /// subject.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 
-/// A built-in subject's name and a one-line description.
+/// The name of a subject, and a description in one line.
 struct SubjectInfo {
   std::string_view name;
   std::string_view about;
@@ -225,32 +224,33 @@ struct SubjectInfo {
 /// The built-in subjects, in the order in which `nearmiss subjects` lists them.
 std::vector<SubjectInfo> subjects();
 
-/// Suffix of the name of a subject that uses the scene's bound for every pair.
+/// The suffix in the name of a subject that uses the bound B of a scene for every pair of the scene.
 inline constexpr std::string_view of_scene = "@scene";
 
-/// Makes a built-in subject from its name, or a plug-in from its path (any name with a '/'). A bound may be
-/// given as NAME@B, or as `given_bound` for NAME and NAME@scene, in the queries' unit of length. It replaces
-/// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B ignore it.
-/// NAME may end in options, :KEY=NUMBER. Throws Error for an unknown name or option or an unusable plug-in.
+/// Makes a built-in subject from its name, or a Plugin from a name with a '/'. NAME may end in options,
+/// :KEY=NUMBER. NAME@B gives the subject the bound B, NAME and NAME@scene give it `given_bound`, in the
+/// queries' unit of length. This bound replaces every pair's own bound B (§5 of the paper); subjects without
+/// B ignore it. Throws Error for an unknown name or option, or an unusable plug-in.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
-/// As make_subject, but returns nothing for an unknown name.
+/// As make_subject(), but returns null for an unknown name.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
-/// A name without its suffix "@B" or "@scene", and the bound that the suffix gives. If there is no suffix,
-/// the bound is `given_bound`. The path of a plug-in never has a suffix. Throws Error if B is a number that
-/// is not positive and finite.
+/// A subject's name without its suffix, and the bound that the suffix gives.
 struct SplitName {
   std::string_view name;
   std::optional<double> bound;
 };
+/// Splits the suffix "@B" or "@scene" off a name. "@B" gives the bound B. "@scene" gives `given_bound`, and
+/// so does a name without a suffix. The name of a plug-in has no suffix. Throws Error if B is a number that
+/// is not positive and finite.
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
-/// Throws an Error: the subject `name` found a coordinate that is not finite.
+/// Throws an Error that says that the subject `name` found a coordinate that is not finite.
 [[noreturn, gnu::cold]] void refuse_coordinates(std::string_view name);
 
-/// Throws an Error that lists the known names.
+/// Throws an Error that says that the name is unknown, or that the subject has no options.
 [[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);
 
 }  // namespace nearmiss

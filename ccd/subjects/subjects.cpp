@@ -27,11 +27,13 @@ namespace nearmiss {
 
 namespace {
 
-/// A policy decides the pairs of triangle meshes by `template <Kind> Verdict decide(query, given)`, with
-/// separations if `takes_separation` is true. It decides two vertices, and a vertex and an edge, by `Verdict
-/// decide_within(query, given)`, always with separations. It also has functions `distance_bound(query,
-/// given)` and `needed_tolerance(query, given)` that return double, and the constants `claims_bound` and
-/// `time_sort`. Its members are the values of its options.
+/// A built-in subject. Its Policy has these members; `given` is the bound that replaces the pair's own:
+/// - `template <Kind> Verdict decide(query, given)` for vt and ee. It takes separations if the constant
+///   `takes_separation` is true.
+/// - `Verdict decide_within(query, given)` for vv and ve, always with separations.
+/// - `double distance_bound(query, given)` and `double needed_tolerance(query, given)`.
+/// - The constants `claims_bound` and `time_sort`.
+/// - A number for each option.
 template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:
@@ -113,7 +115,7 @@ struct Bridson : Basic<false>, BridsonTolerances {
   }
 };
 
-/// The policy of a subject that decides nothing.
+/// The policy of the empty subject, which computes nothing.
 struct Empty : Basic<false> {
   template <Kind kind>
   static Verdict decide(const Query& /*query*/, const std::optional<double>& /*given*/) {
@@ -150,7 +152,7 @@ struct Wang : Rule {
   }
 };
 
-/// The paper's tolerances with another interval for VE culling.
+/// The paper's tolerances with a given interval h for VE culling.
 struct WithInterval : PaperTolerances {
   double h = PaperTolerances()(1.0).h;
 
@@ -198,7 +200,6 @@ struct Advance {
   }
 };
 
-/// The options of a policy.
 template <class Policy>
 constexpr std::array<Option<Policy>, 0> options_of{};
 template <>
@@ -209,7 +210,7 @@ constexpr std::array<Option<WangEps>, 1> options_of<WangEps>{{{"h", &WangEps::h,
 
 struct Entry {
   SubjectInfo info;
-  /// Makes the subject `name` with these options. Returns null if there are options but the policy takes
+  /// Makes the subject `name` with these options. Returns null if there are options, but the subject has
   /// none.
   std::unique_ptr<Subject> (*make)(std::string_view name, const std::string& options,
                                    std::optional<double> given);

@@ -1,5 +1,5 @@
-// Conservative advancement: advances the time in steps until two primitives come within a separation. No step
-// goes beyond the time at which they do.
+// Conservative advancement: advances the time in steps, none of which goes beyond the time at which two
+// primitives come within a separation.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace nearmiss {
 
-/// The polygon of all differences x - y of a point x of the first primitive and a point y of the second: a
-/// triangle (vertex-triangle) or a parallelogram (edge-edge), whose corners are the differences of vertices
-/// and move linearly. The distance of the primitives is the distance of the origin from this polygon. Two
-/// vertices, and a vertex and an edge, give a triangle with corners that coincide (has_triangle).
+/// The polygon of all differences x - y of a point x of the first primitive and a point y of the second. The
+/// distance of the primitives is the distance of the origin from this polygon. It is a triangle for vt, and a
+/// parallelogram for ee. For vv and ve, it is a triangle with corners that coincide (has_triangle). The
+/// corners are differences of vertices, and move linearly.
 template <Kind kind, class T>
 struct DifferencePolygon {
   static constexpr std::size_t size = has_triangle(kind) ? 3 : 4;
@@ -44,8 +44,8 @@ struct DifferencePolygon {
   }
 };
 
-/// The polygon in a frame in which computations with it neither overflow nor underflow. X is in [1, 2) there,
-/// unless X needs no scaling or is 0.
+/// The polygon in a frame in which computations with the polygon neither overflow nor underflow. If X needs
+/// scaling and is not 0, it is in [1, 2) in this frame.
 template <Kind kind, class T>
 DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   DifferencePolygon<kind, T> polygon(query);
@@ -62,7 +62,7 @@ DifferencePolygon<kind, T> difference_polygon(const Query& query) {
 template <class T>
 struct NearestPoint {
   T squared_distance = std::numeric_limits<T>::infinity();
-  Vector3<T> direction;  ///< of any length; the polygon lies beyond a plane perpendicular to it
+  Vector3<T> direction;  ///< of any length; a plane perpendicular to it separates the polygon from the origin
 
   void consider(const Vector3<T>& point, const Vector3<T>& towards) {
     const T squared = dot(point, point);
@@ -75,9 +75,9 @@ struct NearestPoint {
 /// The point of polygon `c` nearest to the origin. The candidates are the corners, the nearest point of each
 /// edge, and the origin's projection onto the polygon's plane, if the projection is in the polygon.
 ///
-/// The direction to a point near the origin has lost digits by cancellation. So the direction to the nearest
-/// point of an edge is made perpendicular to the edge once more, and the normal serves as the direction to
-/// the projection.
+/// The direction to a computed point near the origin is inaccurate, because the point has lost digits by
+/// cancellation. Therefore the direction to a point of an edge is made perpendicular to the edge once more,
+/// and the direction to the projection is the polygon's normal.
 template <Kind kind, class T, std::size_t size>
 [[gnu::always_inline]] inline NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c) {
   NearestPoint<T> nearest;
@@ -105,41 +105,46 @@ template <Kind kind, class T, std::size_t size>
   return nearest;
 }
 
-/// Bound of the rounding errors of a step, as a distance in units of εX.
+/// The bound of a step's rounding errors, as a distance in units of εX.
 ///
 /// Let every operation have a relative error of at most u = ε/2. A component of a corner x + t v has an error
-/// of 8uX: uX from x; 4uX from v, which is u(|x| + |y| + |v|) with |v| <= 2X; 2uX from the product and uX
-/// from the sum. The computed n has a length of at most 1 + 4u: it is a vector whose largest component is 1,
-/// divided by its length. Its components add up to at most √3 in magnitude. So a dot product with n has √3
-/// times the error of a component, and 3u times √3 times the largest component from its own operations.
+/// of 8uX: uX from x, 4uX from v, 2uX from the product and uX from the sum. (v = y - x, where y is the corner
+/// at t = 1, has an error of u(|x| + |y| + |v|), and |v| <= 2X.) The computed direction n (`beyond_until`)
+/// has a length of at most 1 + 4u: it is a vector whose largest component is 1, divided by its length. The
+/// magnitudes of the components of n add up to at most √3. So a dot product of n and a vector has √3 times
+/// the error of the vector's components, and an error of 3u · √3 times the largest component from its own
+/// operations.
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
-/// - The step, a quotient whose numerator has two roundings: 3u times at most √3 X, 6uX.
-/// - t + step has an error of u, in which a corner moves by at most 2√3 uX <= 4uX. The sum is 54uX = 27εX,
-///   and 32 has room for terms of second order.
+/// - The step is a quotient whose numerator has two roundings. So it has a relative error of 3u, in which
+///   n·corner changes by at most 3u · √3 X <= 6uX.
+/// - t + step has an error of u, in which a corner moves by at most 2√3 uX <= 4uX.
+/// The sum is 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
-/// A collision is reported if the computed distance is at most h + `advance_reach` εX. The advancement would
-/// approach h + `advance_error` εX forever, so `advance_reach` is larger.
+/// `advance` reports a collision if the computed distance is at most h + `advance_reach` εX. Its steps only
+/// approach the distance h + `advance_error` εX, and may never reach it, so `advance_reach` is larger.
 inline constexpr int advance_reach = 128;
 
-/// If a collision is reported in this way, the exact distance is at most h + `advance_bound` εX.
+/// If `advance` reports a collision because of the computed distance, the exact distance is at most h +
+/// `advance_bound` εX.
 ///
-/// The computed point c0 + αf + βg differs by at most 38uX in each component from a point of the exact
-/// polygon: 24uX from the corners, since |1 - α - β| + α + β <= 3; 4uX from f and g, 4uX from the products,
-/// 2uX from the sums, and 4uX because the computed α + β may exceed 1 by 2u. The points of edges have smaller
-/// errors. The distance has an error of √3 · 38uX from the point, and of 6uX from its own operations,
-/// together 36εX. With `advance_reach` = 128, and 1εX for the rounding of h + 128εX, 165 would do.
+/// Each component of the computed nearest point c0 + αf + βg differs by at most 38uX from that of a point of
+/// the exact polygon: 24uX are from the corners, since |1 - α - β| + α + β <= 3; 4uX from f and g; 4uX from
+/// the products; 2uX from the sums; and 4uX because the computed α + β may exceed 1 by 2u. The points of
+/// edges have smaller errors. The computed distance has an error of √3 · 38uX from the point, and of 6uX from
+/// its own operations, together 36εX. With 128εX for `advance_reach`, and 1εX for the rounding of h + 128εX,
+/// the sum is 165εX.
 inline constexpr int advance_bound = 192;
 
-/// The largest number of iterations. Primitives that slide past each other at a distance that is tiny
-/// compared with their size could need any number of them.
+/// The largest number of steps. Primitives that slide past each other at a tiny distance could need any
+/// number.
 inline constexpr int advance_iterations = 1000;
 
 namespace detail {
 
-// Whether some coordinate of one primitive exceeds that of the other by more than `distance` at t = 0 and at
-// t = 1, with the same primitive above at both times.
+// Whether, along an axis, one primitive is above the other by more than `distance` at t = 0, and the same
+// primitive is above the other by more than `distance` at t = 1.
 template <Kind kind, class T>
 bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   using Three = Eigen::Array<T, 3, 1>;
@@ -156,8 +161,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// A time until which, from t on, all corners stay beyond `distance` along a direction. This time is at most t
-// + 2, and it is t if a corner is not beyond `distance` at t.
+// The end, at most t + 2, of an interval that begins at t and in which all corners stay beyond `distance`
+// along a direction. The end is t if some corner is not beyond `distance` at t.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {
@@ -173,16 +178,16 @@ template <Kind kind, class T, class Corners>
 
 }  // namespace detail
 
-/// Reports every pair of finite input whose distance is at most h at some t in [0, 1]. The time of a report
-/// is a lower bound: until this time, the distance is more than h. A pair that is reported without a
-/// collision is within h + `advance_bound` εX, unless the stage is `unknown`: then the advancement made no
-/// progress, or ran out of iterations.
+/// Reports every pair with finite coordinates whose distance is at most h at some t in [0, 1]. The time in
+/// the verdict is a lower bound: before this time, the distance is more than h. A pair that is reported
+/// without a collision comes within h + `advance_bound` εX, unless the stage is `unknown`: then a step made
+/// no progress, or `advance_iterations` steps were not enough.
 ///
 /// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than
 /// h. The corners move linearly. So if they are beyond h at t, they stay beyond h until the first of them
-/// reaches h. This holds for every n. For the direction of the nearest point, n·corner is at least the
-/// distance, and the speed is at most the largest relative speed of two vertices, so a step is at least as
-/// long as (distance - h) / speed.
+/// reaches h. This holds for every n. With the direction of the nearest point as n, n·corner is at least the
+/// distance for every corner. A corner moves at most as fast as the largest relative speed of two vertices.
+/// So a step is at least as long as (distance - h) / (this speed).
 template <Kind kind, class T>
 Verdict advance(const Query& query) {
   using std::ldexp;
@@ -206,7 +211,8 @@ Verdict advance(const Query& query) {
   return Verdict::accepted(Stage::unknown, static_cast<double>(t));
 }
 
-/// The most by which the distance of a pair that `advance` reports falsely exceeds h, in the query's unit.
+/// If `advance` reports a query falsely, and not with the stage `unknown`, the smallest distance exceeds h by
+/// at most this bound, in the query's unit.
 template <Kind kind, class T>
 T advance_distance_bound(const Query& query) {
   using std::ldexp;

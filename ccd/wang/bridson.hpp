@@ -12,17 +12,18 @@
 
 namespace nearmiss {
 
-/// The tolerances of the proximity test. The defaults are the paper's.
+/// The tolerances of the proximity test, with the defaults of Bridson et al.
 struct BridsonTolerances {
   double thickness = 1e-6;  ///< h >= 0, in the query's unit of length
-  double barycentric = -1;  ///< δ, without a unit; if it is negative, δ is h / the triangle's longest edge
+  double barycentric = -1;  ///< δ, without a unit; a negative value means h / (the triangle's longest edge)
 };
 
 namespace detail {
 
-// The proximity test of Bridson et al. at one time. A vertex is near a triangle if it is within h of the plane
-// and its weights are in [-δ, 1 + δ]. Edges are near if their closest points are within h: the feet of the
-// common normal, or an end of one edge and the nearest point of the other.
+// The proximity test of Bridson et al. at one time. A vertex is near a triangle if it is within h of the
+// triangle's plane, and the weights of its projection onto the plane are in [-δ, 1 + δ]. Two edges are near
+// each other if their distance is at most h. Their closest points are the ends of the common perpendicular,
+// or an end of one edge and the nearest point of the other edge.
 template <Kind kind>
 bool is_near(const Pair<kind, double>& pair, double t, const BridsonTolerances& tolerances) {
   const Configuration<kind, double> at(pair, t);
@@ -45,8 +46,9 @@ bool is_near(const Pair<kind, double>& pair, double t, const BridsonTolerances& 
 
 }  // namespace detail
 
-/// Solves F(t) = 0 as `basic` does, and tests proximity at each root and at t = 1. It guarantees nothing: if
-/// rounding hides a root, no tolerance of the proximity test helps.
+/// Solves F(t) = 0 as `basic` does, and applies the proximity test at each root and at t = 1. It guarantees
+/// nothing: if rounding hides a root, it may miss a collision, whatever the tolerances of the proximity test
+/// are.
 template <Kind kind>
 Verdict bridson(const Query& query, const BridsonTolerances& tolerances) {
   Pair<kind, double> pair;  // without a bound B, and so without normalisation

@@ -1,4 +1,4 @@
-// The baseline for two vertices, and for a vertex and an edge. It computes their closest approach in double,
+// The baseline for two vertices, and for a vertex and an edge: computes their closest approach in double,
 // without any tolerance.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace nearmiss {
 
 namespace detail {
 
-/// The zeros in (0, 1) of a polynomial with the coefficients c[0], c[1] and so on, up to rounding errors. The
-/// zeros of the derivative divide (0, 1) into parts in which the polynomial is monotone.
+/// The zeros in (0, 1) of the polynomial c[0] + c[1] t + c[2] t² + ..., up to rounding errors. The zeros of
+/// its derivative divide (0, 1) into parts in which the polynomial is monotone.
 inline std::vector<double> zeros_in_step(const std::vector<double>& c) {
   if (c.size() < 2) return {};
   std::vector<double> derivative;
@@ -52,16 +52,16 @@ inline std::vector<double> product(const std::vector<double>& a, const std::vect
   return c;
 }
 
-/// The squared distance of a vertex from an edge. Both vectors are relative to one end of the edge; the edge
-/// may be a point.
+/// The squared distance of a vertex from an edge. The arguments are the vectors from one end of the edge to
+/// the vertex and to the other end. The edge may be a point.
 inline double squared_edge_distance(const Vector3<double>& vertex, const Vector3<double>& edge) {
   const double ll = edge.dot(edge);
   const double weight = ll > 0 ? std::clamp(vertex.dot(edge) / ll, 0.0, 1.0) : 0;
   return (vertex - weight * edge).squaredNorm();
 }
 
-/// A vertex and an edge: a + t va is the vertex relative to one end of the edge, and e + t ve is the vector
-/// of the edge. For two vertices, e and ve are 0.
+/// A vertex x0 and an edge x1x2: a + t va is the vector from x1 to x0, and e + t ve the vector from x1 to x2.
+/// For two vertices, x2 = x1, so e and ve are 0.
 struct Approach {
   using Vector = Vector3<double>;
   Vector a, va, e, ve;
@@ -76,8 +76,8 @@ struct Approach {
     return squared_edge_distance(a + t * va, e + t * ve);
   }
 
-  /// 0, 1 and the times between them at which the distance to an end or to the edge's line may be smallest,
-  /// in order.
+  /// In ascending order: 0, 1, and all times in (0, 1) at which the distance from an end or from the line of
+  /// the edge has an extremum.
   [[nodiscard]] std::vector<double> times() const {
     std::vector<double> found{0, 1};
     const auto add_nearest = [&](const Vector& x, const Vector& v) {
@@ -86,7 +86,7 @@ struct Approach {
     };
     add_nearest(a, va);
     add_nearest(a - e, va - ve);
-    // The squared distance to the line is N / D, which is extremal where N' D - N D' is 0.
+    // The squared distance from the line is N / D, which has its extrema where N' D - N D' is 0.
     const Vector q0 = a.cross(e);
     const Vector q1 = a.cross(ve) + va.cross(e);
     const Vector q2 = va.cross(ve);
@@ -104,9 +104,8 @@ struct Approach {
 
 }  // namespace detail
 
-/// Whether two vertices, or a vertex and an edge, are within the query's separation at the time of a closest
-/// approach. It guarantees nothing. The reported time is the first at which they are within the separation,
-/// up to rounding.
+/// Reports primitives that are within the query's separation at one of Approach::times(). It guarantees
+/// nothing. The reported time is the first at which they are within the separation, up to rounding.
 template <bool plane_culling>
 Verdict closest_approach(const Query& query) {
   const double h = query.separation;

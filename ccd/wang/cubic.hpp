@@ -22,9 +22,9 @@ struct Cubic {
   [[nodiscard]] T slope(T t) const { return (3 * a * t + 2 * b) * t + c; }
 };
 
-/// F(t) = p · (q × r) of a pair. If all vectors are exact and within B, Theorem 4.1 bounds the errors of a
-/// and d by 6B³((1 + ε)⁵ - 1) and those of b and c by 18B³((1 + ε)⁷ - 1), as in the paper. Here x·(v×v) +
-/// v·(x×v + v×x) is the paper's sum with the dot product factored out.
+/// The cubic F(t) = p · (q × r) of a pair. If all vectors are exact and within B, Theorem 4.1 bounds the
+/// errors of a and d by 6B³((1 + ε)⁵ - 1), and those of b and c by 18B³((1 + ε)⁷ - 1), as in the paper. The
+/// code computes b as x·(v×v) + v·(x×v + v×x), where the paper has x·(v×v) + v·(x×v) + v·(v×x); likewise c.
 template <Kind kind, class T>
 Cubic<T> coplanarity(const Pair<kind, T>& pair) {
   const auto& [p, q, r] = std::tie(pair.p, pair.q, pair.r);
@@ -37,10 +37,10 @@ Cubic<T> coplanarity(const Pair<kind, T>& pair) {
 namespace detail {
 
 // A time with |F| <= μ between lo and hi, found by Newton's method safeguarded by bisection. At lo and hi, F
-// has different signs, and |F| > μ. The iteration ends: bisection replaces a step that leaves the bracket or
-// is more than half as long as the step before it. Only if μ is smaller than `solve_cubic` requires, the
-// bracket may become unable to shrink, or a step may leave t unchanged (`next == t`). If the bracket cannot
-// shrink, its end with the smaller residual is returned.
+// must have different signs, and |F| must exceed μ. The iteration ends, because bisection replaces every step
+// that leaves the bracket, or is more than half as long as the step before. If μ is smaller than
+// `solve_cubic` requires, it can also end because a step leaves t unchanged (`next == t`), or because no
+// number lies inside the bracket; then the result is the end of the bracket with the smaller |F|.
 template <class T>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
   using std::abs;
@@ -73,8 +73,8 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
 // Adds the critical points of F in [0, 1], in ascending order.
 template <class T>
 void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
-  // F' has the Bernstein coefficients c, c + b, 3a + 2b + c. If they have the same sign, F is monotone and
-  // has no node inside.
+  // F' has the Bernstein coefficients c, c + b and 3a + 2b + c. If these have the same sign, F is monotone on
+  // [0, 1], and has no critical point inside.
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
   if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
@@ -84,8 +84,8 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
   }
 }
 
-// The nodes (0, the critical points of F in (0, 1), and 1), and the values of F at the nodes. Interval i is
-// between nodes i and i + 1.
+// The nodes, and the values of F at the nodes. The nodes are 0, the critical points of F in (0, 1), and 1.
+// Interval i is between the nodes i and i + 1.
 template <class T>
 struct Nodes {
   std::array<T, 4> time{0}, value;
@@ -105,7 +105,7 @@ struct Nodes {
   }
 };
 
-// The time with |F| <= μ that represents the roots in interval i, if there is one.
+// The time with |F| <= μ that represents the roots of F in interval i, if there is one.
 template <class T>
 std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T mu) {
   using std::abs;
@@ -118,12 +118,13 @@ std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std:
 
 }  // namespace detail
 
-/// Bound of |computed - exact| / (B³ε) for `clearance` with the computed coefficients as input. For rounding
-/// to nearest, 41 is proven (proven.hpp).
+/// The bound of the error of `clearance`, in units of B³ε, without the errors of the coefficients of F. For
+/// rounding to nearest, 41 is proven (proven.hpp).
 inline constexpr int clearance_error = 100;
 
-/// A lower bound of |F| on [0, 1], up to `clearance_error`; negative if no bound is known. F lies between its
-/// Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
+/// A lower bound of |F| on [0, 1], with an error of at most `clearance_error`; negative if F may have a zero.
+/// On [0, 1], F lies between the least and the largest of its Bernstein coefficients d, d + c/3, d + (2c +
+/// b)/3 and a + b + c + d.
 template <class T>
 T clearance(const Cubic<T>& F) {
   using std::max;
@@ -137,32 +138,32 @@ T clearance(const Cubic<T>& F) {
   return max(lowest, T(-highest));
 }
 
-/// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1].
+/// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1]. There are
+/// none if |F| is above μ on all of [0, 1].
 ///
-/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes contributes its left
-/// node if |F| <= μ there, else its right node if |F| <= μ there, else nothing if F has the same sign at
-/// both, else a refined root.
+/// The nodes are 0, the critical points of F in (0, 1), and 1. Each interval between two nodes contributes
+/// its left node if |F| <= μ there; else its right node if |F| <= μ there; else, if F has different signs at
+/// the two nodes, the result of `refine_root`.
 ///
-/// Claim (Appendix B), for μ >= `cubic_residual`: for each root t0 of the exact F*, a time t is returned such
-/// that |F*| is at most μ + `cubic_residual` between t0 and t.
+/// Claim (Appendix B), for μ >= `cubic_residual`: for each root t0 of the cubic F* with exact coefficients,
+/// one of the returned times t is such that |F*| is at most μ + `cubic_residual` between t0 and t.
 ///
-/// Proof, for operations with a relative error of at most ω. F has the computed coefficients, and |F - F*| <=
-/// e. F̂ is the value of F computed by Horner's rule, and |F̂ - F| <= h. Let E = e + h.
-/// (1) If s and t lie in the interval between two nodes, F stays between F(s) and F(t) there, up to an error
-///     of m. The inner nodes are the critical points of F + (c' - c) t (`solve_quadratic`, |c' - c| <= 3ω
-///     |c|), each up to a factor 1 + θ. That function is monotone between its exact critical points, and it
-///     changes by O(ω²) between such a point, where its slope is 0, and the node. So m is 54 ω + O(ω²). If
-///     the computed Bernstein coefficients have the same sign, the last one has an error of at most 72 ω, and
-///     the slope has one of at most 72 ω t²: m is 24 ω.
-/// (2) If |F̂| > μ at both nodes with the same sign, then |F| > μ - h - m between them. A root t0 of F* has
-///     |F| <= e, so there is none between them. `clearance` has an error of at most 114 ω. If `clearance`
-///     exceeds μ, F* has no root.
-/// (3) `refine_root` ends with |F̂| <= μ. F̂ has different signs at the ends of its bracket, with |F̂| > μ.
-///     If F̂ has different signs at two neighbouring numbers, |F̂| <= 72 ω + h at one of them, so the bracket
-///     can always shrink. A step that leaves t unchanged is at most ω t, but |F̂| > 73 ω gives a longer step.
+/// Proof, for B = 1 and operations with a relative error of at most ω. F has the computed coefficients, and
+/// |F - F*| <= e. F̂ is the value of F computed by Horner's rule, and |F̂ - F| <= h. Let E = e + h.
+/// (1) If s and t are in the same interval between two nodes, F stays between F(s) and F(t) at all times
+///     between s and t, up to an error of m. The inner nodes are the critical points of F + (c' - c) t, with
+///     |c' - c| <= 3ω |c|, each up to a factor 1 + θ (`solve_quadratic`). This function is monotone between
+///     its exact critical points. It changes by O(ω²) between such a point, where the slope is 0, and the
+///     node. So m is 54 ω + O(ω²). If there are no inner nodes because the computed Bernstein coefficients of
+///     F' have the same sign, the last coefficient has an error of at most 72 ω. Then the slope of F has the
+///     wrong sign by at most 72 ω t², and m is 24 ω.
+/// (2) If |F̂| > μ at two neighbouring nodes, with the same sign, then |F| > μ - h - m between them. A root t0
+///     of F* has |F| <= e, so no root of F* is between these nodes. `clearance` has an error of at most
+///     114 ω, so F* has no root if `clearance` exceeds μ.
+/// (3) `refine_root` ends with |F̂| <= μ. At the ends of its bracket, F̂ has different signs, and |F̂| > μ. If
+///     F̂ has different signs at two neighbouring numbers, |F̂| <= 72 ω + h at one of them, so the bracket can
+///     always shrink. A step that leaves t unchanged is at most ω t long, but |F̂| > 73 ω gives a longer step.
 /// (4) Between t0 and t, |F*| <= e + max(|F(t0)|, |F(t)|) + m <= e + max(e, μ + h) + m.
-///
-/// If |F| is above μ on all of [0, 1], there are no such times.
 template <class T>
 CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
   CandidateTimes<T, 3> roots;

@@ -1,4 +1,5 @@
-// The roots of many coplanarity cubics at once: the arithmetic of cubic.hpp and quadratic.hpp in lanes.
+// The roots of many coplanarity cubics, one cubic in each lane, with the arithmetic of cubic.hpp and
+// quadratic.hpp.
 #pragma once
 
 #include <array>
@@ -9,13 +10,13 @@
 
 namespace nearmiss::detail {
 
-/// In each lane, a quotient and whether it is in [0, 1]; add_quotient() in quadratic.hpp is the scalar
-/// version.
+/// A quotient in each lane, and whether it is in [0, 1].
 template <class Real>
 struct Quotient {
   Real value;
   typename Real::Mask is_inside;
 };
+/// add_quotient() in lanes.
 template <class Real>
 Quotient<Real> quotient(Real numerator, Real denominator) {
   const auto negative = denominator < Real(0);
@@ -25,8 +26,7 @@ Quotient<Real> quotient(Real numerator, Real denominator) {
           (denominator > Real(0)) & (numerator >= Real(0)) & (numerator <= denominator)};
 }
 
-/// In each lane, both roots of a quadratic and whether each root is in [0, 1]; solve_quadratic() is the
-/// scalar version.
+/// solve_quadratic() in lanes: in each lane, both roots of a quadratic.
 template <class Real>
 std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, const Real& c) {
   const auto is_linear = a == Real(0);
@@ -39,13 +39,14 @@ std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, cons
   return roots;
 }
 
-/// In each lane, whether a cubic has a critical point in [0, 1], whether it has two, and these points in
-/// ascending order, with 1 in place of a missing point. find_critical_times() is the scalar version.
+/// In each lane, whether a cubic has a critical point in [0, 1], whether it has two, and the critical points
+/// in ascending order, with 1 in place of a missing one.
 template <class Real>
 struct CriticalTimes {
   typename Real::Mask any, two;
   Real first, second;
 };
+/// find_critical_times() in lanes.
 template <class Real>
 CriticalTimes<Real> critical_times(const Cubic<Real>& F) {
   using Mask = typename Real::Mask;
@@ -65,16 +66,17 @@ CriticalTimes<Real> critical_times(const Cubic<Real>& F) {
   return critical;
 }
 
-/// An interval of time, and the values of F at its ends.
+/// An interval [lo, hi] of times, and the values of F at its ends.
 template <class Real>
 struct Bracket {
   Real lo, hi, f_lo, f_hi;
 };
 
-/// Each interval between two nodes contributes one of these to the roots (see `solve_cubic`).
+/// What an interval between two nodes contributes to the times that represent the roots (see `solve_cubic`).
 enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
 
-/// The contribution of an interval, as a number; `nothing` in lanes in which the interval does not exist.
+/// In each lane, the Contribution of an interval, as a number; `nothing` if the lane's cubic has no such
+/// interval.
 template <class Real>
 Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exists, const Real& mu) {
   const auto is = [](Contribution c) { return Real(static_cast<double>(c)); };
@@ -85,7 +87,7 @@ Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exis
   return select(exists, found, is(nothing));
 }
 
-/// The result of refine_root in the active lanes, and 0 in the other lanes.
+/// refine_root() in the active lanes; 0 in the other lanes.
 template <class Real>
 Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typename Real::Mask active) {
   using Mask = typename Real::Mask;

@@ -1,5 +1,5 @@
-// Elementary functions that give the same bits with every compiler and every mathematical library: they use
-// only sums, products and quotients of doubles, each rounded once.
+// Elementary functions that give the same bits with every compiler and every mathematical library, because
+// they compute only sums, products and quotients of doubles, each rounded once, and scale by powers of two.
 #pragma once
 
 #include <cmath>

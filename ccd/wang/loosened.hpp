@@ -1,5 +1,5 @@
-// How near the answer for a pair is to changing: the factor by which the tolerances must be loosened, or
-// tightened, to change it.
+// Finds the factor for the tolerances at which the answer to a query changes: a measure of how near the query
+// is to the opposite answer.
 #pragma once
 
 #include "ccd/wang/elementary.hpp"
@@ -7,7 +7,7 @@
 
 namespace nearmiss {
 
-/// The tolerances of a rule, loosened by the factor s. The lengths D, √δ, √ψ, S and ∛μ, which decide whether
+/// The tolerances of a rule, loosened by the factor s: the lengths D, √δ, √ψ, S and ∛μ, which decide whether
 /// a pair is accepted, are multiplied by s.
 template <class Rule>
 struct Loosened {
@@ -41,8 +41,9 @@ struct Loosened {
   }
 };
 
-/// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) is the answer with
-/// Loosened tolerances. Returns 2^-40 if hits(2^-40) is true, and 2^8 if hits(2^8) is false.
+/// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) is whether the CCD
+/// reports the query with tolerances loosened by s. The result is 2^-40 if hits(2^-40) is true, and 2^8 if
+/// hits(2^8) is false.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   double lo = -40;

@@ -1,4 +1,4 @@
-// Relative positions and velocities of a pair, normalised by a power of two, with its bound B.
+// The relative positions and velocities of a pair, scaled by a power of two, and the pair's bound B.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// The largest magnitude of a component, ‖a‖∞.
+/// ‖a‖∞, the largest magnitude of a component.
 template <class Vector>
 auto max_component(const Vector& a) {
   using std::abs;
@@ -22,12 +22,12 @@ auto max_component(const Vector& a) {
   return max(max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
 }
 
-/// The dot product, summed in a fixed order; the order of Eigen's sums depends on its vector instructions.
+/// The dot product, summed in a fixed order. (Eigen's order depends on its vector instructions.)
 template <class A, class B>
 auto dot(const A& a, const B& b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
-/// The sum of the magnitudes of the components, ‖a‖₁, in a fixed order.
+/// ‖a‖₁, the sum of the components' magnitudes, in a fixed order.
 template <class Vector>
 auto norm_1(const Vector& a) {
   using std::abs;
@@ -41,28 +41,29 @@ struct Moving {
 
   [[nodiscard]] auto x() const { return xv.template head<3>().matrix(); }
   [[nodiscard]] auto v() const { return xv.template tail<3>().matrix(); }
-  /// The position at a time, computed in a scalar that may have more digits.
+  /// x + t v, computed in Wide, which may have more digits than T.
   template <class Wide = T>
   [[nodiscard]] Vector3<Wide> at(const T& t) const {
     return x().template cast<Wide>() + Wide(t) * v().template cast<Wide>();
   }
 };
 
-/// The time in which a gap closes at a given speed, at most `most`; 0 if the gap is not positive.
+/// The time in which a gap closes at a given speed, or `most` if this takes longer; 0 if the gap is not
+/// positive.
 template <class T>
 T closing_time(T gap, T speed, T most) {
   if (!(gap > 0)) return 0;
   return gap < most * speed ? T(gap / speed) : most;
 }
 
-/// The power-of-two frame in which a pair is computed: differences of coordinates are multiplied by
-/// 2^exponent. If a difference would overflow, the coordinates themselves are multiplied by 2^-4 first.
+/// How a pair is scaled: differences of coordinates are multiplied by 2^exponent. If `reduced` is true, the
+/// coordinates are multiplied by 2^-4 first, so that no difference overflows.
 struct Frame {
   int exponent = 0;
   bool reduced = false;
 
   [[nodiscard]] bool identity() const { return exponent == 0 && !reduced; }
-  /// A length in the frame is the length in the query times 2 to this power.
+  /// A length in the frame is the length in the query times 2^total().
   [[nodiscard]] int total() const { return exponent - (reduced ? reduction : 0); }
 
   static constexpr int reduction = 4;
@@ -88,9 +89,9 @@ Vector3<T> difference(const Coordinate* a, const Coordinate* b, const Frame& fra
 
 }  // namespace detail
 
-/// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each position has one
-/// rounding (relative error u); scaling is exact except for underflow below 2^-1074. `Points` is Query, or a
-/// type with 24 coordinates of another scalar.
+/// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each x_ab has one rounding
+/// (relative error u). Scaling is exact, except for underflow below 2^-1074. `Points` is Query, or a type
+/// with 24 coordinates `x` of another scalar.
 template <class T, class Points>
 Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame = {}) {
   const auto* x = points.x.data();
@@ -101,24 +102,23 @@ Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame
   return motion;
 }
 
-/// The vertices of a pair in the order in which the paper's formulas name them. The two end points of an edge
-/// may change places (§4.1).
+/// The vertices of a pair, in the order of the paper's formulas. The end points of an edge may change places
+/// (§4.1).
 using VertexOrder = std::array<int, 4>;
 inline constexpr VertexOrder given_order{0, 1, 2, 3};
 
-/// The three relative vectors whose triple product is the coplanarity cubic F(t) = p · (q × r):
-/// vertex-triangle x01, x21, x31 (Algorithm 3); edge-edge x20, x10, x32 (Algorithm 4).
+/// The relative vectors of a pair, and their bound B. The coplanarity cubic is F(t) = p · (q × r). For
+/// vertex-triangle, p, q, r are x01, x21, x31 (Algorithm 3); for edge-edge, x20, x10, x32 (Algorithm 4).
 template <Kind kind, class T>
 struct Pair {
   Moving<T> p, q, r;
   Frame frame;
   VertexOrder order = given_order;
-  T E = 0;  ///< largest component of an edge at t = 0
-  T W = 0;  ///< largest component of a relative velocity within the pair: the relative 2 V_max of §4.1
+  T E = 0;  ///< the largest component of an edge at t = 0
+  T W = 0;  ///< the largest component of the relative velocity of two vertices: 2 V_max of §4.1
   T B = 0;  ///< the bound of §4.1 on all relative positions and velocities, if the pair collides
 };
 
-/// Forms p, q and r in the pair's frame and order.
 template <Kind kind, class T, class Points>
 void form_vectors(const Points& points, Pair<kind, T>& pair) {
   const auto motion = [&](VertexPair vertices) {
@@ -130,31 +130,32 @@ void form_vectors(const Points& points, Pair<kind, T>& pair) {
   pair.r = motion(r);
 }
 
-/// B is E + W times 1 + `bound_margin` ε. The proofs only need the factor 1 + `bound_needs` ε.
+/// B = (E + W)(1 + `bound_margin` ε). For the proofs, a factor of 1 + `bound_needs` ε is enough.
 inline constexpr int bound_margin = 64;
 inline constexpr int bound_needs = 40;
 
 namespace detail {
 
-// B = (E + W)(1 + 64 ε). E bounds the edges at t = 0. W is the extent of the bounding box of the vertices'
-// velocities, relative to one vertex's; subtracting that velocity only shifts the box. W = 2 V_max with the
-// relative V_max of §4.1, and W is never above 2 max ‖v_i‖∞.
+// Sets E, W and B = (E + W)(1 + 64 ε). E is the largest component of an edge at t = 0. W is the extent of the
+// bounding box of the vertices' velocities. All velocities are relative to one vertex, which shifts the box
+// but does not change its extent. W is the paper's 2 V_max for relative velocities (§4.1), and at most 2 max
+// ‖v_i‖∞.
 //
 // Rounding errors: let E* and W* be the exact values, and B* = E* + W*. Only a pair that collides needs a
-// bound. In such a pair, every edge is within B* at both times, and the vertex of VT is within B* of all
-// others. For EE at t = 0, some end point of one edge is within B* of some end point of the other, and the
-// edges are within E*. So any two end points are within B* + 2E* <= 3B* of each other at t = 0, and within
-// 4B* at t = 1. The errors are at most
+// bound. In such a pair, every edge is within B* at t = 0 and at t = 1, and the vertex of VT is within B* of
+// all other vertices. For EE at t = 0, some end point of one edge is within B* of some end point of the other
+// edge, and both edges are within E*. So any two end points are within B* + 2E* <= 3B* of each other at
+// t = 0, and within 4B* at t = 1. The errors are at most
 // - u(|start| + |end|) + u|v| <= 8uB* for a velocity,
 // - 17uB* for a sum of two velocities (v30 = v20 + v32),
 // - 34uB* + u for an extent, which is the difference of two such sums,
 // - 4uB* for an edge (x32 = x31 - x21).
-// The sum E + W adds u. All together are below 40uB* = 20 ε B* (17 is proven). The factor 1 + 64 ε leaves
-// room for the rounding of its own product: B >= B*(1 + 40ε).
+// The sum E + W has a rounding error of uB*. Together these errors are at most 40uB* = 20 ε B* (17 ε B* is
+// proven). The factor 1 + 64 ε makes up for them and for the rounding of its own product: B >= B*(1 + 40ε).
 template <Kind kind, class T>
 void form_bound(Pair<kind, T>& pair) {
-  // Six components at once: positions, then velocities, of the points relative to the first point, which is
-  // at 0.
+  // Six components at once: those of an edge, then those of a velocity. p is not an edge, so 0 takes the
+  // place of its position.
   using Six = Eigen::Array<T, 6, 1>;
   const Six& q = pair.q.xv;
   Six p;
@@ -164,12 +165,13 @@ void form_bound(Pair<kind, T>& pair) {
   const Six hi = p.max(q).max(r).max(T(0));
   const Six lo = p.min(q).min(r).min(T(0));
   const Six extent = hi - lo;
-  // The edges of a triangle are the differences of {0, q, r}; the edges of EE are q and r themselves.
+  // The edges of a triangle are the differences of the points 0, q and r; the edges of EE are q and r
+  // themselves.
   const Six edges = has_triangle(kind) ? extent : Six(hi.max(-lo));
   pair.E = max_component(edges.template head<3>());
   pair.W = max_component(extent.template tail<3>());
-  // r is NaN where p and v32 are infinite with opposite signs. Whether Eigen's max then returns p or NaN
-  // depends on the processor, so compare p once more. This never changes a finite W.
+  // A component of r is NaN if v20 (in p) and v32 are infinite with opposite signs. Whether Eigen's max then
+  // returns p or NaN depends on the processor, so p is compared once more. This never changes a finite W.
   using std::max;
   if constexpr (is_scalar<T>) pair.W = max(pair.W, max_component(pair.p.v()));
   pair.B = (pair.E + pair.W) * (1 + bound_margin * epsilon<T>());
@@ -177,7 +179,6 @@ void form_bound(Pair<kind, T>& pair) {
 
 }  // namespace detail
 
-/// The relative vectors of a pair and its bound B in a given frame and order of end points.
 template <Kind kind, class T>
 Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const VertexOrder& order = given_order) {
   Pair<kind, T> pair;
@@ -188,9 +189,9 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Verte
   return pair;
 }
 
-/// Whether B³, B⁴ε and N·N stay in the range of the scalar without scaling. For double with B in [2^-100,
-/// 2^100], nothing can overflow, and underflow adds an error below 2^-1074 to a result, far less than B⁴ε >=
-/// 2^-452. So scaling would not help there. For a narrower scalar the same argument holds with a smaller range.
+/// Whether a pair with this bound B needs no scaling. For double, this is so if B is in [2^-100, 2^100]:
+/// nothing can overflow, and underflow adds an error below 2^-1074 to a result, far less than B⁴ε >= 2^-452.
+/// For a narrower scalar, B must be in [2^-6, 2^6].
 template <class T>
 auto in_range(T B) {
   using Number = ScalarOf<T>;
@@ -199,8 +200,8 @@ auto in_range(T B) {
   return (B <= T(root * root)) & (B >= T(1 / (root * root)));
 }
 
-/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if B is
-/// already in range, or 0. `bound_in(frame)` gives B, or NaN if it cannot be computed in that frame.
+/// The frame in which B is in [1, 2), for finite coordinates of any magnitude; the identity if B is already
+/// in range, or 0. bound_in(frame) gives B in a frame, or NaN if B cannot be computed in this frame.
 template <class T, class BoundIn>
 Frame frame_for(const BoundIn& bound_in) {
   Frame frame;
@@ -215,7 +216,7 @@ Frame frame_for(const BoundIn& bound_in) {
   return frame;
 }
 
-/// The frame in which a pair's B lies in [1, 2).
+/// The result of frame_for() for a query's own bound B.
 template <Kind kind, class T>
 Frame normalising_frame(const Query& query) {
   return frame_for<T>([&](const Frame& frame) -> T {
@@ -229,7 +230,7 @@ Frame normalising_frame(const Query& query) {
 
 namespace detail {
 
-// The order of end points for which the largest component of x20 is smallest.
+// The order of end points with the smallest ‖x20‖∞ at t = 0.
 template <class T>
 VertexOrder closest_order(const Query& query, const Frame& frame) {
   VertexOrder best = given_order;
@@ -248,16 +249,16 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B. All are within B if the pair collides (§4.1) and, for two
-/// edges, p joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative
-/// error of at most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
+/// Whether all vectors of the pair are within B. They are if the pair collides and, for two edges, p joins
+/// the end points that are closest at t = 0 (§4.1). The computed p has a relative error of at most u, and
+/// B >= B*(1 + 40ε). So a pair cannot collide if its p is not within B in the closest_order() of end points.
 template <Kind kind, class T>
 auto within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;
 }
 
-/// Whether all vectors of the pair are within B, after the end points of edges are exchanged if necessary. B
-/// itself does not depend on their order.
+/// Whether all vectors of the pair are within B, if need be after an exchange of end points of edges. B does
+/// not depend on the order of end points.
 template <Kind kind, class T>
 bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
   if (within_reach(pair)) return true;

@@ -1,4 +1,4 @@
-// The size of a pair, and what wang promises for it.
+// The bound B of a pair, and the distance bound that `wang` claims for the pair.
 #pragma once
 
 #include <cmath>
@@ -11,25 +11,24 @@
 namespace nearmiss {
 
 /// The bound B of one pair (§4.1), in the unit of the query's coordinates; infinity if it exceeds the largest
-/// double. The bound of a scene is the largest one of its pairs.
+/// double. The bound B of a scene is the largest B of its pairs.
 template <Kind kind>
 double pair_bound(const Query& query) {
   const auto in = [&](const Frame& frame) {
     return std::ldexp(make_pair<kind, double>(query, frame).B, -frame.total());
   };
   const double B = in(normalising_frame<kind, double>(query));
-  // Two primitives may be so far apart that their distance overflows in the frame of their B. Their relative
-  // velocity is then NaN.
+  // The primitives may be so far apart that their difference overflows in the frame of B. Then their relative
+  // velocity, and with it B, is NaN.
   return std::isnan(B) ? in({.reduced = true}) : B;
 }
-/// The bound B of a pair whose kind is known at run time.
 inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }
 
-/// The largest distance at which a pair with bound B can be a false positive. It is computed from the
-/// tolerances for B = 1, where nothing overflows, and is rounded up, so that it does not vanish for a tiny
-/// pair.
+/// If `wang` reports a pair with the bound B falsely, the pair's smallest distance is at most this bound. It
+/// is computed from the tolerances for B = 1, with which nothing overflows, and rounded up, so that it is not
+/// 0 for a tiny pair.
 inline double distance_bound_of(const Tolerances<double>& at_one, double B) {
   return std::nextafter(at_one.distance_bound() * B, std::numeric_limits<double>::infinity());
 }

@@ -11,8 +11,8 @@ namespace nearmiss {
 
 namespace detail {
 
-// The least and the largest coordinate of the first and of the second primitive. `coordinate(time, vertex)`
-// is one number or a vector of numbers.
+// The least and the largest coordinate of the first primitive, then those of the second primitive.
+// coordinate(time, vertex) is one number, or a vector with a number for each lane.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto extents(const Coordinate& coordinate, std::size_t time) {
   using std::max;
@@ -32,11 +32,11 @@ template <Kind kind, class Coordinate>
   return std::array{first[0], first[1], second[0], second[1]};
 }
 
-// Whether one primitive lies entirely on one side of the other in the given coordinate at t = 0, and on the
-// same side at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
-// at all times between them. Every convex combination of these differences has the same sign, so the
-// primitives never meet. The answer is one truth value, or a vector of truth values if the coordinates are
-// vectors.
+// Whether, in the given coordinate, one primitive lies entirely above the other at t = 0, and the same
+// primitive lies entirely above the other at t = 1. Then the difference of a vertex of the upper primitive
+// and one of the lower is positive at t = 0 and t = 1 and, because it is linear, at all times between. The
+// difference of any two points of the primitives is a convex combination of these differences, so the
+// primitives never meet. The answer is one truth value, or a mask if the coordinates are in lanes.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
   const auto start = extents<kind>(coordinate, 0);
@@ -46,7 +46,7 @@ template <Kind kind, class Coordinate>
   return above | below;
 }
 
-/// Tests the axes x, y and z; `x(time, vertex, k)` is coordinate k of a point.
+/// `separated` along the axes x, y and z. x(time, vertex, k) is coordinate k of a vertex.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_axis(const Points& x) {
   const auto axis = [&](std::size_t k) {
@@ -55,7 +55,7 @@ template <Kind kind, class Points>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// Tests the diagonals x ± y, x ± z and y ± z.
+/// `separated` along the diagonals x ± y, x ± z and y ± z.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_diagonal(const Points& x) {
   const auto sum = [&](std::size_t k, std::size_t l) {
@@ -74,18 +74,19 @@ template <Kind kind, class Points>
 /// Whether a moving plane perpendicular to an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) provably
 /// separates the primitives at all times in [0, 1], so that there is no collision.
 ///
-/// The axis tests compare input coordinates. The diagonal tests compare sums and differences that were
-/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error margin is needed.
-/// Overflow is no exception: an infinite sum is rightly above every finite one, and not above another
-/// infinite one.
+/// Along an axis, the code compares the coordinates themselves. Along a diagonal, it compares sums or
+/// differences that are rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error
+/// margin is needed. This also holds after overflow: an infinite sum is above every finite sum, and not above
+/// another infinite one.
 template <Kind kind>
 bool separated_by_plane(const Query& query) {
   const auto x = coordinates(query);
   return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
 }
 
-/// Whether one primitive is more than h above the other along an axis, at t = 0 and at t = 1, and hence
-/// always. Rounding is monotone, so fl(a - b) > h implies a - b > h.
+/// Whether, along an axis, one primitive is more than h above the other at t = 0, and the same primitive is
+/// more than h above the other at t = 1. Then their distance is always more than h. Rounding is monotone, so
+/// fl(a - b) > h implies a - b > h.
 inline bool separated_across_axis_by(double h, const Query& query) {
   const auto x = coordinates(query);
   const auto axis = [&](std::size_t k) {

@@ -1,4 +1,4 @@
-// The area, height and barycentric tests of Algorithms 3 and 4 at one time.
+// The area, height and barycentric tests of Algorithms 3 and 4, at one time.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,15 @@
 
 namespace nearmiss {
 
-/// The configuration of a pair at one time: the p, q, r of `Pair`, the normal N = q × r and the barycentric
-/// weights.
+/// The configuration of a pair at one time: the vectors p, q and r of `Pair`, the normal N = q × r, and the
+/// barycentric weights.
 ///
-/// Vertex-triangle: the weights of x3 and x2 and their sum (1 minus the weight of x1), each times N·N. x01 =
-/// β x31 + α x21 gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: the weights α on x0x1 and
-/// β on x2x3. x20 = α x10 - β x32 gives N·(x20 × x32) = α N·N and N·(x20 × x10) = β N·N.
+/// All weights are multiplied by N·N. Vertex-triangle has three: β of x3, α of x2, and their sum, which is 1
+/// minus the weight of x1. Since x01 = β x31 + α x21, N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N.
+/// Edge-edge has two: α on the edge x0x1, and β on x2x3. Since x20 = α x10 - β x32, N·(x20 × x32) = α N·N and
+/// N·(x20 × x10) = β N·N.
 ///
-/// Everything is computed in T, which may have more digits than the scalar of the pair.
+/// All operations are in T, which may have more digits than Given, the scalar of the pair.
 template <Kind kind, class Given, class T = Given>
 struct Configuration {
   Vector3<T> p, q, r, N;
@@ -40,7 +41,7 @@ struct Configuration {
     }
   }
 
-  /// Barycentric test: every weight in [0, N·N].
+  /// The barycentric test: whether every weight is in [0, N·N].
   [[nodiscard]] auto inside() const {
     const auto between = [&](const T& w) { return (T(0) <= w) & (w <= NN); };
     decltype(between(NN)) inside(true);
@@ -48,7 +49,7 @@ struct Configuration {
     return inside;
   }
 
-  /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
+  /// The area test, ‖N‖∞ >= τ, and the height test, ‖N‖∞ >= η ‖edge‖∞ for every edge (§4.4, §4.5).
   [[nodiscard]] auto well_shaped(const Tolerances<Given>& tol) const {
     using std::max;
     const T area = max_component(N);

@@ -1,4 +1,4 @@
-// Roots of a quadratic in [0, 1] (the paper's Appendix A).
+// The roots of a quadratic in [0, 1] (the paper's Appendix A).
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-/// At most `capacity` times in [0, 1], in a fixed buffer without allocation.
+/// A list of at most `capacity` times in [0, 1], which allocates no memory.
 template <class T, int capacity>
 struct CandidateTimes {
   T values[capacity];
@@ -17,8 +17,8 @@ struct CandidateTimes {
   [[nodiscard]] const T* end() const { return values + count; }
 };
 
-/// Adds numerator / denominator if the quotient is in [0, 1]. The test does not divide, so a zero denominator
-/// or an overflow never reaches a comparison. 0/0 adds nothing, because the equation is trivial.
+/// Adds numerator / denominator if the quotient is in [0, 1]. The test compares numerator and denominator
+/// instead of dividing, so the quotient need not exist or be finite. 0/0 adds nothing.
 template <class T, int capacity>
 void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator) {
   if (denominator < 0) {
@@ -28,19 +28,21 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
   if (denominator > 0 && numerator >= 0 && numerator <= denominator) times.add(numerator / denominator);
 }
 
-/// Adds the roots of a t² + b t + c in [0, 1], in no particular order. A linear equation is solved too; a
-/// constant one adds nothing.
+/// Adds the roots of a t² + b t + c in [0, 1], in any order. If a is 0, adds the root of b t + c; if b is 0,
+/// too, adds nothing.
 ///
-/// A computed discriminant below 0 is taken as 0: one more candidate is harmless. With q = -(b + sign(b)
-/// sqrt(disc)) the roots are q/2a and 2c/q, and neither suffers from cancellation.
+/// A computed discriminant below 0 counts as 0, since an additional candidate is harmless. With q = -(b +
+/// sign(b) sqrt(disc)), the roots are q/2a and 2c/q. Neither formula suffers from cancellation.
 ///
-/// Errors, for operations with a relative error of at most ω: there is one c' with |c' - c| <= 2ω |c| such
-/// that, for each root t' of a t² + b t + c' in [0, 1], a time t'(1 + θ) with |θ| <= 6ω is returned, unless
-/// it is beyond 1. (All to first order; tests/proofs/ has all orders.) The proof: the computed discriminant
-/// disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)(1 + δ3) times the exact discriminant of a, b and c'
-/// = c(1 + δ2)/(1 + δ1), and has the same sign. The relative errors are then 2ω for its square root, 3ω for q
-/// (a sum of two terms of one sign), 4ω for q/2a, and 6ω for 2c/q with c in place of c'. An error of 1ω in a,
-/// such as that of 3a in a cubic's derivative, enters c' and θ too, which makes their bounds 3ω and 7ω.
+/// Errors, for operations with a relative error of at most ω, to first order (tests/proofs/ has all orders):
+/// there is a c' with |c' - c| <= 2ω |c| such that, for each root t' of a t² + b t + c' in [0, 1], the
+/// function adds the time t'(1 + θ) with |θ| <= 6ω, unless this time is beyond 1.
+///
+/// Proof: the computed discriminant disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)(1 + δ3) times the
+/// exact discriminant of a, b and c' = c(1 + δ2)/(1 + δ1), so both have the same sign. The relative errors
+/// are 2ω for the square root of disc, 3ω for q (a sum of two terms with the same sign), 4ω for q/2a, and 6ω
+/// for 2c/q, which has c in place of c'. If a itself has an error of 1ω, as 3a has in the derivative of a
+/// cubic, the bounds become 3ω for c' and 7ω for θ.
 template <class T, int capacity>
 void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c) {
   using std::sqrt;

@@ -1,4 +1,4 @@
-// The error tolerances of the paper's §4, for one bound B.
+// The tolerances of the paper's §4, as functions of the bound B.
 #pragma once
 
 #include <cmath>
@@ -8,46 +8,46 @@
 
 namespace nearmiss {
 
-/// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
+/// The machine epsilon of a scalar, which is twice its unit roundoff u: the paper's ε.
 template <class T>
 constexpr T epsilon() {
   return std::numeric_limits<ScalarOf<T>>::epsilon();
 }
 
-/// ε^¼, the paper's measure of how far apart the primitives of a false positive may be (2^-13 for double).
+/// ε^¼ (2^-13 for double). In the paper, the distance bound of false positives is proportional to it.
 template <class T>
 T fourth_root_of_epsilon() {
   using std::sqrt;
   return sqrt(sqrt(epsilon<T>()));
 }
 
-/// The tolerances of §4 for a pair bounded by B. According to the paper, its closed forms are failure-proof
-/// if μ >= 33492 B³ε, which holds for double (64 e³ = 64/2^39 > 33492/2^52) and not for float. According to
-/// constraints.hpp, they are failure-proof for every scalar of 13 bits or more. Here e = ε^¼ is
-/// dimensionless. The unit of each tolerance is the power of a length that its comment shows.
+/// The tolerances of §4 for pairs with the bound B. VV and VE are the tests of Algorithms 1 and 2. According
+/// to the paper, its closed forms for the tolerances are failure-proof if μ >= 33492 B³ε. With e = ε^¼, this
+/// holds for double (64 e³ = 64/2^39 > 33492/2^52) and not for float. According to constraints.hpp, the
+/// closed forms are failure-proof for every scalar of 13 bits or more.
 template <class T>
 struct Tolerances {
-  T delta;    ///< δ, length²: rounding error of VV's squared distance (§4.2)
-  T D2;       ///< D², length²: VV's threshold (§4.3)
-  T rho;      ///< ρ, length²: components of x_a, x_b below it are dropped (§4.3)
-  T psi;      ///< ψ, length²: VE accepts F_0ij <= ψ (§4.3)
-  T lambda2;  ///< λ², length²: VE's edge-length test (§4.3)
-  T R, S;     ///< length: VE's distance threshold R, and S = 3R or √8 R (§3.2, §4.4)
-  T mu;       ///< μ, length³: the cubic's residual (§4.4)
-  T tau;      ///< τ, length²: the area test (§4.4)
-  T eta;      ///< η, length: the height test (§4.4)
+  T delta;    ///< δ, a length²: the rounding error of the squared distance in VV (§4.2)
+  T D2;       ///< D², a length²: VV accepts a squared distance of at most D² + δ (§4.3)
+  T rho;      ///< ρ, a length²: in VE, components of x_a and x_b up to ρ count as 0 (§4.3)
+  T psi;      ///< ψ, a length²: VE accepts F_0ij <= ψ (§4.3)
+  T lambda2;  ///< λ², a length²: VE accepts edges with at least this squared length (§4.3)
+  T R, S;     ///< lengths: VE reports vertices within R of an edge; S = 3R or √8 R (§3.2, §4.4)
+  T mu;       ///< μ, a length³: |F| <= μ at the times that represent roots (§4.4)
+  T tau;      ///< τ, a length²: the threshold of the area test (§4.4)
+  T eta;      ///< η, a length: the factor of the height test (§4.4)
   T h;        ///< a time: half the width of the fixed interval of VE culling (§5)
 
-  /// The largest distance of a false positive, about 41 B e. VV accepts a computed squared distance of up to
-  /// D² + δ, and this distance has an error of at most δ. The other tests accept no pair that is farther
-  /// apart (§4.3 to §4.5).
+  /// The largest distance of a false positive, about 41 B ε^¼. VV accepts a computed squared distance of up
+  /// to D² + δ, which has an error of at most δ. No other test accepts a pair that is farther apart (§4.3 to
+  /// §4.5).
   [[nodiscard]] T distance_bound() const {
     using std::sqrt;
     return sqrt(D2 + 2 * delta);
   }
 };
 
-/// The values that the paper proposes (§4.2 to §4.5; λ² comes from the edge-length test of §4.3).
+/// The paper's closed forms of the tolerances (§4.2 to §4.5). λ² is that of the edge-length test of §4.3.
 template <class T>
 Tolerances<T> paper_tolerances(T B) {
   const T e = fourth_root_of_epsilon<T>();
@@ -69,15 +69,15 @@ Tolerances<T> paper_tolerances(T B) {
   return tol;
 }
 
-/// The rule that gives the paper's tolerances. A rule is a function of B, which `wang` calls, with functions
-/// of B and R, which `wang_within` calls.
+/// The paper's rule for tolerances. A rule is a function object: `wang` calls its operator() with B, and
+/// `wang_within` calls of_vertices() or of_edge() with B and R.
 struct PaperTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {
     return paper_tolerances(B);
   }
 
-  /// For two vertices within R: D = R (§4.2).
+  /// The tolerances for the question whether two vertices come within R: D = R (§4.2).
   template <class T>
   [[nodiscard]] Tolerances<T> of_vertices(T B, T R) const {
     Tolerances<T> tol = paper_tolerances(B);
@@ -85,7 +85,8 @@ struct PaperTolerances {
     return tol;
   }
 
-  /// For a vertex within R of an edge: S = 3R and D² = (16 Be + S)² + 522 B²e², as in §4.3 with R = 6 Be.
+  /// The tolerances for the question whether a vertex comes within R of an edge: with e = ε^¼, S = 3R and
+  /// D² = (16 Be + S)² + 522 B²e², as in §4.3 for R = 6 Be.
   template <class T>
   [[nodiscard]] Tolerances<T> of_edge(T B, T R) const {
     const T Be = B * fourth_root_of_epsilon<T>();

@@ -1,4 +1,5 @@
-// Culling of vertex-edge tests (§5), for pairs whose computed roots prove that VE is not needed.
+// The culling of vertex-edge (VE) tests (§5): decides whether the computed roots prove that a pair needs
+// none.
 #pragma once
 
 #include <algorithm>
@@ -12,65 +13,74 @@
 
 namespace nearmiss {
 
-/// How to choose h, the half width of an interval around a computed root that must contain the true root.
+/// How VE culling chooses h, half the width of an interval around a computed root that must contain the exact
+/// root.
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
-  fixed,     ///< h of the tolerances: ε^½, as the paper proposes, or another value
-  per_root,  ///< h from the slope of F at the root
+  fixed,     ///< Tolerances::h: ε^½, as the paper proposes, or another value
+  per_root,  ///< a value for each root, computed from the slope of F at the root
 };
 
-/// Bound of |F̂(t) - F(t)| / (B³ε), where F̂ is evaluated from rounded relative vectors and F is that of the
-/// exact motion. It holds for operations with a relative error of at most ε, that is, in any rounding mode. A
-/// position has an error of ε; a velocity has one of 3ε, or 4ε if a position is within 2B at one end (p of
-/// edges). By Theorem 4.1 the errors of the coefficients then have the bounds 6 B³ with k = 15 (a), 18 B³
-/// with 15 and 12 (b, c) and 6 B³ with 8 (d): 624 ε. Horner's rule rounds them 6, 5, 3 and 1 times: 36 + 90 +
-/// 54 + 6 = 186 ε. Including all terms of second order, the sum is 865 for ε <= 2^-10 (tests/proofs/). For
-/// rounding to nearest, 334 is proven (proven.hpp).
+/// The bound of |F̂(t) - F(t)| in units of B³ε. F̂ is computed from rounded relative vectors; F is the F of
+/// the exact motion. The bound holds for operations with a relative error of at most ε, that is, in any
+/// rounding mode.
+///
+/// The positions have an error of ε B. The velocities have one of 3ε B, or 4ε B for the p of edges, which may
+/// be within only 2B at one end. By Theorem 4.1, a value bounded by B_f has an error of at most
+/// ((1 + ε)^k - 1) B_f. For a, B_f is 6 B³ and k is 15; for b, 18 B³ and 15; for c, 18 B³ and 12; for d, 6 B³
+/// and 8: together 624 ε B³. In Horner's rule, the terms of a, b, c and d have 6, 5, 3 and 1 roundings:
+/// 36 + 90 + 54 + 6 = 186 ε B³. The sum is 810 and, with all terms of higher order, at most 865 for
+/// ε <= 2^-10 (tests/proofs/). For rounding to nearest, 334 is proven (proven.hpp).
 inline constexpr int evaluation_error = 865;
 
-/// Consider F with its computed coefficients between two times within an interval of `solve_cubic`. This is
-/// the most by which F leaves the range of its values at the two times, in units of B³ε: 3 · 18 plus terms of
-/// second order, for ε <= 2^-10.
+/// The m of `solve_cubic` in units of B³ε. Between two times in an interval between nodes, F with its
+/// computed coefficients leaves the range of its values at these two times by at most m: 3 · 18, plus terms
+/// of second order, for ε <= 2^-10.
 inline constexpr int node_error = 60;
 
-/// Bound of |ŵ - w| / (B⁴ε) for a weight or its comparison with N·N, by Theorem 4.1, in every rounding mode.
-/// x + t v has k = 6, or 7 for the p of edges, and stays within B. N has k = 14 and B_f = 2 B²; p × q has k =
-/// 15. Their dot product has k = 14 + 15 + 1 + 2 = 32 with B_f = 12 B⁴, or k = 31 and then a sum of two: 24
-/// B⁴ with k = 32. Comparing with N·N adds 12 B⁴ with k = 31. The sum is 24 · 32 + 12 · 31 = 1140, plus terms
-/// of second order for ε <= 2^-10. For rounding to nearest, 423 is proven.
+/// The bound of the error of comparing a weight with N·N, in units of B⁴ε, by Theorem 4.1 and in every
+/// rounding mode. x + t v has B_f = B and k = 6, or 7 for the p of edges. N, p × q and p × r have B_f = 2 B²
+/// and k = 14, or 15 for products with the p of edges. A weight, the dot product of N and such a product, has
+/// B_f = 12 B⁴ and k = 14 + 14 + 1 + 2 = 31, or 32 for edges. N·N has 12 B⁴ with k = 31. For vertex-triangle,
+/// the sum of two weights has 24 B⁴ with k = 32, so the bound is 24 · 32 + 12 · 31 = 1140. For edges, it is
+/// only 12 · 32 + 12 · 31 = 756. The constant has room for terms of second order, for ε <= 2^-10. For
+/// rounding to nearest, 423 is proven.
 inline constexpr int weight_error = 1160;
 
-/// Bound of |computed - exact| / (B⁴ε) for ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h with h <= 1, ‖N‖₁ <= 6 B² and ‖q‖₁ +
-/// ‖r‖₁ <= 6 B. The error of N is 3 · 2 B² · 14 ε = 84 B²ε, which contributes 84 · 6 √3 <= 873. The error of
-/// the edges is 6 · 6 Bε, which contributes 36 · 6 √3 <= 375. The error of W is 35 εB (see form_bound), which
-/// contributes 35 · 36 √3 <= 2183. The product itself has about ten roundings and t ± h has another one,
-/// which contribute 11 · 36 √3 <= 686. The sum is 4117, plus terms of second order. For rounding to nearest,
-/// 1427 is proven, and 1914 for this error and that of the weight together.
+/// The bound of the error of `weight_spread`, ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h, in units of B⁴ε, for h <= 1. Here
+/// ‖N‖₁ <= 6 B², ‖q‖₁ + ‖r‖₁ <= 6 B and W <= B. ‖N‖₁ has an error of 3 · 2 B² · 14 ε = 84 B²ε, which
+/// contributes 84 · 6 √3 <= 873. ‖q‖₁ + ‖r‖₁ has an error of 6 · 6 Bε, which contributes 36 · 6 √3 <= 375. W
+/// has an error of 35 εB (see form_bound), which contributes 35 · 36 √3 <= 2183. The product itself has about
+/// ten roundings, and t ± h has one; these contribute 11 · 36 √3 <= 686. The sum is 4117, plus terms of
+/// second order. For rounding to nearest, 1427 is proven, and 1914 for this error and that of the weight's
+/// comparison together.
 inline constexpr int spread_error = 4400;
 
 /// `weight_error` for a configuration in a wider scalar, whose operations have relative errors of at most 4
-/// ε². The errors of the relative vectors remain: ε of a position and 3ε of a velocity, so k = 4 for x + t v,
-/// or 5 for the p of edges. Then N and p × q have k = 8; for the p of edges, p × q has k = 9. A weight has k
-/// = 16 with B_f = 12 B⁴, or 17 for edges, the sum of two has 24 B⁴, and N·N has 12 B⁴ with k = 16: 36 · 16 =
-/// 576. All roundings in the wider scalar are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
+/// ε². The errors of the relative vectors remain: ε of a position and 3ε of a velocity. So k is 4 for x + t
+/// v, or 5 for the p of edges, and 8 for N, p × q and p × r, or 9 for products with the p of edges. For
+/// vertex-triangle, the sum of two weights has 24 B⁴ and N·N has 12 B⁴, both with k = 16: 36 · 16 = 576. For
+/// edges, a weight has 12 B⁴ with k = 17: 12 · 17 + 12 · 16 = 396. All roundings in the wider scalar together
+/// are a term of second order: at most 20 in a row, 20 · 4 · 36 ε².
 inline constexpr int weight_error_if_wide = 590;
 
-/// `spread_error` for a configuration in a wider scalar. The error of N is 3 · 2 B² · 8 ε = 48 B²ε, which
-/// contributes 48 · 6 √3 <= 499, and that of the edges 6 · 4 Bε, which contributes 24 · 6 √3 <= 250. W is not
-/// wider: 2183. Two conversions to the scalar of the pair, √3, four products, t ± h and the sum of both
-/// errors contribute 9 · 36 √3 <= 562. The sum is 3494, plus terms of second order.
+/// `spread_error` for a configuration in a wider scalar. ‖N‖₁ has an error of 3 · 2 B² · 8 ε = 48 B²ε, which
+/// contributes 48 · 6 √3 <= 499. ‖q‖₁ + ‖r‖₁ has an error of 6 · 4 Bε, which contributes 24 · 6 √3 <= 250. W
+/// is not computed in the wider scalar, and contributes 2183 as above. Nine roundings in the scalar of the
+/// pair contribute 9 · 36 √3 <= 562: two conversions, √3, four products, t ± h, and the sum of `spread` and
+/// the error. The sum is 3494, plus terms of second order.
 inline constexpr int spread_error_if_wide = 3700;
 
 namespace detail {
 
-// Whether |F̂| exceeds the threshold at t - h and t + h; a time outside [0, 1] needs no test.
+// Whether |F̂| exceeds the threshold at t - h and at t + h, as far as these times are in [0, 1].
 template <class T>
 auto brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
   using std::abs;
   return ((t - h < T(0)) | (abs(F(t - h)) > threshold)) & ((t + h > T(1)) | (abs(F(t + h)) > threshold));
 }
 
-// μ + 2E + m: how far |F̂| must be above 0 at both ends of an interval that contains the true root.
+// μ + 2E + m: what |F̂| must exceed at t - h and t + h (see `excludes_collision`).
 template <class T>
 T culling_threshold(T mu, T eps, T B) {
   return mu + (2 * evaluation_error + node_error) * eps * B * B * B;
@@ -79,14 +89,14 @@ T culling_threshold(T mu, T eps, T B) {
 // The largest number of times that `per_root` doubles h.
 inline constexpr int culling_doublings = 4;
 
-// The most by which a weight may move within the time h.
+// The most by which a weight of the configuration may change within the time h.
 template <Kind kind, class T, class Wide>
 T weight_spread(const Configuration<kind, T, Wide>& configuration, T W, T h) {
   const T edges = static_cast<T>(Wide(norm_1(configuration.q) + norm_1(configuration.r)));
   return static_cast<T>(Wide(norm_1(configuration.N))) * edges * T(1.7320508075688775) * W * h;
 }
 
-// Whether a weight is outside [0, N·N] by more than its spread and its rounding error.
+// Whether some weight is outside [0, N·N] by more than `spread` and the bounds of the rounding errors.
 template <Kind kind, class T, class Wide>
 auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps, T B) {
   constexpr int error =
@@ -100,17 +110,18 @@ auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps,
 
 }  // namespace detail
 
-/// True only if no collision belongs to the root t. Then this root needs no VE tests.
+/// Whether certainly no collision belongs to the computed root t. If so, this root needs no VE tests.
 ///
-/// Between t and the true root t0 that belongs to it, |F| is at most μ + E + m, since |F̂| <= μ at t
-/// (`solve_cubic`; E is `evaluation_error`, m is `node_error`). If |F̂| exceeds μ + 2E + m at t ± h, then |F|
-/// exceeds μ + E + m there, and |t0 - t| < h. Points that touch at t0 are within δ = √3 W h of each other at
-/// t, since the components of their relative velocity are at most W (the velocity of a point of a primitive
-/// is a convex combination of the velocities of its vertices). A weight is linear in p, so moving p by δ
-/// changes the weight by at most ‖N‖‖edge‖ δ. If a weight is outside [0, N·N] by more than this change plus
-/// the rounding error, nothing touches at t0. The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses
-/// the configuration's own lengths (‖·‖₁ >= ‖·‖₂). All this holds for any h in (0, 1], and for a
-/// configuration in any scalar, since only the bounds of rounding errors depend on it.
+/// Let t0 be a root of the exact F that t represents. Between t and t0, |F| is at most μ + E + m, since
+/// |F̂| <= μ at t (`solve_cubic`; E is `evaluation_error`, m is `node_error`). If |F̂| exceeds μ + 2E + m at
+/// t - h and t + h, then |F| exceeds μ + E + m at these times, so |t0 - t| < h. The velocity of a point of a
+/// primitive is a convex combination of the velocities of its vertices, so no component of the relative
+/// velocity of two points exceeds W. Therefore points that touch at t0 are within δ = √3 W h of each other at
+/// t. A weight is linear in p. Moving p by δ changes the weight by at most ‖N‖‖edge‖ δ. So nothing touches at
+/// t0 if a weight is outside [0, N·N] by more than this change and the rounding errors. The paper bounds
+/// ‖N‖‖edge‖ δ by 9 B⁴ h; `per_root` computes a bound from the configuration's own N, q and r (‖·‖₁ >= ‖·‖₂).
+/// The proof holds for every h in (0, 1]. Only the bounds of rounding errors depend on the configuration's
+/// scalar.
 template <VeCulling culling, Kind kind, class T, class Wide>
 bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
                         const Configuration<kind, T, Wide>& configuration, T t, const Tolerances<T>& tol) {
@@ -119,7 +130,7 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
   const T eps = epsilon<T>();
   const T threshold = detail::culling_threshold(tol.mu, eps, B);
   T h;
-  T spread;  // the most by which a weight may move
+  T spread;  // the most by which a weight may change within h
   if constexpr (culling == VeCulling::fixed) {
     h = tol.h;
     if (!detail::brackets_root(F, t, h, threshold)) return false;

@@ -9,24 +9,24 @@
 
 namespace nearmiss {
 
-/// Which test accepted a pair.
+/// The test that accepted a pair.
 enum class Stage : std::uint8_t {
   none,         ///< no collision was reported
-  proximity,    ///< area, height and barycentric tests of VT or EE; in advance.hpp, the test of the distance
-  ve_end,       ///< VE, KKT case 1: t = 0 or t = 1
-  ve_minimum,   ///< VE, KKT case 2: minimum of one quadratic piece
+  proximity,    ///< the area, height and barycentric tests; in advance.hpp, the test of the distance
+  ve_end,       ///< Algorithm 2 (VE), KKT case 1: t = 0 or t = 1
+  ve_minimum,   ///< VE, KKT case 2: the minimum of a quadratic piece
   ve_equal,     ///< VE, KKT case 3: two components of the edge have the same magnitude
-  ve_zero,      ///< VE, KKT case 4: a component of the cross product vanishes
-  vv,           ///< VV (KKT case 5)
+  ve_zero,      ///< VE, KKT case 4: a component of the cross product is 0
+  vv,           ///< Algorithm 1 (VV), KKT case 5 of VE
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< the subject does not say which test accepted the pair; no plug-in says it
+  unspecified,  ///< the subject does not say which test accepted the pair, as no plug-in does
   unknown,      ///< no test: the subject cannot decide the pair, which then counts as a collision
 };
 
 inline constexpr std::size_t stage_count = 11;
 
-/// Names of the stages, in order, as used in files and reports.
+/// The names of the stages in files and reports.
 inline constexpr std::array<std::string_view, stage_count> stage_names{
     "none", "proximity", "ve-end", "ve-minimum",  "ve-equal", "ve-zero",
     "vv",   "filter",    "exact",  "unspecified", "unknown"};
@@ -35,10 +35,10 @@ inline constexpr std::array<std::string_view, stage_count> stage_names{
 enum class Rejection : std::uint8_t {
   untold,   ///< a collision was reported, or the subject does not say
   planes,   ///< plane culling
-  apart,    ///< the vectors are too large for a pair that collides (§4.1)
+  apart,    ///< the relative vectors are too large for a pair that collides (§4.1)
   no_root,  ///< the cubic has no root in [0, 1]
-  culled,   ///< VE culling (§5): VE tests were not needed
-  tests,    ///< all tests of the algorithm failed
+  culled,   ///< VE culling (§5): the vertex-edge tests were not needed
+  tests,    ///< no test of the algorithm accepted the pair
   filter,   ///< certified arithmetic in double
   finer,    ///< the algorithm with a scalar of more bits
   exact,    ///< exact arithmetic
@@ -46,11 +46,11 @@ enum class Rejection : std::uint8_t {
 
 inline constexpr std::size_t rejection_count = 9;
 
-/// Names of the rejections, in order, as used in files and reports.
+/// The names of the rejections in files and reports.
 inline constexpr std::array<std::string_view, rejection_count> rejection_names{
     "untold", "planes", "apart", "no-root", "culled", "tests", "filter", "finer", "exact"};
 
-/// Why a subject gave no answer. In the comments below, "it" is the subject.
+/// Why a subject gave no answer. In the comments of the faults, "it" is the subject.
 enum class Fault : std::uint8_t {
   none,
   error,         ///< it reported an error, or a bound that is not a distance
@@ -63,26 +63,27 @@ enum class Fault : std::uint8_t {
   invalid,       ///< it gave an unknown answer, or a collision without the time that it promises
   load,          ///< it could not be loaded again after it had failed
   contract,      ///< it was not asked, because the query breaks its contract
-  inconsistent,  ///< it gave another answer when it was asked again among other queries
+  inconsistent,  ///< it gave another answer when it was asked the query again, among other queries
 };
 
 inline constexpr std::size_t fault_count = 12;
 
-/// Names of the faults, in order, as used in files and reports.
+/// The names of the faults in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{
     "none",     "error",     "crash",   "time", "memory",   "exception",
     "protocol", "not-asked", "invalid", "load", "contract", "inconsistent"};
 
-/// A subject's answer to one query.
 struct Verdict {
   bool hit = false;
   Stage stage = Stage::none;
-  /// In [0, 1] for a hit; NaN if unknown. If the answer is invalid, the time as the subject gave it.
+  /// The time of impact, in [0, 1] for a hit; NaN if unknown. If the answer is invalid, the time that the
+  /// subject gave.
   double time = std::numeric_limits<double>::quiet_NaN();
   Fault fault = Fault::none;  ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  /// For an error or an invalid answer, the return value; for a crash, the signal or the negated exit code;
-  /// for an exception or a failure to load, a number that Subject::fault_text turns into a message.
+  /// For an error or an invalid answer, the number that the subject answered. For a crash, the signal or the
+  /// negated exit code. For an exception or a failure to load, a number from which Subject::fault_text()
+  /// finds the message.
   std::int32_t fault_code = 0;
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }

@@ -11,7 +11,8 @@
 
 namespace nearmiss {
 
-/// A vertex x0 and an edge xi xj: the x_0i and x_ji of Algorithm 2, and x_0j for its VV tests.
+/// A vertex x0 and an edge xi xj: the vectors x_0i and x_ji of Algorithm 2, and x_0j for the VV test
+/// (Algorithm 1) of x0 and xj.
 template <class T>
 struct VertexEdge {
   Moving<T> x0i, xji, x0j;
@@ -19,8 +20,8 @@ struct VertexEdge {
 
 namespace detail {
 
-/// The proximity test of Algorithm 2 at one time: the test of F_0ij, the barycentric test and the length
-/// test.
+/// The proximity test of Algorithm 2 at one time: the length test, the barycentric test, and the test of
+/// F_0ij = ‖x_0i × x_ji‖₁ - S‖x_ji‖∞.
 template <class T>
 bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol) {
   const Vector3<T> a = ve.x0i.at(t);
@@ -33,7 +34,7 @@ bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol) {
   return F <= tol.psi;
 }
 
-/// Case 3: times at which two components of x_ji have the same magnitude.
+/// Case 3: the times at which two components of x_ji have the same magnitude.
 template <class T>
 CandidateTimes<T, 6> equal_components(const Moving<T>& ji) {
   CandidateTimes<T, 6> times;
@@ -44,7 +45,7 @@ CandidateTimes<T, 6> equal_components(const Moving<T>& ji) {
   return times;
 }
 
-/// x_0i × x_ji = a t² + b t + c; components of a and b of at most ρ are dropped (§4.3).
+/// The coefficients of x_0i × x_ji = a t² + b t + c. Components of a and b up to ρ are replaced by 0 (§4.3).
 template <class T>
 struct CrossProduct {
   Vector3<T> a, b, c;
@@ -61,7 +62,7 @@ struct CrossProduct {
   }
 };
 
-/// Case 4: times at which a component of x_0i × x_ji is zero.
+/// Case 4: the times at which a component of x_0i × x_ji is 0.
 template <class T>
 CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g) {
   CandidateTimes<T, 6> times;
@@ -69,9 +70,9 @@ CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g) {
   return times;
 }
 
-/// Case 2: the minima of the quadratic pieces of G_0ij, ±Q_x ± Q_y ± Q_z ∓ S e_k. A piece and its negative
-/// have their extremum at the same time, so 4 × 3 × 2 of the 48 pieces represent all. A piece without a t²
-/// term has no minimum.
+/// Case 2: the times of the minima of the 48 quadratic pieces of F_0ij, ±Q_x ± Q_y ± Q_z ± S e_k with
+/// Q = x_0i × x_ji and e = x_ji. A piece and its negative have their extremum at the same time, so 24 of the
+/// pieces give all times. A piece without a t² term has no minimum.
 template <class T>
 CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
   CandidateTimes<T, 24> times;
@@ -90,28 +91,28 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 
 }  // namespace detail
 
-/// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1], and never a vertex farther away
-/// than the tolerances' distance bound (§4.3). The verdict's stage is the Karush-Kuhn-Tucker case that
-/// accepted the vertex.
+/// Algorithm 2: reports every vertex that comes within R of an edge at some t in [0, 1], and no vertex that
+/// stays farther away than Tolerances::distance_bound() (§4.3). The stage of the verdict is the
+/// Karush-Kuhn-Tucker case of the time at which the vertex was accepted.
 ///
-/// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t at
-/// which the computed value of F_0ij is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
+/// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t such
+/// that the computed F_0ij(t) is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
 ///
-/// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of x_0i ×
-/// x_ji without the dropped terms, each with the c' of its roots in place of c (`solve_quadratic`). Let G be
-/// the sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). From t_E, follow G
-/// downwards, or level, until it would rise. The kinks of -S‖x_ji‖∞ are concave and cannot end the descent,
-/// so it ends at a time t' of one of these kinds:
+/// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of
+/// x_0i × x_ji without the replaced terms, each with the c' of `solve_quadratic` in place of c. Let G be the
+/// sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). Start at t_E, and go
+/// in a direction in which G does not rise, until it would rise. The kinks of -S‖x_ji‖∞ are concave, and G
+/// does not begin to rise at a concave kink. So the end is a time t' of one of these kinds:
 /// - 0 or 1 (case 1).
-/// - A kink of some |Q_k|, which is a root of Q_k (case 4). The computed time of the root, or 1 in its place,
-///   is within 6ω of the root, and G changes at a rate of at most 30 B² + SB.
-/// - The vertex of a piece (case 2). The computed slope of the piece has an error of at most r = (68 B² + 2
-///   SB) ω. So the piece rises by at most r/2 between t' and the computed vertex, or 0 or 1 if the computed
-///   vertex is outside. After a concave kink G continues below the piece. If a kink of some |Q_k| comes
-///   first, go on to the computed time of that root.
-/// Along this path F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square root of an
-/// error, because all times are nearly exact for one function, G, which is near F_0ij. The paper's 688
-/// B²ε^½, for the distance from the computed root of one Q_k to the exact root, is not needed.
+/// - A kink of some |Q_k|, which is a root of Q_k (case 4). The candidate for this root, or 1 if its computed
+///   time is beyond 1, is within 6ω of the root, and G changes at a rate of at most 30 B² + SB.
+/// - The minimum of a piece (case 2). The computed slope of the piece has an error of at most
+///   r = (68 B² + 2 SB) ω. So the piece rises by at most r/2 between t' and the computed time of the minimum,
+///   or 0 or 1 if this time is outside [0, 1]. After a concave kink, G is below the piece. If a kink of some
+///   |Q_k| comes first, go on to the computed time of that root.
+/// From t_E to the candidate, F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square
+/// root of an error, because all candidates are nearly exact for one function, G, which is near F_0ij. The
+/// paper's 688 B²ε^½, for the distance from the computed root of one Q_k to the exact root, is not needed.
 template <class T>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
   const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };

@@ -10,9 +10,8 @@
 namespace nearmiss {
 
 /// Algorithm 1: the time at which two vertices are closest, if they are within D at that time. The test is
-/// that the computed squared distance is at most D² + δ, and every pair within D passes it (§4.2). If the
-/// vertices do not move relative to each other (v = 0), the time is 0.
-/// not move relative to each other (v = 0), t is 0.
+/// that the computed squared distance is at most D² + δ, and every pair within D passes this test (§4.2). If
+/// the vertices do not move relative to each other (v = 0), the time is 0.
 template <class T>
 std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol) {
   using std::clamp;

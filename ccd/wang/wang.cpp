@@ -21,10 +21,10 @@ bool reports(const Query& query) {
       query.kind, [&]<Kind kind>() { return nearmiss::wang<kind, double, WangOptions{}>(query).hit; });
 }
 
-/// Whether the queries are of two vertices, or of a vertex and an edge.
+/// Whether the kind of the queries is vv or ve.
 bool are_of_vertices(const nearmiss_queries& queries) { return nearmiss_vertices(queries.kind) < 4; }
 
-/// Whether the arguments are usable; wang takes separations only for these kinds.
+/// Whether no pointer is null, and all separations are 0 unless the kind is vv or ve.
 bool are_usable(const nearmiss_queries* queries, const void* to) {
   return to != nullptr && queries != nullptr &&
          (are_of_vertices(*queries) || nearmiss::interface::ask_for_contact(*queries));

@@ -1,13 +1,13 @@
 /** \file
  * The failure-proof CCD of Wang (2014) for queries in the caller's memory. C99.
  *
- * It reports every collision, also in degenerate and extreme queries. It may report a pair that does not
+ * The CCD reports every collision, also in degenerate and extreme queries. It may report a pair that does not
  * collide, but the primitives of such a pair come within the distance that nearmiss_wang_bound() gives. It
  * takes separations for two vertices (Algorithm 1), and for a vertex and an edge (Algorithm 2). For the other
- * kinds, every separation must be 0, or the result is NEARMISS_BAD_ARGUMENT.
+ * kinds, every separation must be 0; if not, the functions return NEARMISS_BAD_ARGUMENT.
  *
- * Many threads may call all functions at once. The functions set the processor's rounding mode if need be,
- * and restore it. They do not allocate, print or throw. */
+ * Any number of threads may call the functions at once. The functions set the processor to round to nearest
+ * and to keep subnormals, and restore the caller's mode at the end. They do not allocate, print or throw. */
 #ifndef NEARMISS_WANG_H
 #define NEARMISS_WANG_H
 
@@ -17,14 +17,15 @@
 extern "C" {
 #endif
 
-/** Whether the CCD reports each query: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
- * NEARMISS_NO_ANSWER. */
+/** Writes the CCD's answer to query q to answers[q]: NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
+ * NEARMISS_NO_ANSWER. Returns a status (queries.h). */
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers);
 
-/** For each query, the most by which the smallest distance of a reported pair exceeds the separation, in the
- * unit of the coordinates. For contact, this is about 41 B ε^¼, where B is the size of the pair and ε the
- * machine epsilon of double. For a separation h, it is about 2 h + 28 B ε^¼ for a vertex and an edge, and
- * much less for two vertices. NaN if there is no answer. */
+/** Writes a bound for query q to bounds[q], in the unit of the coordinates: if the CCD reports the query, the
+ * smallest distance in the step exceeds the separation by at most this bound. For contact, the bound is about
+ * 41 B ε^¼, where B is the size of the pair and ε the machine epsilon of double. For a separation h, it is
+ * about 2 h + 28 B ε^¼ for a vertex and an edge, and much less for two vertices. It is NaN if the answer is
+ * NEARMISS_NO_ANSWER. Returns a status. */
 int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds);
 
 #ifdef __cplusplus

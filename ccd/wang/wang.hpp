@@ -17,15 +17,15 @@
 
 namespace nearmiss {
 
-/// The culling that a variant of the algorithm uses.
+/// The culling that a variant of `wang` uses.
 struct WangOptions {
-  bool plane_culling = true;                   ///< by planes perpendicular to axes and diagonals
-  VeCulling ve_culling = VeCulling::per_root;  ///< before the vertex-edge tests
+  bool plane_culling = true;                   ///< of pairs that a plane separates (plane_culling.hpp)
+  VeCulling ve_culling = VeCulling::per_root;  ///< of vertex-edge tests (ve_culling.hpp)
 };
 
 namespace detail {
 
-// The vertex-edge tests of Algorithms 3 and 4, in their order.
+// The vertex-edge tests of Algorithms 3 and 4, in the order of the paper.
 template <Kind kind, class T>
 [[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const VertexOrder& order,
                                             const Tolerances<T>& tol) {
@@ -49,7 +49,8 @@ inline std::string too_small(double given, double own) {
   return message.str();
 }
 
-// The pair with a given B in place of its own, in the frame that the given B requires.
+// The pair with a given B in place of its own, in a frame in which the given B is in range. Throws Error if
+// the given B is smaller than the pair's own.
 template <Kind kind, class T>
 Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double given) {
   using std::ilogb;
@@ -65,14 +66,14 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
-// Forms the pair's own B, and puts a given B in its place. Returns whether `wang_tests` can decide the pair
-// as it is. If not, `wang_careful` decides it, or throws Error because the given B is too small.
+// Sets the pair's B to its own bound, or to the given B. Returns whether `wang_tests` can decide the pair as
+// it is. If not, the caller must call `wang_careful`, which throws Error if the given B is too small.
 //
-// Both bounds must be in range, the given one at least as large as the pair's own, and all vectors within B.
-// Then `wang_careful` would give the same verdict, since it would change neither the frame nor the order of
-// end points. It would keep the frame only if all vectors are finite, and they are: the pair's own B is not
-// in range if an edge or a velocity is infinite, p is within B, and a velocity is NaN only if a position is
-// infinite.
+// The function returns true if both bounds are in range, the given one is at least as large as the pair's
+// own, and all vectors are within B. Then `wang_careful` would give the same verdict, since it would change
+// neither the frame nor the order of end points. It would change the frame if a vector were not finite, but
+// all are: if an edge or a velocity were infinite, the pair's own B would not be in range; p is within B; and
+// a velocity is NaN only if a position is infinite.
 template <Kind kind, class T>
 auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
   form_bound(pair);
@@ -85,7 +86,8 @@ auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
   return is_plain & within_reach(pair);
 }
 
-// The sum of the squared components of p, q and r, in a fixed order, as in `dot`.
+// The sum of the squares of all components of p, q and r, positions and velocities, in a fixed order as in
+// `dot`.
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
   const auto squares = [&](int i) -> T {
@@ -95,21 +97,21 @@ T sum_of_squares(const Pair<kind, T>& pair) {
   return ((squares(0) + squares(1)) + (squares(2) + squares(3))) + (squares(4) + squares(5));
 }
 
-// Whether |F| provably stays above μ, without knowing the pair's own B. If so, solve_cubic finds no root, and
-// no further test is needed. This function must not be used for a given B, whose μ may be larger. Besides,
-// the pair's own B is then needed to check that the given B is not smaller. For a given B, solve_cubic
-// compares the clearance with the μ of that B.
+// Whether |F| provably stays above the μ of the pair's own B, which this function need not know. If so,
+// solve_cubic finds no root, and no further test is needed. This function must not be called if a B is given:
+// the μ of the given B may be larger, and the pair's own B is needed to check that the given B is not
+// smaller.
 //
-// Let s be the sum of all squared components of p, q and r, with the part s_x of the positions and s_v of the
-// velocities. The bounds in motion.hpp satisfy E <= √2 √s_x, since an edge is the difference of at most two
-// vectors, and W <= √3 √s_v, since a relative velocity is at most p + r - q. So E + W <= √(5 s) by the
-// Cauchy-Schwarz inequality. μ is proportional to B³; let μ1 be its value at B = 1. Then μ is at most
-// 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not
-// matter: with all components within √s and errors of 4ε √s in the velocities, the errors of F and its
-// clearance are below 1000 ε s^(3/2) in every mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than
-// 6900 ε. The order of end points does not matter either, since it only affects the sign of F*. The code
-// compares squares, (16 μ1)² s³, to avoid a square root. If s is out of range, s³ might overflow or
-// underflow, and the answer is false.
+// Let s be the `sum_of_squares`, s_x its part from positions, and s_v its part from velocities. An edge is
+// the difference of at most two vectors, so E <= √2 √s_x (motion.hpp). The relative velocity of two vertices
+// is at most that of p + r - q, so W <= √3 √s_v. By the Cauchy-Schwarz inequality, E + W <= √(5 s). μ is
+// proportional to B³; let μ1 be the μ for B = 1. Then μ <= 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a
+// clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding errors are too small to matter: all components are
+// within √s, and velocities have errors of 4ε √s. So the errors of F and of the clearance are together below
+// 1000 ε s^(3/2) in every rounding mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The
+// order of end points does not matter either, since it only changes the sign of F*. The code compares the
+// squares of both sides, to avoid a square root. If s is not in range, s³ might overflow or underflow, and
+// the answer is false.
 template <Kind kind, class T, class Rule>
 auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {
   const T s = sum_of_squares(pair);
@@ -118,12 +120,13 @@ auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& toler
   return in_range(s) & (c > T(0)) & (c * c > factor * factor * (s * s * s));
 }
 
-// Algorithms 3 and 4 for a pair whose vectors are within B.
+// Algorithms 3 and 4 after plane culling, for a pair whose vectors are within B.
 //
-// Normals and weights may be computed in a wider scalar, `Wide`. The proofs only need upper bounds of their
-// errors, so they hold for smaller errors, too. A true collision passes the area, height and barycentric
-// tests, or is so near their limits that the vertex-edge tests report it. A pair that passes these tests is
-// within the same distance bound. `excludes_collision` has its own bounds for `Wide`.
+// Normals and weights may be computed in a wider scalar, `Wide`. The proofs only use upper bounds of the
+// errors of normals and weights, so they also hold if the errors are smaller. A collision passes the area,
+// height and barycentric tests, or is so near their limits that the vertex-edge tests report it. Every pair
+// that passes these tests is within the distance bound. `excludes_collision` has other bounds of errors for
+// `Wide`.
 template <Kind kind, class T, WangOptions options, class Wide, class Rule>
 [[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
                                                  const Cubic<T>& F, const Rule& tolerances) {
@@ -142,16 +145,17 @@ template <Kind kind, class T, WangOptions options, class Wide, class Rule>
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
   for (const T& t : roots)
     if (proximity(t, true)) return hit(t);
-  // The algorithms test T ∪ {0, 1}. 0 and 1 count only if |F| <= μ there, as at a root. If so, t = 0 is the
-  // left node of the first interval, and hence among the roots; t = 1 need not be among them.
+  // The paper tests the roots, t = 0 and t = 1. Here, t = 0 and t = 1 count only if |F| <= μ at that time, as
+  // at the roots. If |F| <= μ at t = 0, t = 0 is among the roots, as the left node of the first interval.
+  // t = 1 need not be among the roots.
   using std::abs;
   if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
   if (culled) return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::culled);
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
 }
 
-// Algorithms 3 and 4 for a pair that may need another frame or order of end points. A given B (§5) that is
-// smaller than the pair's own throws Error.
+// Algorithms 3 and 4 after plane culling, for a pair that may need another frame or another order of end
+// points. Throws Error if the given B (§5) is smaller than the pair's own.
 template <Kind kind, class T, WangOptions options, class Wide = T, class Rule>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
                                        const Rule& tolerances) {
@@ -163,11 +167,12 @@ template <Kind kind, class T, WangOptions options, class Wide = T, class Rule>
 
 }  // namespace detail
 
-/// Algorithms 3 and 4. Reports every true collision of finite input, including contact at t = 0 and t = 1, in
-/// a scalar of 13 bits or more (§4 and constraints.hpp). A pair that it reports without a collision is within
-/// the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). If `given` is set, it replaces the pair's
-/// own B; a smaller value throws Error (§5). `tolerances(B)` gives the tolerances for a bound B.
-/// `Wide` is the scalar of normals and weights.
+/// Algorithms 3 and 4. Reports every collision of primitives with finite coordinates, including contact at
+/// t = 0 and t = 1, for a scalar T of 13 bits or more (§4 and constraints.hpp). A pair that it reports
+/// without a collision comes within Tolerances::distance_bound(), about 41 B ε^¼ (§4.4.1, §4.5.1). If `given`
+/// is set, it replaces the pair's own B; a value that is smaller than the pair's own throws Error (§5).
+/// tolerances(B) gives the tolerances for a bound B. `Wide` is the scalar in which normals and weights are
+/// computed.
 template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances, class Wide = T>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt,
              const Rule& tolerances = {}) {

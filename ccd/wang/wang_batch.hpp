@@ -1,4 +1,4 @@
-// The failure-proof CCD for many queries at once, compiled once for each instruction set.
+// `wang` for many queries at once, compiled once for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +17,19 @@ constexpr bool is_decided(const Verdict& verdict) {
   return verdict.hit || verdict.rejection != Rejection::untold;
 }
 
-/// Gives the verdicts of `wang` (wang.hpp), with each pair's own bound or a given one, on those queries that
-/// need no vertex-edge tests, no other frame and no other order of end points. It leaves these undecided: all
-/// other queries, queries of kinds vv and ve, queries whose own bound exceeds the given one, and queries with
-/// a coordinate that is not finite.
+/// Decides queries as `wang` does (wang.hpp), with the bound `given` if it is set, else with each pair's own
+/// bound. Leaves these queries undecided: queries that need vertex-edge tests, another frame or another order
+/// of end points; queries of the kinds vv and ve; queries whose own bound exceeds the given one; and queries
+/// with a coordinate that is not finite.
 void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
                    const std::optional<double>& given = std::nullopt,
                    Instructions instructions = chosen_instructions());
 
-/// The largest number of queries in a batch. The intermediate results of a full batch fit into the nearest
-/// caches.
+/// The largest number of queries in a batch. With this number, the intermediate results of a batch fit into
+/// the caches of a processor core.
 inline constexpr std::size_t wang_batch_size = 128;
 
-/// Decides a batch as wang_in_lanes does, with one instruction set.
+/// The type of a function that decides a batch as wang_in_lanes does, with one instruction set.
 using WangBatch = void(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given);
 
 WangBatch wang_with_sse2;

@@ -1,4 +1,4 @@
-// The failure-proof CCD for many queries at once: the arithmetic of wang.hpp in lanes.
+// `wang` for many queries at once, one query in each lane, with the arithmetic of wang.hpp.
 #pragma once
 
 #include <algorithm>
@@ -23,16 +23,17 @@
 namespace nearmiss {
 
 /// Decides queries of one kind in steps: plane culling, the clearance of F, the roots of F, the tests at the
-/// roots. Each step processes the queries that the previous steps left undecided, side by side in n lanes.
-/// Queries that need vertex-edge tests, another frame or another order of end points are left undecided. A
-/// lane computes exactly what the templates compute for its query, so n changes no verdict.
+/// roots. Each step processes those queries that the previous steps have left undecided, n queries at a time.
+/// Queries that need vertex-edge tests, another frame or another order of end points stay undecided. A lane
+/// computes exactly what the templates of wang.hpp compute for its query, so n changes no verdict.
 template <int n, Kind kind>
 class WangLanes {
  public:
   WangLanes(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given)
       : queries_(queries), verdicts_(verdicts), given_(given) {}
 
-  /// Decides the queries of kind `kind` in a batch of at most `wang_batch_size`, and returns their number.
+  /// Decides the queries of the kind `kind`, and returns their number. The batch has at most
+  /// `wang_batch_size` queries.
   std::size_t run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);
@@ -48,14 +49,14 @@ class WangLanes {
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
 
-  /// Numbers of a list, with room for n more after the last one.
+  /// A list of at most `most` numbers, with room for n more numbers after the last one.
   template <class Number, std::size_t most>
   using Column = std::array<Number, most + n>;
 
-  /// A list of indices of queries.
+  /// A list of rows: indices of queries in the batch.
   class Rows {
    public:
-    /// Adds a row if it is wanted, without a branch.
+    /// Adds a row if `wanted` is true, without a branch.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
@@ -68,7 +69,7 @@ class WangLanes {
     std::size_t size_ = 0;
   };
 
-  /// The coordinates of n queries, one query in each lane, with the access function of a single query.
+  /// coordinates() of n queries, one in each lane.
   struct Points {
     std::array<Real, 24> x;  ///< in the order of Query::x
     const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
@@ -85,15 +86,15 @@ class WangLanes {
     return points;
   }
 
-  /// The lanes hold the elements `first`, `first` + 1, ... of a list. Calls `visit(lane)` for each lane that
-  /// has an element.
+  /// Calls visit(lane) for each lane that has an element, if the lanes hold the elements first, first + 1,
+  /// ... of a list with `size` elements.
   template <class Visit>
   static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
     const std::size_t count = std::min<std::size_t>(n, size - first);
     for (std::size_t lane = 0; lane < count; ++lane) visit(lane);
   }
 
-  /// Numbers or truth values, to be read one by one.
+  /// The lanes as an array.
   static std::array<double, n> each(const Real& lanes) {
     std::array<double, n> numbers;
     lanes.store(numbers.data());
@@ -105,21 +106,21 @@ class WangLanes {
     return truths;
   }
 
-  /// Writes zeros after the end of a list, for lanes that have no element.
+  /// Writes n zeros after the end of a list, to be loaded into lanes that have no element.
   template <class Numbers>
   static void pad(Numbers& numbers, std::size_t size) {
     std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(size), n, 0);
   }
 
-  /// Rejects the queries that a plane separates, and returns the others. Queries with a coordinate that is
-  /// not finite are neither rejected nor returned, and stay undecided.
+  /// Rejects the queries that a plane separates, and returns the other queries. A query with a coordinate
+  /// that is not finite is neither rejected nor returned, and stays undecided.
   Rows reject_separated(const Rows& rows) {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const Points x = points([&](std::size_t lane) { return rows[i + lane]; });
       const auto separated =
           each(Mask(detail::separated_across_axis<kind>(x) | detail::separated_across_diagonal<kind>(x)));
-      // Four independent sums, since each addition to a sum must wait for the one before.
+      // Four sums instead of one, because each addition to a sum must wait for the addition before.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; ++c) sums[c % 4] += x.x[c];
       const auto finite = each(Mask(abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < Real(HUGE_VAL)));
@@ -133,8 +134,8 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose F stays clear of 0, as keeps_clear and solve_cubic do. For the other pairs,
-  /// keeps F, W and B, unless they need another frame or order.
+  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. Of the other pairs,
+  /// keeps F, W and B of those that need no other frame and no other order of end points.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;
@@ -156,17 +157,19 @@ class WangLanes {
     }
   }
 
-  /// F, W and B of n queries; `take` reads n numbers of a column.
+  /// F, W and B of n queries, one query in each lane.
   struct Polynomial {
     Cubic<Real> F;
     Real W, B;
   };
+  /// The polynomials of the n queries whose numbers in a column are take(column).
   template <class Take>
   Polynomial polynomial(const Take& take) const {
     return {{take(columns_[0]), take(columns_[1]), take(columns_[2]), take(columns_[3])},
             take(columns_[4]),
             take(columns_[5])};
   }
+  /// The polynomials of the queries at the places place(lane) in `left_`.
   template <class PlaceOfLane>
   Polynomial polynomial_at(const PlaceOfLane& place) const {
     return polynomial([&](const auto& column) {
@@ -174,8 +177,8 @@ class WangLanes {
     });
   }
 
-  /// Finds roots as solve_cubic does, but does not refine them. The candidates of each query are its roots in
-  /// ascending order, then t = 1 if F is small there.
+  /// Finds the roots as solve_cubic() does, but does not refine them. The candidates of a query are its roots
+  /// in ascending order, then t = 1 if |F| <= μ at t = 1.
   void find_roots() {
     for (auto& column : columns_) pad(column, left_.size());
     for (std::size_t i = 0; i < left_.size(); i += n) {
@@ -220,7 +223,7 @@ class WangLanes {
     candidate_time_[candidate_count_++] = time;
   }
 
-  /// Refines the roots in all brackets, as detail::refine_root does.
+  /// Refines the roots in all brackets, as detail::refine_root() does.
   void refine_roots() {
     for (auto& column : brackets_) pad(column, bracket_count_);
     pad(bracket_place_, bracket_count_);
@@ -237,8 +240,8 @@ class WangLanes {
     }
   }
 
-  /// Tests all candidates as Algorithms 3 and 4 do. If a candidate does not pass, checks whether its
-  /// vertex-edge tests can be skipped.
+  /// Applies the area, height and barycentric tests to all candidates. For a candidate that does not pass
+  /// them, finds out whether it needs vertex-edge tests.
   void test_candidates() {
     pad(candidate_place_, candidate_count_);
     pad(candidate_time_, candidate_count_);
@@ -264,7 +267,7 @@ class WangLanes {
     }
   }
 
-  /// In each lane, what excludes_collision() with VeCulling::per_root returns for one query.
+  /// In each lane, the result of excludes_collision() with VeCulling::per_root for the lane's query.
   static Mask excludes(const Pair<kind, Real>& pair, const Cubic<Real>& F,
                        const Configuration<kind, Real>& configuration, const Real& t,
                        const Tolerances<Real>& tol) {
@@ -283,7 +286,8 @@ class WangLanes {
     return is_steep & bracketed & !(h > Real(1)) & detail::outside(configuration, spread, eps, pair.B);
   }
 
-  /// Makes each query's verdict from its candidates, as detail::wang_tests does before the vertex-edge tests.
+  /// Makes the verdict on each query from its candidates, as detail::wang_tests() does before the vertex-edge
+  /// tests.
   void conclude() {
     std::size_t next = 0;
     for (std::size_t place = 0; place < left_.size(); ++place) {
@@ -311,8 +315,8 @@ class WangLanes {
   QueryRows queries_;
   Verdict* verdicts_;
   std::optional<double> given_;
-  Rows left_;  ///< queries whose F may have a root; a place is an index in this list
-  std::array<Column<double, wang_batch_size>, 6> columns_;  ///< a, b, c, d of F, then W and B, by place
+  Rows left_;  ///< the rows of queries whose F may have a root; a "place" is an index in this list
+  std::array<Column<double, wang_batch_size>, 6> columns_;  ///< by place: a, b, c, d of F, then W and B
   std::array<Column<double, most_brackets>, 4> brackets_;
   Column<std::uint8_t, most_brackets> bracket_place_;
   Column<std::uint16_t, most_brackets> bracket_candidate_;

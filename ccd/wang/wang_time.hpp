@@ -1,4 +1,5 @@
-// Lower bounds of the earliest time of contact, and of the time at which a distance falls to a separation.
+// Lower bounds of the earliest time of contact, and of the earliest time at which the distance is at most a
+// separation.
 #pragma once
 
 #include <algorithm>
@@ -20,28 +21,28 @@
 namespace nearmiss {
 
 /// The least μ, in units of B³ε, with which `solve_cubic` misses no root, for rounding to nearest and
-/// ε <= 2^-10: `cubic_residual` is at most 436, and 440 leaves room for the rounding of its product with B³ε.
-/// For double it is about a thousandth of the μ with which `wang` decides, so that the time is much closer to
-/// the root.
+/// ε <= 2^-10: `cubic_residual` is at most 436, and 440 has room for the rounding of the product with B³ε.
+/// For double, this μ is about a thousandth of the μ with which `wang` decides. Therefore the time is much
+/// closer to the root.
 inline constexpr int least_residual = 440;
 
-/// Bound of |computed - exact| / (Bε) for the distance of two vertices along an axis or a diagonal, at any
+/// The bound of the error of the distance of two vertices along an axis or a diagonal, in units of Bε, at any
 /// time up to the result of `separated_until`.
 ///
 /// Let every operation have a relative error of at most u = ε/2. Positions and velocities are within B; only
 /// the p of edges may be within 2B at t = 1.
-/// - A position has an error of uB: 3uB for p - q + r, and 5uB from its two sums.
-/// - A velocity has an error of u(|start| + |end| + |v|): 4uB for p, 3uB for q and r, 10uB for the sum, and
-///   5uB as above. Together these are 23uB.
-/// - A diagonal adds two components: 46uB, and 6uB for its position and for its velocity: 58uB.
-/// - The time is a quotient whose numerator has one rounding more. So it is too large by at most 3u times
-///   itself, in which a distance of at most 6B changes by 18uB.
+/// - Position: p, q and r have an error of uB each, 3uB together. The two sums of p - q + r add 5uB.
+/// - Velocity: p has an error of u(|start| + |end| + |v|) <= 4uB; q and r have 3uB each. These are 10uB, and
+///   the two sums add 5uB. Together with the position, this is 23uB.
+/// - A diagonal adds two components: 46uB. The two sums, of positions and of velocities, add 6uB each: 58uB.
+/// - The time is a quotient whose numerator has one rounding more. So it is too large by a factor of at most
+///   1 + 3u. A distance that changes by at most 6B in the step changes by at most 18uB in 3u of the step.
 /// The sum is 76uB = 38εB, and 40 has room for terms of second order.
 inline constexpr int gap_error = 40;
 
 namespace detail {
 
-// All differences between a vertex of the first primitive and a vertex of the second.
+// All differences between a vertex of the first primitive and a vertex of the second primitive.
 template <Kind kind, class T>
 auto vertex_differences(const Pair<kind, T>& pair) {
   const auto& p = pair.p.xv;
@@ -61,8 +62,8 @@ std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};
 }
 
-/// A time before which a moving plane perpendicular to an axis or a diagonal separates the primitives: in
-/// this direction, the components of all differences of vertices keep one sign.
+/// A time before which a moving plane perpendicular to an axis or a diagonal separates the primitives: until
+/// then, the components of all `vertex_differences` in the direction of this axis or diagonal keep one sign.
 template <Kind kind, class T>
 T separated_until(const Pair<kind, T>& pair) {
   const T error = gap_error * epsilon<T>() * pair.B;
@@ -85,13 +86,13 @@ T separated_until(const Pair<kind, T>& pair) {
   return latest;
 }
 
-/// A time in interval i before which the exact F has no root in this interval.
+/// A time in interval i such that the exact F has no root in the part of this interval before the time.
 ///
-/// By (2) of `solve_cubic`, there is no root between two times at which F has the same sign and |F| exceeds
-/// the residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by
-/// twice the residual; the shifted cubic has the same nodes. There, `refine_root` ends with at most half of
-/// the residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals minus h at
-/// the returned time.
+/// By (2) of `solve_cubic`, there is no root between two times of the interval at which F has the same sign
+/// and |F| exceeds `residual` - h, where h is the error of evaluating F. To find such a time, the function
+/// shifts F towards 0 by twice the residual. The shifted cubic has the same nodes. By (3), `refine_root`
+/// finds a time at which the magnitude of the shifted cubic is at most half the residual. The shift adds an
+/// error of at most 7uB³ to d, so at this time |F| is above 1.4 `residual` - h.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);
@@ -103,13 +104,13 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
                      T(residual / 2));
 }
 
-/// A time before which there is no contact, provided that there is none before `from`.
+/// A time before which there is no contact. There must be none before `from`.
 ///
-/// A contact at t0 is a root of the exact F. The claims of `solve_cubic` hold for each interval between nodes
-/// by itself, and for a part of one: if t0 is in an interval, the interval has a candidate that represents
-/// t0. So there is no contact in an interval without a candidate, nor in one whose candidate
-/// `excludes_collision` excludes. The first interval that is left has no contact before the time that
-/// `before_root` gives.
+/// The time t0 of a contact is a root of the exact F. The claim of `solve_cubic` holds for each interval
+/// between two nodes, and for a part of an interval: if t0 is in the interval, `root_in_interval` represents
+/// t0. So an interval has no contact if `root_in_interval` finds no time, or if `excludes_collision` is true
+/// for this time. In the first of the other intervals, there is no contact before the time that `before_root`
+/// gives.
 template <Kind kind, class T>
 T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);
@@ -134,7 +135,7 @@ T rootless_until(const Pair<kind, T>& pair, T from) {
   return until;
 }
 
-/// A time before which the primitives of a query do not touch: 1 if they never do.
+/// A time before which the primitives of a query do not touch; 1 if they provably never touch.
 template <Kind kind, class T>
 [[gnu::noinline]] T contactless_until(const Query& query) {
   auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
@@ -144,12 +145,13 @@ template <Kind kind, class T>
 
 }  // namespace detail
 
-/// Decides as `wang` does. The time of a collision is a lower bound: the primitives do not touch before this
-/// time, whatever test accepts the pair. It depends neither on `given` nor on the tolerances.
+/// Decides as `wang` does. The time of a reported collision is a lower bound: the primitives do not touch
+/// before this time, whatever test accepted the pair. The time depends neither on `given` nor on the
+/// tolerances.
 ///
-/// The bound is the later of two times: until the first, moving planes separate the primitives; from the
-/// first to the second, no root of F can be a contact. If F is nearly 0 for a long time, as for primitives
-/// that move in one plane, the bound is early; it is then 0 if no plane separates them at t = 0.
+/// A moving plane separates the primitives until `separated_until`. From then until `rootless_until`, no root
+/// of F can be a contact. If F is nearly 0 for a long time, as for primitives that move in one plane,
+/// `rootless_until` ends early; the time is then 0 if no plane separates the primitives at t = 0.
 template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
 Verdict wang_time(const Query& query, const std::optional<double>& given = std::nullopt,
                   const Rule& tolerances = {}) {
@@ -158,9 +160,9 @@ Verdict wang_time(const Query& query, const std::optional<double>& given = std::
   return verdict;
 }
 
-/// Decides as `wang_within` does. The time of a report is a lower bound: the distance is more than the
-/// query's separation before it. The times of Algorithms 1 and 2 are no lower bounds, so `advance` gives the
-/// time.
+/// Decides as `wang_within` does. The time of a reported pair is a lower bound: before this time, the
+/// distance is more than the query's separation. The times of Algorithms 1 and 2 are not lower bounds, so the
+/// time is that of `advance`.
 template <class T, class Rule = PaperTolerances>
 Verdict wang_within_time(const Query& query, bool plane_culling,
                          const std::optional<double>& given = std::nullopt, const Rule& rule = {}) {

@@ -1,4 +1,5 @@
-// Vertex-vertex and vertex-edge CCD (Algorithms 1 and 2) as tests of their own, for any distance R >= 0.
+// Vertex-vertex and vertex-edge CCD (Algorithms 1 and 2) for queries of the kinds vv and ve, with any
+// separation.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +25,10 @@ VertexEdge<T> vectors_of_vertices(const Query& query, const Frame& frame) {
           relative_motion<T>(query, 0, 2, frame)};
 }
 
-// A bound of all components of the vectors at all times: the largest of their positions at t = 0 plus the
-// largest of their velocities. The computed components have a relative error of at most 2u of this bound, and
-// the sum adds u, so B has room for `bound_needs`. NaN if a position overflows at both times.
+// A bound of the components of the three vectors at all times: the largest component of a position at t = 0
+// plus the largest component of a velocity, times 1 + `bound_margin` ε. Each of these two components has an
+// error of at most 2u times the bound, and the sum adds u, so the factor has room for `bound_needs`. NaN if a
+// position overflows at both times.
 template <class T>
 T bound_of_vectors(const VertexEdge<T>& ve) {
   const auto largest = [&](const auto& part) {
@@ -42,16 +44,17 @@ T bound_of_vectors(const VertexEdge<T>& ve) {
 
 }  // namespace detail
 
-/// Two vertices, or a vertex and an edge, in the frame in which they are computed, with their bound B and the
-/// distance R that is asked about.
+/// A query of the kind vv or ve as Algorithms 1 and 2 compute with it: its vectors in a frame, their bound B,
+/// and the distance R that the query asks about.
 template <class T>
 struct WithinQuery {
   VertexEdge<T> ve;  ///< for two vertices, x_ji is 0
   Frame frame;
   T B = 0;
-  T R = 0;  ///< the query's separation, rounded up if at all
+  T R = 0;  ///< the query's separation; rounded up if T cannot represent it
 
-  /// If `given` is set, it replaces the primitives' own B; a smaller value throws Error (§5).
+  /// If `given` is set, it replaces the primitives' own B; a value that is smaller than their own B throws
+  /// Error (§5).
   explicit WithinQuery(const Query& query, const std::optional<double>& given = std::nullopt) {
     using std::ldexp;
     const auto form = [&](const Frame& each) {
@@ -75,11 +78,11 @@ struct WithinQuery {
       R = R * (1 + epsilon<T>()) + T(0x1p-149);  // the smallest float
   }
 
-  /// Whether R is so large that the primitives are within R at t = 0. Components are at most B, so their
-  /// distance is at most √3 B < 2B.
+  /// Whether R is so large that the primitives are certainly within R at t = 0. All components are at most B,
+  /// so the distance is at most √3 B < 2B.
   [[nodiscard]] bool is_always_within() const { return R >= 2 * B; }
 
-  /// The tolerances of a rule for these primitives, unless they are always within R.
+  /// The tolerances of a rule for these primitives. is_always_within() must be false.
   template <class Rule>
   [[nodiscard]] Tolerances<T> tolerances(Kind kind, const Rule& rule) const {
     return kind == Kind::vertex_vertex ? rule.of_vertices(B, R) : rule.of_edge(B, R);
@@ -87,11 +90,11 @@ struct WithinQuery {
 };
 
 /// Algorithm 1 with D = R for two vertices, and Algorithm 2 for a vertex and an edge, where R is the query's
-/// separation. Reports all pairs that come within R at some t in [0, 1], and none that stays farther apart
-/// than R plus within_distance_bound(). B is the primitives' own bound, or `given`. For R < 2B, the
-/// inequalities of §4.2 and §4.3 hold (`of_vertices` and `of_edge` of the rules); all other pairs are within
-/// R. With culling, a pair is rejected first if it is more than R apart along one axis at both ends, and
-/// hence always.
+/// separation. Reports every pair that comes within R at some t in [0, 1], and no pair that stays farther
+/// apart than R plus within_distance_bound(). B is `given` if it is set, else the primitives' own bound. For
+/// R < 2B, the tolerances of the rule satisfy the inequalities of §4.2 and §4.3; for larger R, every pair is
+/// within R. If `plane_culling` is true, pairs for which separated_across_axis_by() is true are rejected
+/// first.
 template <class T, class Rule = PaperTolerances>
 Verdict wang_within(const Query& query, bool plane_culling, const std::optional<double>& given = std::nullopt,
                     const Rule& rule = {}) {
@@ -109,9 +112,10 @@ Verdict wang_within(const Query& query, bool plane_culling, const std::optional<
   return verdict.hit ? verdict : Verdict::rejected(Rejection::tests);
 }
 
-/// The most by which the distance of a pair that wang_within() reports exceeds its separation, in the unit of
-/// the query's coordinates, rounded up. The distance is at most sqrt(D² + 2δ) (§4.2, §4.3), and that less R
-/// is (D² + 2δ - R²) / (sqrt(D² + 2δ) + R). 16ε D² is more than the rounding errors of all squares.
+/// If wang_within() reports a query, the smallest distance exceeds the separation by at most this bound, in
+/// the unit of the query's coordinates. The distance is at most sqrt(D² + 2δ) (§4.2, §4.3), so the bound is
+/// sqrt(D² + 2δ) - R = (D² + 2δ - R²) / (sqrt(D² + 2δ) + R), rounded up. The term 16ε D² exceeds the rounding
+/// errors of all squares.
 template <class Rule = PaperTolerances, class T = double>
 double within_distance_bound(const Query& query, const std::optional<double>& given = std::nullopt,
                              const Rule& rule = {}) {

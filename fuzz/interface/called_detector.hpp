@@ -1,4 +1,4 @@
-// A subject that calls a detector that the caller's program provides.
+// A subject that calls a detector of the caller's program.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace nearmiss {
 
-/// Calls a detector in this process. If the detector throws a C++ exception, the answer to that query is a
-/// fault.
+/// Calls a detector in this process. If the detector throws a C++ exception, the query that it was asked gets
+/// a fault.
 class CalledDetector final : public DescribedSubject {
  public:
   /// The detector's functions get `state`. With `at_once`, several threads may call them at the same time.

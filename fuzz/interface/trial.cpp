@@ -141,7 +141,7 @@ std::vector<Finding> in_order(const Campaign& campaign) {
   return findings;
 }
 
-/// Shrinks only the first finding of the first few ways to fail, so that a test ends soon.
+/// Shrinks the first finding of each of the first few ways to fail, and no other, so that a test ends soon.
 void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop) {
   constexpr std::size_t most = 3;
   constexpr ShrinkLimits limits{.work = limits_in_campaign.work, .time = std::chrono::seconds(2)};
@@ -201,8 +201,8 @@ std::unique_ptr<Result> hold(const nearmiss_subject& detector, void* state,
   return result;
 }
 
-/// Does the work of a C function. Returns whether it succeeded; after an exception, writes its text to
-/// `message`.
+/// Does the work of a C function. Returns whether the work succeeded; after an exception, writes the
+/// exception's text to `message`.
 template <class Work>
 bool told(char* message, std::size_t size, const Work& work) {
   const PlainArithmetic guard;

@@ -8,7 +8,7 @@
 /// A CCD is a function, or an object with a const operator(), of one of these forms:
 ///
 ///     bool f(const Question&)                                       whether there is a collision
-///     std::optional<double> f(const Question&)                      an estimate of its time, if there is one
+///     std::optional<double> f(const Question&)                      an estimate of the time of a collision
 ///     plugin::Answer f(const Question&)                             with or without a time, or "cannot tell"
 ///     void f(std::span<const Question>, std::span<plugin::Answer>)  many queries at once
 ///
@@ -52,18 +52,19 @@ using plugin::Question;
 
 inline constexpr int of_the_form = -1;  ///< estimates if a function returns optional, else no times
 
-/// The queries of a trial, its length, and the promises of the CCD.
+/// The queries of a trial, the length of the trial, and the promises of the CCD.
 struct TrialOptions {
-  std::string name = "my_ccd";   ///< the name of a function in the text; a detector has its own
+  std::string name = "my_ccd";   ///< the name of the CCD in the text, if it is a function
   std::string families = "all";  ///< names with ',' between them (nearmiss fuzz --help)
-  std::string separation = {};   ///< of each query: a positive number, or "drawn"; "": contact
+  std::string separation = {};   ///< h of each query: a positive number, or "drawn"; "": as in trial.h
   int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that the CCD decides
-  std::uint64_t seed = 1;        ///< of the random queries
+  std::uint64_t seed = 1;        ///< the seed of the random queries
   std::uint64_t cases = 20'000;  ///< number of queries; 0: until the time is over
-  std::chrono::duration<double> time{};  ///< for the queries; then one second to simplify; 0: no limit
+  std::chrono::duration<double> time{};  ///< time for the queries; simplification gets one second more; 0: no
+                                         ///< limit
   int threads = 1;                       ///< how many threads call the CCD at once
   int time_sort = of_the_form;   ///< what the times of a function mean: NEARMISS_TIME_LOWER_BOUND and so on
-  nearmiss_contract contract{};  ///< what a function takes for granted; a detector states its own
+  nearmiss_contract contract{};  ///< the contract of a function; a detector states its own contract
 };
 
 /// The result of a trial.
@@ -79,11 +80,11 @@ class TrialReport {
   [[nodiscard]] const nearmiss_trial_counts& counts(Kind kind) const {
     return result_->of_kind[static_cast<std::size_t>(kind)];
   }
-  /// The first few queries of each way to fail; ordinary ones come first.
+  /// The first few findings of each way to fail; ordinary queries come first.
   [[nodiscard]] std::span<const nearmiss_trial_finding> findings() const& {
     return {result_->findings, result_->finding_count};
   }
-  void findings() const&& = delete;  // the findings would outlive a temporary report
+  void findings() const&& = delete;  // the span would outlive a temporary report
   /// At most 15 lines.
   [[nodiscard]] std::string_view text() const { return result_->text; }
 
@@ -125,7 +126,7 @@ template <class Settings, class... Parts>
 constexpr bool has_options<plugin::Detector<Settings, Parts...>> =
     !std::is_same_v<Settings, plugin::NoOptions>;
 
-/// Answers n queries of a kind with a function.
+/// Makes a function answer n queries of one kind.
 template <class CCD>
 void decide(const CCD& ccd, int kind, std::size_t n, const double* x, const double* h, int* answer,
             double* toi) {
@@ -147,7 +148,7 @@ void decide(const CCD& ccd, int kind, std::size_t n, const double* x, const doub
   }
 }
 
-/// The meaning of the times that a function returns.
+/// The meaning of the times that a function returns; `asked` is TrialOptions::time_sort.
 template <class CCD>
 int time_sort_of(int asked) {
   if constexpr (!Batched<CCD>) {
@@ -165,7 +166,7 @@ void* pointer_to(const CCD& ccd) {
   return const_cast<void*>(static_cast<const void*>(&ccd));
 }
 
-/// The description of a CCD. Its functions expect pointer_to(ccd) as their first argument.
+/// The description of a CCD. The functions in it expect pointer_to(ccd) as their first argument.
 template <class CCD>
 nearmiss_subject describe(const CCD& ccd, const TrialOptions& options) {
   if constexpr (is_detector<CCD>) {
@@ -188,7 +189,6 @@ nearmiss_subject describe(const CCD& ccd, const TrialOptions& options) {
   }
 }
 
-/// Answers one query.
 template <class CCD>
 plugin::Answer ask(const CCD& ccd, const Question& q) {
   plugin::Answer answer;
@@ -221,7 +221,7 @@ TrialReport hold(const CCD& ccd, const TrialOptions& options, const char* check)
 
 }  // namespace detail
 
-/// The answer of a CCD to one query. The counterexamples in reports call this.
+/// The answer of a CCD to one query. The counterexamples in reports call this function.
 template <class CCD>
 plugin::Answer ask(const CCD& ccd, const Question& question) {
   if constexpr (std::is_function_v<CCD>)
@@ -230,8 +230,7 @@ plugin::Answer ask(const CCD& ccd, const Question& question) {
     return detail::ask(ccd, question);
 }
 
-/// Whether a CCD gives a valid answer: a known value and, if the CCD gives times, a time in [0, 1]. The
-/// counterexamples in reports call this.
+/// Whether a CCD gives a valid answer: a known value and, if the CCD gives times, a time in [0, 1].
 template <class CCD>
 bool answers(const CCD& ccd, const Question& question) {
   const plugin::Answer answer = ask(ccd, question);
@@ -245,9 +244,9 @@ bool answers(const CCD& ccd, const Question& question) {
   return answer.value >= NEARMISS_NO_COLLISION && answer.value <= NEARMISS_UNKNOWN;
 }
 
-/// Puts a CCD on trial. Throws std::invalid_argument for options that make no sense.
+/// Puts a CCD on trial. Throws std::invalid_argument for invalid options.
 template <class CCD>
-static TrialReport trial(const CCD& ccd, const TrialOptions& options = {}) {  // static: the macros may differ
+static TrialReport trial(const CCD& ccd, const TrialOptions& options = {}) {  // static: macros may differ
 #if defined EXPECT_TRUE
   constexpr const char* check = "EXPECT_TRUE";
 #elif defined CHECK
@@ -272,7 +271,7 @@ struct HardQueries {
   }
 };
 
-/// The first n queries of a kind of a family (nearmiss fuzz --help). Throws std::invalid_argument for an
+/// The first n queries of one kind in a family (nearmiss fuzz --help). Throws std::invalid_argument for an
 /// unknown family or an invalid kind.
 inline HardQueries hard_queries(const std::string& family, Kind kind, std::uint64_t seed, std::size_t n) {
   HardQueries made{kind, std::vector<double>(n * coordinate_count(kind)), std::vector<double>(n)};

@@ -43,7 +43,6 @@ std::string positions(const Query& query, std::size_t time) {
   return text;
 }
 
-/// Whether a text can be the name of a C++ variable.
 bool is_identifier(std::string_view text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   return !text.empty() && is_letter(text.front()) &&
@@ -81,7 +80,6 @@ std::string example(const TrialSetting& setting, const Finding& finding) {
                  most_lines);
 }
 
-/// What happens in the finding's query, in words.
 std::string what_happens(const Finding& finding) {
   auto earliest = earliest_time(finding.shrunk);
   const std::string when = earliest ? fmt::format("t = {:.6g}: ", earliest->enclosure().lo) : "";

@@ -12,12 +12,12 @@ namespace nearmiss {
 
 /// Facts about the trial that the text mentions.
 struct TrialSetting {
-  std::string subject;     ///< the detector's name, which also stands for it in the example
+  std::string subject;     ///< the detector's name, which stands for the detector in the example
   std::string_view check;  ///< the macro that checks the example
   std::uint64_t seed;
 };
 
-/// At most 15 lines: a verdict, counters, and the first finding as code to paste.
+/// The text, of at most 15 lines: a verdict, counters, and the first finding as code to paste.
 std::string trial_text(const TrialSetting& setting, const Statistics& statistics,
                        const std::vector<Finding>& findings);
 

@@ -8,8 +8,9 @@
 
 namespace nearmiss {
 
-/// The path of a file or folder of nearmiss. It is in this program's folder, or in NEARMISS_INSTALLED or
-/// NEARMISS_BUILT (fuzz/CMakeLists.txt); both paths are relative to the program's folder.
+/// The path of a file or folder that belongs to nearmiss. It is in this program's folder, or in
+/// NEARMISS_INSTALLED or NEARMISS_BUILT (fuzz/CMakeLists.txt), which are paths relative to the program's
+/// folder.
 inline std::string path_beside(std::string_view name) {
   std::error_code unknown;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();

@@ -1,4 +1,4 @@
-// The built-in subjects by name: the CCDs under test, the oracle, and the CCDs with defects.
+// The built-in subjects by name: the CCDs of ccd/, the oracle's methods, and CCDs with a known defect.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,9 @@
 
 namespace nearmiss {
 
-/// The built-in subjects: those of ccd/, the exact subjects, `adaptive`, `parity` and `wang:dd-normals`.
-/// `defects()` lists the defects.
+/// Lists the built-in subjects: those of ccd/, the exact subjects, `adaptive`, `parity` and
+/// `wang:dd-normals`. The list omits the defects, which `defects()` lists, and the other subjects
+/// "NAME:SCALAR".
 std::vector<SubjectInfo> built_in_subjects();
 
 /// Makes a built-in subject from its name, from "NAME:SCALAR" (ladder/scalars.hpp) or from "defect:NAME"

@@ -23,8 +23,8 @@ bool is_apart_at_start(const Query& query, double by) {
 }
 
 /// Whether the signs of F's Bernstein coefficients are certain, and change at most once. If so, F has at most
-/// one root in [0, 1], counted with multiplicity. It has no root at an end, and the number of roots inside is
-/// at most the number of changes of sign.
+/// one root in [0, 1], counted with multiplicity: no root at t = 0 or t = 1, and in between no more roots
+/// than the coefficients have changes of sign.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);

@@ -63,8 +63,7 @@ class Contracted final : public ForwardingSubject {
     std::vector<std::size_t> places;  ///< in the batch
     std::vector<Query> queries;
 
-    /// Puts the results of these queries (`own`) into their places in the batch, and `other` into all other
-    /// places.
+    /// Sets each all[places[i]] to own[i], and all other elements of `all` to `other`.
     template <class Each>
     void spread(const std::vector<Each>& own, std::span<Each> all, const Each& other) const {
       std::fill(all.begin(), all.end(), other);
@@ -72,7 +71,7 @@ class Contracted final : public ForwardingSubject {
     }
   };
 
-  /// The contract is about the query as the subject rounds it.
+  /// Whether the subject is asked this query. Decided for the query as the subject rounds it.
   [[nodiscard]] bool asks(const Query& query) const {
     return keeps_contract(subject_->rounded(query), subject_->contract()) == keeps_;
   }

@@ -91,7 +91,6 @@ constexpr std::array<std::string_view, 3> sound_names{"wang", "wang-time", "adva
 struct NamedEdit {
   std::string_view name, about, of;
 
-  /// The place of that subject in sound_names.
   [[nodiscard]] constexpr std::ptrdiff_t place() const {
     return std::ranges::find(sound_names, of) - sound_names.begin();
   }
@@ -108,7 +107,7 @@ struct Change {
   Sound sound = Sound::wang;
   int edit = 0;  ///< the number of the edit in edit_table, from 1; 0: none
   DefectiveTolerances tolerances = {};
-  bool in_float = false;  ///< whether the subject computes in float; wang-time: only the time
+  bool in_float = false;  ///< whether the subject computes in float; of wang-time, only the time
 };
 
 template <Kind kind>
@@ -187,7 +186,7 @@ constexpr std::array in_float_table{
     InFloat{"time-float", "the time of a computation in float", Sound::wang_time},
 };
 
-/// Applies the factor in "TOLERANCE*FACTOR" to `tolerances`; false if `name` has another form.
+/// Reads "TOLERANCE*FACTOR", and sets this factor in `tolerances`; returns false if `name` has another form.
 bool take_factor(std::string_view name, DefectiveTolerances& tolerances) {
   const std::size_t star = name.find('*');
   if (star == std::string_view::npos) return false;

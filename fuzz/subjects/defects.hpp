@@ -12,18 +12,20 @@
 
 namespace nearmiss {
 
-/// A defective subject: the real code of a sound subject, with one step left out or one tolerance changed.
+/// A defective subject: the real code of a sound subject with one change. A step is left out or wrong, a
+/// tolerance is changed, or float replaces double.
 struct Defect {
   std::string name;  ///< "defect:vv"
   std::string about;
 };
 
-/// All defects. A defect of wang multiplies one tolerance by 1/2, 1/10, 1/100 or 0 (or by 10 or 100, if the
-/// tolerance excludes degenerate primitives), leaves out one step, or computes in float instead of double. A
-/// defect of wang-time or advance leaves out one step, or computes the time in float.
+/// All defects. A defect of wang multiplies one tolerance by 1/2, 1/10, 1/100 or 0, gets one step wrong, or
+/// computes in float instead of double. A tolerance that excludes degenerate primitives is also multiplied by
+/// 10 and 100. A defect of wang-time or advance gets one step wrong; one defect of wang-time computes the
+/// time in float instead.
 std::span<const Defect> defects();
 
-/// The tolerances by name.
+/// A tolerance of wang, by name.
 struct NamedTolerance {
   std::string_view name;
   double Tolerances<double>::*value;
@@ -33,14 +35,14 @@ struct NamedTolerance {
 };
 std::span<const NamedTolerance> named_tolerances();
 
-/// The name of the defect that multiplies a tolerance: "defect:mu*0.5".
+/// The name of the defect that multiplies a tolerance by a factor, such as "defect:mu*0.5".
 std::string scaled_tolerance(std::string_view tolerance, double factor);
 
-/// Makes a defect from its name; a tolerance may have any factor >= 0. The defect makes the promises of the
-/// sound subject: its distance bound and its sort of time. If the defect changes a tolerance,
-/// needed_tolerance() gives the factor by which this tolerance must be multiplied (if larger values accept
-/// more pairs) or divided. Returns null for a name that does not start with "defect:". Throws Error for an
-/// unknown defect.
+/// Makes a defective subject from its name; a tolerance may have any factor >= 0. The defective subject
+/// promises the same distance bound and the same sort of time as the sound subject. If the defect changes a
+/// tolerance, needed_tolerance() gives the factor that loosens this tolerance enough for the subject to
+/// report the query. Returns null for a name that does not start with "defect:". Throws Error for an unknown
+/// defect.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

@@ -27,7 +27,8 @@ constexpr std::array entries{
     Entry{{"exact-decision", "the same as exact, without the time"}, true, false},
 };
 
-/// The oracle as a subject. It omits the box test, which a simulation makes before it asks a CCD.
+/// The oracle as a subject. When it decides a single query, it omits the box test, which a simulation makes
+/// before it asks a CCD.
 class ExactSubject final : public Subject {
  public:
   explicit ExactSubject(const Entry& entry) : entry_(entry), name_(entry.info.name) {}
@@ -73,8 +74,8 @@ class ExactSubject final : public Subject {
  private:
   static constexpr KnownTime unknown_time{{0, 1}};
 
-  /// The verdict if the filter ended with this stage and this time. If the smallest distance is exactly h,
-  /// the pair is reported.
+  /// The verdict on a query for which the filter ended with this stage and this time. If the smallest
+  /// distance is exactly h, the pair is reported.
   [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage, const KnownTime& time) const {
     if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(name_);
     const bool filtered = stage != FilterStage::undecided;

@@ -1,4 +1,4 @@
-// A subject that passes everything on to another one.
+// A subject that passes all questions on to another subject.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace nearmiss {
 
-/// Passes everything on to another subject, which must outlive it. To change how that subject is asked, a
-/// derived class overrides decide() for batches, which also decides single queries. decide_timed() and
-/// time_each() do not call decide().
+/// Passes all questions on to another subject, which must outlive this object. To change how that subject is
+/// asked, a derived class overrides decide() for batches, decide_timed() and time_each(). Single queries are
+/// decided by decide() for batches; decide_timed() and time_each() do not call decide().
 class ForwardingSubject : public BatchSubject {
  public:
   ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}
@@ -62,7 +62,7 @@ class ForwardingSubject : public BatchSubject {
   const Subject& to_;
 };
 
-/// The subject at the end of a chain of forwarding subjects, which answers in the end.
+/// The subject at the end of a chain of forwarding subjects; `subject` itself if it forwards nothing.
 inline const Subject& innermost(const Subject& subject) {
   const auto* const forwarding = dynamic_cast<const ForwardingSubject*>(&subject);
   return forwarding == nullptr ? subject : innermost(forwarding->to());

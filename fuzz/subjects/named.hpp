@@ -22,7 +22,7 @@ struct SubjectText {
   static SubjectText parse(std::string_view text);
 };
 
-/// The subject, renamed. Its options, and the bound of a built-in subject, stay at the end of the name:
+/// Renames a subject. Its options, or the bound of a built-in subject, stay at the end of the new name:
 /// "new:KEY=VALUE", "new@0.5". If `name` is "", the subject is returned unchanged.
 std::unique_ptr<Subject> named(std::unique_ptr<Subject> subject, const std::string& name, bool is_plugin);
 

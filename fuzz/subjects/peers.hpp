@@ -12,7 +12,7 @@ namespace nearmiss {
 struct Peer {
   std::string_view name;     ///< of the subject
   std::string_view object;   ///< its plug-in is peers/OBJECT.so beside the program
-  std::string_view package;  ///< the Debian package with which it is built; "" if users compile the adapter
+  std::string_view package;  ///< the Debian package that has the CCD; "" if users compile the adapter
   std::string_view adapter = object;  ///< fuzz/subjects/peers/ADAPTER.cpp
 };
 
@@ -22,10 +22,9 @@ std::span<const Peer> peers();
 /// The published CCD with this name; options in the name are ignored.
 std::optional<Peer> peer_named(std::string_view name);
 
-/// The path of a published CCD's plug-in.
 std::string path_of(const Peer& peer);
 bool is_built(const Peer& peer);
-/// An instruction that says how to build a published CCD: "compile ...".
+/// How to build a published CCD: "install ..." or "run tools/subject ...".
 std::string how_to_build(const Peer& peer);
 
 /// The plug-in of a published CCD: "tight-inclusion:tolerance=1e-3" stands for

@@ -24,7 +24,7 @@ bool is_exact_sum(double a, double b) {
   return (a - (sum - of_b)) + (b - of_b) == 0;
 }
 
-/// Whether Recorded::asked() is exact.
+/// Whether Recorded::asked() rounds nothing.
 bool is_exact(const Recorded& each) {
   if (each.tmax == 1) return true;
   constexpr std::size_t half = 12;
@@ -99,7 +99,6 @@ Verdict verdict_of(const DetectorInfo& info, const RecordedAnswer& each) {
   return nearmiss::verdict_of(info, each.answer, each.time);
 }
 
-/// Whether two answers are the same.
 bool is_same(const Verdict& one, const Verdict& other) {
   return one.hit == other.hit && one.fault == other.fault && one.stage == other.stage &&
          (one.time == other.time || (std::isnan(one.time) && std::isnan(other.time)));
@@ -128,7 +127,7 @@ std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
     Answers known;
     std::vector<RecordedAnswer> answers;
   };
-  std::array<std::vector<Made>, 2> made;  // for answers in double, and in float
+  std::array<std::vector<Made>, 2> made;  // the passes of answers in double, and in float
   for (RecordedAnswer& each : answers) {
     auto& passes = made[each.in_float ? 1 : 0];
     const Verdict verdict = verdict_of(info, each);

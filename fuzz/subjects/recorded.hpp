@@ -1,4 +1,4 @@
-// The answers of a recorded CCD, as a subject.
+// A subject that repeats the recorded answers of a CCD.
 #pragma once
 
 #include <cstdint>
@@ -22,33 +22,35 @@ struct RecordedAnswer {
   std::uint64_t number;  ///< the number of the record
   Query query;
   int answer;     ///< as in nearmiss_subject.h
-  double time;    ///< in the query's own step; NaN if none
+  double time;    ///< in the unit of the query's step; NaN if none
   bool in_float;  ///< whether the program takes the step to that time in float
 };
 
 /// Counts of records that are left out.
 struct LeftOut {
   UnusedRecords unused;
-  std::uint64_t rounded = 0;  ///< tmax is not 1, and no query in doubles represents the recorded question
+  std::uint64_t rounded = 0;  ///< tmax is not 1, and the positions at tmax, rounded to doubles, may change
+                              ///< the decision
 };
 
-/// Passes on the records that can be judged, in order. If tmax is 1, or if tmax < 1 and the answer is a
-/// collision with a time, the answer is judged on the recorded query: a time is late in the whole step
-/// exactly if it is late in the part up to tmax (but a collision after tmax counts as found). Any other
-/// answer is judged on the query that ends at tmax. If doubles cannot represent this query, the answer is
-/// judged on the rounded query, provided that tmax < 1 and that rounding does not change the decision. Throws
-/// Error as the reader of recordings does.
+/// Passes those records of a file that can be judged to `sink`, in order. If tmax is 1, or if tmax < 1 and
+/// the answer is a collision with a time, the answer is judged on the recorded query: a time is late in the
+/// whole step if and only if it is late in the part up to tmax. (If the primitives collide only after tmax,
+/// such an answer counts as right.) Any other answer is judged on the query that ends at tmax. If doubles
+/// cannot represent this query, the answer is judged on the rounded query, provided that tmax < 1 and that
+/// rounding does not change the decision. Throws Error as read_recording() does.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
-/// Some answers, with at most one answer per query, and a subject that gives these answers under the name
-/// recorded_name. The subject promises lower bounds if any answer has a time.
+/// Some recorded answers, no two of which contradict each other, and a subject that gives these answers under
+/// the name recorded_name. If any recorded answer has a time, the subject promises that times are lower
+/// bounds.
 struct RecordedPass {
   std::unique_ptr<Subject> subject;
   std::vector<RecordedAnswer> answers;
 };
 
-/// Divides all answers into as few passes as possible. Several passes are needed if a simulation asked about
-/// the same query twice and got different answers.
+/// Divides all answers into passes. Different answers to the same query are in different passes, and so are
+/// answers with and without `in_float`.
 std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers);
 
 }  // namespace nearmiss

@@ -22,7 +22,7 @@ namespace {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The plug-in of a subject's text without NAME=; nothing for other subjects.
+/// The plug-in that `subject`, a text without NAME=, names; nothing if `subject` names no plug-in.
 std::optional<std::string> plugin_of(std::string_view subject) {
   return is_plugin(subject) ? std::string(subject) : plugin_of_peer(subject);
 }
@@ -48,8 +48,9 @@ std::string file_of_program(std::string_view program) {
   return files.empty() ? "" : files.back();
 }
 
-/// A name made from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If this cannot be a
-/// NAME, or is a built-in name, then DETECTOR-FILE. "" if there is no file, or if neither can be a NAME.
+/// Makes a name from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If that cannot be a
+/// NAME, or is a built-in name, makes DETECTOR-FILE. Returns "" if there is no file, or if neither name can
+/// be used.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";
@@ -65,8 +66,8 @@ std::string name_of_file(const Subject& subject) {
   return "";
 }
 
-/// Whether a plug-in or a renamed subject has the name of a built-in subject or of another published CCD. A
-/// merge would then add up the results of both.
+/// Whether a plug-in or a renamed subject has the name of a built-in subject or of another published CCD. If
+/// so, a merge of campaigns would add up the results of two subjects.
 bool takes_built_in_name(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   const bool is_renamed = !given_name(subject).empty();

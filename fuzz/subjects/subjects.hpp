@@ -14,8 +14,8 @@
 
 namespace nearmiss {
 
-/// The plug-in in a subject's text [NAME=]SUBJECT. A path or a command is a plug-in itself; the name of a
-/// published CCD stands for the plug-in that was built from its code (peers.hpp). Returns nothing for other
+/// The plug-in that a text [NAME=]SUBJECT names: SUBJECT is its path or command, or the name of a published
+/// CCD, which stands for the plug-in built from that CCD's adapter (peers.hpp). Returns nothing for other
 /// subjects. Throws Error if the published CCD is not built.
 std::optional<std::string> plugin_named(std::string_view text);
 
@@ -27,8 +27,8 @@ std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});
 
-/// Like make_any_subject, but if the text has no NAME= and chooses no detector of a shared object, makes a
-/// subject of each detector.
+/// Like make_any_subject, but if the text names a shared object without NAME= and chooses none of its
+/// detectors, makes a subject of each detector.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
@@ -37,15 +37,16 @@ std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
 bool is_built_in_name(std::string_view name);
 
 /// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each of
-/// them that has no NAME gets the name of its file: "v1" for ./v1.so, or "v1.DETECTOR" if the file has
-/// several detectors or the detector was chosen. Throws Error if two subjects still have the same name.
+/// these plug-ins that has no given NAME gets the name of its file: "v1" for ./v1.so, or "v1.DETECTOR" if the
+/// file has several detectors or the detector was chosen. Throws Error if two subjects still have the same
+/// name, or a plug-in still has a built-in name.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
-/// The name of a subject without a given NAME and without options: for a plug-in, the exported name.
+/// The subject's own name, without a given NAME and without options; for a plug-in, the name that it exports.
 std::string own_name(const Subject& subject);
 
-/// A text that makes this subject under its present name, independent of other subjects: "v1=./v1.so";
-/// without NAME= if the subject has its own name.
+/// The text [NAME=]SUBJECT that makes this subject under its present name, whatever other subjects there are,
+/// such as "v1=./v1.so". It has no NAME= if the subject was not renamed.
 std::string text_of(const Subject& subject);
 
 }  // namespace nearmiss

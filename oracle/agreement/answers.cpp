@@ -8,7 +8,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The methods that answer no and those that answer yes.
+/// The names of the methods that answer no to a question, and of those that answer yes.
 class Votes {
  public:
   void add(std::string_view name, std::optional<bool> said) {
@@ -17,7 +17,7 @@ class Votes {
     names.append(names.empty() ? "" : ", ").append(name);
   }
 
-  /// Appends `question` to `text` if the answers to it differ.
+  /// Appends `question` and the names to `text` if the methods' answers differ.
   void complain(std::string& text, std::string_view question) const {
     if (yes_.empty() || no_.empty()) return;
     text.append(text.empty() ? "" : ", ").append(question);

@@ -21,12 +21,12 @@ class Answers {
   /// The answer of the first complete method.
   [[nodiscard]] bool collision() const;
 
-  /// Whether no two methods contradict each other about the collision, the boundary or the number of roots,
-  /// and every complete method says whether there is a collision. A complete method may leave the collision
-  /// open if another one says that the smallest distance is exactly h > 0.
+  /// Whether no two methods contradict each other, and every complete method says whether there is a
+  /// collision. A complete method need not say this if another one says that the smallest distance is exactly
+  /// h > 0.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// The contradictions, such as "collision (no: exact; yes: certificate)"; "" if the answers agree. If
-  /// `by_filter` is given, it is compared, too.
+  /// The contradictions and the missing answers, such as "collision (no: exact; yes: certificate)"; "" if
+  /// there are none. `by_filter` is the filter's answer, which is compared, too.
   [[nodiscard]] std::string disagreement(const Answer& by_filter = {}) const;
 
   /// Whether there is a collision that root parity cannot detect, because the number of roots is even.
@@ -37,11 +37,9 @@ class Answers {
   std::vector<Answer> answers_;
 };
 
-/// Asks all methods.
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// Asks all methods except the first one, whose answer `first` is already known. The first method is
-/// complete.
+/// Asks all methods in `asked` except the first one, whose answer `first` is already known.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
 }  // namespace nearmiss

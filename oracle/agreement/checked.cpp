@@ -33,7 +33,6 @@ namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Whether a certificate proves that the distance is at most the query's separation in a span.
 bool is_proved_to_meet(const Query& query, const Span& span) {
   return proved(certify_meets(query, span)) == statement_about(query, "meets", span, false);
 }
@@ -46,13 +45,14 @@ Query with_next_separation(const Query& query, double towards) {
   return with_separation(query, std::nextafter(query.separation, towards));
 }
 
-/// is_proved_to_meet() for the double above h. If h is the largest double, nothing needs a proof.
+/// is_proved_to_meet() with the next double above h as the separation. If h is the largest double, nothing
+/// needs a proof: every distance is at most infinity.
 bool is_proved_to_meet_above(const Query& query, const Span& span) {
   return query.separation == largest || is_proved_to_meet(with_next_separation(query, largest), span);
 }
 
-/// Whether a certificate proves that the distance is below h > 0 at some time before `time`. The part of the
-/// step that the certificate covers may end earlier.
+/// Whether a certificate proves that the distance is below h > 0 at some time in an interval [0, to] with to
+/// < `time`.
 bool is_proved_below(const Query& query, double time) {
   const Span span = time > 1 ? Span{} : Span{0, time, true};
   const auto said = proved(certify_meets(query, span, true));

@@ -13,32 +13,32 @@
 
 namespace nearmiss {
 
-/// A method's answer to a query. A member without a value means that the method does not know it.
+/// A method's answers to questions about a query. A member without a value is a question that the method
+/// leaves open.
 struct Answer {
   std::optional<bool>
       collision{};  ///< whether the primitives meet; for h > 0, whether the distance falls below h
   std::optional<bool> at_most{};      ///< for h > 0: whether the distance is at most h at some time
-  std::optional<bool> on_boundary{};  ///< whether the primitives meet at an end of the step or at a border
-  std::optional<bool> odd{};  ///< whether the number of roots with multiplicity is odd; unset on the boundary
+  std::optional<bool> on_boundary{};  ///< whether the primitives meet at t = 0, at t = 1 or at a border
+  std::optional<bool> odd{};  ///< whether the number of roots (RootParity) is odd; no value if `on_boundary`
   /// Whether the method knows anything about the query.
   [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
 
-  std::size_t detail = 0;  ///< further results as a number below 32, feedback for a fuzzer
+  std::size_t detail = 0;  ///< feedback for a fuzzer, below 32: the bit length of a certificate's size
 };
 
-/// The promise of a method.
+/// What a method promises to know.
 enum class Claim {
-  complete,  ///< the method knows whether there is a collision, unless the smallest distance is exactly h > 0
-  parity,    ///< the method detects collisions on the boundary and odd numbers of roots, and ignores h > 0
+  complete,  ///< whether there is a collision, unless the smallest distance is exactly h > 0
+  parity,  ///< whether the contact is on the boundary, else whether the number of roots is odd; only if h = 0
 };
 
-/// A decision as the answer of a method.
 Answer to_answer(const Query& query, const Decision& decision);
 /// A decision as the answer of the filter; an empty answer if exact arithmetic decided.
 Answer filter_answer(const Query& query, const Decision& decision);
 
 /// The answer that the certificate of the oracle's decision proves; an empty one if there is no certificate,
-/// or if the checker of tools/certificates/, which shares no code with the oracle, refuses it.
+/// or if the checker of tools/certificates/ refuses it.
 Answer proved_answer(const Query& query);
 
 /// "complete" or "parity".

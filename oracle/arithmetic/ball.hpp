@@ -1,4 +1,4 @@
-// Numbers with a bound of their error, which every operation carries on.
+// Numbers with a bound of their error. Every operation computes the bound of its result.
 #pragma once
 
 #include <cmath>
@@ -7,13 +7,14 @@
 
 namespace nearmiss::certified {
 
-/// A number within `error` of x; Real is double or DoubleWord. If anything overflows, the error is
-/// infinite or NaN, and no sign is certain.
+/// Stands for an exact number within `error` of x; Real is double or DoubleWord. If anything overflows, the
+/// error is infinite or NaN, and no sign is certain.
 ///
-/// An operation rounds its result by at most U |x|, and underflow adds at most H to a product
-/// (product_underflow). Two numbers may be too small by a relative error of 7 · 2^-53 and by three times the
-/// smallest double: the magnitude of an upper half, and the bound itself, which has at most six roundings.
-/// The margins in `growth` and `underflow_of_product` cover that.
+/// Rounding changes a result x by at most roundoff<Real> |x|, and underflow changes a product by at most
+/// product_underflow<Real> times `smallest`. Two numbers in the formulas below may be too small: |x|, if it
+/// is taken from the upper half of a double word, and the bound itself, which has at most six roundings.
+/// Together they lose at most a relative 7 · 2^-53, and three times the smallest double. The margins in
+/// `growth` and `underflow_of_product` cover that.
 template <class Real>
 struct Ball {
   Real x = 0;
@@ -46,7 +47,7 @@ struct Ball {
   static constexpr double underflow_of_product = (product_underflow<Real> + 4) * smallest;
 };
 
-/// A ball with a number whose conversion to double gave d, to nearest or towards zero.
+/// A ball that contains every number whose conversion to double, to nearest or towards zero, gives d.
 inline Ball<double> ball_around(double d) { return {d, 0x1p-51 * std::abs(d) + smallest}; }
 
 }  // namespace nearmiss::certified

@@ -11,31 +11,32 @@
 
 namespace nearmiss::certified {
 
-/// The largest relative error of one sum, difference or product that rounds to nearest: u = 2^-53 for double,
-/// 2^-103 >= 5u² for a double word.
+/// The largest relative error of one sum, difference or product, for rounding to nearest: u = 2^-53 for
+/// double, and 2^-103 = 8u² >= 5u² + O(u³) for a double word.
 template <class Real>
 inline constexpr double roundoff = 0x1p-53;
 template <class Real>
 inline constexpr double roundoff<DoubleWordOf<Real>> = 0x1p-103;
 
-/// The smallest positive double; every double below 2^-1022 is a multiple of it.
+/// The smallest positive double; every double is a multiple of it.
 inline constexpr double smallest = 0x1p-1074;
 
-/// The most that underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of
-/// that unit adds at most 1/2.
+/// The most that underflow adds to the error of a product, in units of `smallest`. A product of doubles is
+/// rounded to a multiple of that unit, which adds at most 1/2.
 ///
-/// A product of double words has four products in its lower half, and two further products. The lower half is
-/// summed up exactly if nothing underflows. If something underflows, the product is below 2^107 units, so its
-/// lower half is below 2^54, and the partial sums are below 2^81, 2^81 and 2^56. A sum of multiples of the
-/// unit is exact below 2^53; far above that, its rounding absorbs the error; in between, it may double the
-/// error. That can happen to the first two sums or to the third, but not to all. This gives at most 3 + 1/2 +
-/// 1/2, and 1 for the further products.
+/// For double words, `two_product` sums up four products for the lower half of its result, and `operator*`
+/// adds two further products. If nothing underflows, `two_product` is exact. If one of the four products
+/// underflows, the result is below 2^107 units, so its lower half is below 2^54 units, and the partial sums
+/// are below 2^81, 2^81 and 2^56 units. A sum of multiples of the unit is exact below 2^53 units; far above
+/// that, its rounding absorbs the error of its terms; in between, its rounding may double this error. The
+/// error may be doubled in the first two sums or in the third, but not in all. So the four products add at
+/// most 3 + 1/2 + 1/2, and the two further ones add 1.
 template <class Real>
 inline constexpr double product_underflow = 0.5;
 template <class Real>
 inline constexpr double product_underflow<DoubleWordOf<Real>> = 8;
 
-/// The type of bounds, magnitudes and times: double, or one double per lane.
+/// The type of the bounds, magnitudes and times that go with Real: double, or one double per lane.
 template <class Real>
 struct BoundOf {
   using Type = double;
@@ -52,16 +53,16 @@ inline constexpr bool is_double_word = false;
 template <class Half>
 inline constexpr bool is_double_word<DoubleWordOf<Half>> = true;
 
-/// A number converted to the type of its bounds.
+/// x as a Bound<Real>: for a double word, its upper half.
 inline double approximate(double x) { return x; }
 template <class Half>
 Half approximate(const DoubleWordOf<Half>& x) {
   return x.hi;
 }
 
-/// The sign, 1 or -1, that all numbers certainly have in spite of an error of at most `error`; 0 if no sign
-/// is certain, as with a NaN or an infinite error. (The upper half of a double word is the double word times
-/// a factor within 1 ± 2^-53, and `error` has room for that.)
+/// The sign, 1 or -1, that all exact numbers have if each of `numbers` is wrong by at most `error`; 0 if no
+/// sign is certain, for example if a number is NaN or `error` is infinite. (The upper half of a double word
+/// is the double word times a factor within 1 ± 2^-53. The callers' errors have a margin for this factor.)
 template <class Real, std::size_t n>
 int common_sign(const std::array<Real, n>& numbers, double error) {
   bool positive = true;
@@ -81,8 +82,7 @@ inline constexpr double upper_halves =
     0x1p-52;  ///< error of a difference of upper halves, relative to `largest`
 
 /// A polynomial of degree n - 1, given by its Bernstein coefficients. `error` bounds the error of each
-/// coefficient. It also bounds the error of each value, and of each coefficient on a part of [0, 1], that the
-/// functions below compute.
+/// coefficient, and of each value and each coefficient on a part of [0, 1] that the functions below compute.
 template <class Real, std::size_t n>
 struct Bernstein {
   std::array<Real, n> b;
@@ -95,9 +95,9 @@ struct Bernstein {
     return approximate(row[0]);
   }
 
-  /// The coefficients on [lo, hi]; the polynomial is in their convex hull there. Coefficient i is the value
-  /// of the polar form at n - 1 - i arguments lo and i arguments hi, so n - 1 levels of de Casteljau's
-  /// algorithm compute it from b.
+  /// The Bernstein coefficients on [lo, hi]; on this interval, the polynomial lies between the smallest and
+  /// the largest of them. Coefficient i is the value of the polar form for n - 1 - i arguments equal to lo
+  /// and i arguments equal to hi, so n - 1 levels of de Casteljau's algorithm compute it from b.
   [[nodiscard]] std::array<Real, n> on(const Bound<Real>& lo, const Bound<Real>& hi) const {
     if constexpr (std::is_same_v<Bound<Real>, double>) {
       if (lo == 0 && hi == 1) return b;
@@ -128,17 +128,17 @@ struct Bernstein {
   /// The sign that the polynomial certainly has on all of [lo, hi], or 0.
   [[nodiscard]] int sign_on(double lo, double hi) const { return common_sign(on(lo, hi), error); }
 
-  /// The sign that the polynomial certainly has on all of [t - h, t + h], or 0. It follows from the value at
-  /// t and the largest slope, (n - 1) max |b_i+1 - b_i|, with each b_i within `error`. This is faster than
-  /// sign_on, and as good if h is small.
+  /// The sign that the polynomial certainly has on all of [t - h, t + h], or 0. This sign follows from the
+  /// value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, where each b_i may be wrong by `error`.
+  /// sign_near() is faster than sign_on(), and as good if h is small.
   [[nodiscard]] int sign_near(double t, double h) const {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// The magnitude that the value at t must exceed so that the sign on [t - h, t + h] is certain. The ends of
-  /// [t - h, t + h] within [0, 1] may have been rounded, by at most `end_rounding`. The slope of the exact
-  /// coefficients exceeds that of the computed ones by at most two of their errors; `spread_growth` covers
-  /// the roundings in this function.
+  /// If the magnitude of the computed value at t exceeds this result, the sign on [t - h, t + h] is certain.
+  /// The ends of this interval are in [0, 1], and may have been rounded by at most `end_rounding`. The
+  /// difference of two exact coefficients exceeds that of the computed ones by at most 2 `error`;
+  /// `slope_errors` and `spread_growth` have margins for the roundings here.
   [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {
     using std::abs;
     using std::max;
@@ -161,13 +161,13 @@ struct Bernstein {
   }
 
  private:
-  /// A step of de Casteljau's algorithm at time t: s = 1 - t, products, sum.
+  /// A level of de Casteljau's algorithm at time t.
   struct DeCasteljauStep {
     Real t, s;
 
     explicit DeCasteljauStep(const Bound<Real>& time) : t(time), s(Real(1) - t) {}
     [[nodiscard]] Real between(const Real& x, const Real& y) const { return s * x + t * y; }
-    /// Replaces the values in row[0 .. count] by `count` values, each between two neighbours.
+    /// Replaces row[0] to row[count - 1], each by a value between itself and its successor.
     void take(std::array<Real, n>& row, std::size_t count) const {
       for (std::size_t i = 0; i < count; ++i) row[i] = between(row[i], row[i + 1]);
     }
@@ -178,9 +178,10 @@ inline constexpr double slope_growth = 6.1;
 inline constexpr double slope_rounding = 50;
 inline constexpr double slope_underflow = 4;
 
-/// The derivative of a cubic, in double or in lanes. Its coefficients are 3 (b_i+1 - b_i): the errors of two
-/// b add at most 6 `error`, two roundings of at most 6 `largest` add 12.1 U, and two levels of de Casteljau's
-/// algorithm 36.7 U. Underflow adds at most 5 H, and may make the bound smaller by 2 H.
+/// The derivative of a cubic, in double or in lanes. Its coefficients are 3 (b_i+1 - b_i). Let U =
+/// roundoff<Real> `largest()`, and H = `smallest` / 2. The errors of two b_i add at most 6 `error`. Two
+/// roundings of numbers up to 6 `largest()` add 12.1 U, and two levels of de Casteljau's algorithm add 36.7
+/// U. Underflow adds at most 5 H to the error, and may make the bound too small by 2 H.
 template <class Real>
 Bernstein<Real, 3> derivative(const Bernstein<Real, 4>& F) {
   return {

@@ -1,4 +1,4 @@
-// Numbers of about 106 bits: the unevaluated sum of two doubles.
+// Numbers of about 106 bits. Each is the unevaluated sum of two doubles.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace nearmiss::certified {
 /// A double-word number hi + lo with |lo| at most half an ulp of hi; Half is double, or one double per lane.
 /// The operations are Algorithms 6 (sum) and 10 (product) of Joldes, Muller and Popescu, "Tight and rigorous
 /// error bounds for basic building blocks of double-word arithmetic", ACM TOMS 2017: their relative errors
-/// are at most 3u² + 13u³ and 5u² with u = 2^-53, for rounding to nearest. This holds unless something
+/// are at most 3u² + 13u³ and 5u² with u = 2^-53, for rounding to nearest. These bounds hold unless something
 /// overflows (the result is then NaN) or underflows (see `product_underflow`).
 template <class Half>
 struct DoubleWordOf {
@@ -28,7 +28,7 @@ inline bool operator<(const DoubleWord& a, const DoubleWord& b) {
   return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 
-/// a + b exactly.
+/// The exact sum a + b.
 template <class Half>
 DoubleWordOf<Half> two_sum(const Half& a, const Half& b) {
   const Half s = a + b;
@@ -39,14 +39,14 @@ DoubleWordOf<Half> two_sum(const Half& a, const Half& b) {
 
 namespace detail {
 
-// a + b exactly, for |a| >= |b| or a = 0.
+// The exact sum a + b, for |a| >= |b| or a = 0.
 template <class Half>
 DoubleWordOf<Half> fast_two_sum(const Half& a, const Half& b) {
   const Half s = a + b;
   return {s, b - (s - a)};
 }
 
-// a b exactly, by the method of Dekker and Veltkamp, which needs no fused operation.
+// The exact product a b, by the method of Dekker and Veltkamp, which needs no fused operation.
 template <class Half>
 DoubleWordOf<Half> two_product(const Half& a, const Half& b) {
   constexpr double splitter = 0x1p27 + 1;

@@ -1,5 +1,4 @@
-// Doubles near a number: the two neighbours of a double word, and the double with the fewest bits in an
-// interval.
+// The two doubles around a double word, and the double with the fewest bits in an interval.
 #pragma once
 
 #include <bit>
@@ -12,14 +11,14 @@
 
 namespace nearmiss::certified {
 
-/// A fraction f of x > 0 such that x + f and x - f are rounded to the doubles next to x: f is between 9/16
-/// and 9/8 of the distance to the next larger double. If x is a power of two, the next smaller double is only
-/// half as far away, and 9/16 is rounded to that half. For subnormal numbers, the result may also be x
-/// itself.
+/// For x > 0, x + `to_next` x and x - `to_next` x are rounded to the doubles next to x. The reason is that
+/// `to_next` x is between 9/16 and 9/8 of the distance to the next larger double. If x is a power of two,
+/// `to_next` x is 9/16 of that distance, the next smaller double is at 1/2 of it, and 9/16 is rounded to 1/2.
+/// If x is subnormal, the sum and the difference may be rounded to x itself.
 inline constexpr double to_next = 0x1.2p-53;
 
-/// The largest double that is not above x > 0, and the next double. If x is subnormal, the first of these may
-/// be too small, or both may be equal.
+/// The largest double that is not above x > 0, and the next larger double. If x is subnormal, the first
+/// result may be too small, or both results may be equal.
 template <class Half>
 std::pair<Half, Half> doubles_around(const DoubleWordOf<Half>& x) {
   const Half below = select(x.lo < 0, x.hi - to_next * x.hi, x.hi);
@@ -27,7 +26,8 @@ std::pair<Half, Half> doubles_around(const DoubleWordOf<Half>& x) {
 }
 
 /// Guesses the number with the fewest bits between two positive numbers: the higher number, truncated after
-/// the first of 53 bits in which the two differ. If none of the 53 differs, the result is the higher number.
+/// the first of its 53 bits in which the two differ. If none of the 53 bits differs, the result is the higher
+/// number.
 inline double simplest_between(double lo, double hi) {
   if (!(0 < lo && lo < hi)) return hi;
   const int unit = std::ilogb(hi) - 52;

@@ -1,4 +1,4 @@
-// A number known to lie between two doubles.
+// Enclosures: two doubles between which an exact value lies.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ struct Enclosure {
   bool operator==(const Enclosure&) const = default;
 };
 
-/// What is known about a time.
+/// An enclosure of a time.
 struct KnownTime {
   Enclosure time;
   bool is_between = false;  ///< whether the time is certainly neither end of the enclosure

@@ -1,4 +1,4 @@
-// Estimates about a cubic, in double or in lanes; nothing here is certified.
+// Estimates of the roots and extrema of a cubic, in double or in lanes. No result is certified.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// a if the mask is true, else b, as for Lanes.
+/// a if the mask is true, else b. Lanes have a function with the same name.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 /// c[0] + c[1] t + c[2] t² + c[3] t³.
@@ -21,9 +21,9 @@ struct Powers {
   [[nodiscard]] Real curvature(const Real& t) const { return 2 * c[2] + t * (6 * c[3]); }
 };
 
-/// A root near 0 of a cubic that is not zero at 0; nothing if an iteration shows that there is no root. The
-/// method is Laguerre's, which also converges fast to multiple roots. The value at the root is at most
-/// `accuracy` times the value at 0.
+/// A root near 0 of a cubic that is not zero at 0; nothing if an iteration shows that not all roots are real.
+/// The method is Laguerre's, which also converges fast to multiple roots. The iteration stops when |F| is at
+/// most `accuracy` times |F(0)|, or after ten steps.
 inline std::optional<double> root_near_zero(const Powers<double>& F, double accuracy = 1e-9) {
   double t = 0;
   constexpr int most_steps = 10;
@@ -39,7 +39,7 @@ inline std::optional<double> root_near_zero(const Powers<double>& F, double accu
   return t;
 }
 
-/// The extremum nearest to 0; the inflection point if there is no extremum.
+/// The extremum of F nearest to 0. If F has no extremum, the discriminant is taken as 0.
 inline double extremum_near_zero(const Powers<double>& F) {
   const double discriminant = std::max(F.c[2] * F.c[2] - 3 * F.c[1] * F.c[3], 0.0);
   return -F.c[1] / (F.c[2] + std::copysign(std::sqrt(discriminant), F.c[2]));
@@ -51,9 +51,9 @@ Powers<Real> in_powers(const std::array<Real, 4>& b) {
   return {{b[0], 3 * (b[1] - b[0]), 3 * (b[0] + b[2] - 2 * b[1]), b[3] - b[0] + 3 * (b[1] - b[2])}};
 }
 
-/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1. The search ends when |F| <= small, or when
-/// double is not more precise. The method is Newton's, with bisection after a step that leaves the bracket or
-/// is more than half as long as the step before it.
+/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1. The search ends when |F| <= small, or at
+/// the precision of double. The method is Newton's, with bisection after a step that leaves the bracket or is
+/// more than half as long as the step before it.
 inline double root_between(const Powers<double>& F, double F_0, double F_1, double small) {
   double left = 0;
   double right = 1;
@@ -78,8 +78,8 @@ inline double root_between(const Powers<double>& F, double F_0, double F_1, doub
   return std::clamp(t, 0.0, 1.0);
 }
 
-/// The first extremum in (0, 1) of the cubic with these Bernstein coefficients; a number outside (0, 1), or
-/// NaN, if there is none.
+/// The first extremum in (0, 1) of the cubic with these Bernstein coefficients; any number, or NaN, if there
+/// is none.
 template <class Real>
 Real extremum(const std::array<Real, 4>& b) {
   using std::max;

@@ -30,7 +30,6 @@ template <class Real>
 Real dot(const Vec<Real>& v, const Vec<Real>& w) {
   return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
 }
-/// Component k of v × w.
 template <class Real>
 Real cross_component(const Vec<Real>& v, const Vec<Real>& w, std::size_t k) {
   const std::size_t i = (k + 1) % 3;
@@ -53,7 +52,6 @@ template <class Real>
 Vec<double> to_double(const Vec<Real>& v) {
   return {to_double(v[0]), to_double(v[1]), to_double(v[2])};
 }
-/// A vector of doubles with another type of components.
 template <class Real>
 Vec<Real> of_double(const Vec<double>& v) {
   return {Real(v[0]), Real(v[1]), Real(v[2])};

@@ -1,10 +1,9 @@
-// Planes prove that a pair stays apart. At any time, the direction between the closest points separates the
-// primitives strictly. The normal of the closest features, which moves with the features, separates the
-// primitives, too. This normal is x - y for two vertices, (e·e) p - (p·e) e for a vertex and an edge e, and q
-// × r for interiors. A direction that separates at a time also separates for a while, and [from, to] is
-// compact. So a search that cuts [from, to] into parts ends, unless the smallest distance is exactly h. Near
-// a time at which normals change, parts may have to be very short. Cuts approach such a time as fast as root
-// finding does.
+// Moving planes prove that a pair stays apart. At any time, two directions separate the primitives strictly:
+// the one between the closest points, and the normal of the closest features, which moves with these features
+// (tools/certificates/README.md gives its formulas). A direction that separates at a time also separates for
+// a while, and [from, to] is compact. So the search, which cuts [from, to] into parts, comes to an end unless
+// the smallest distance is exactly h. Near a time at which the closest features change, parts may have to be
+// very short. Cuts approach such a time as fast as root finding does.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -37,34 +36,34 @@ using certificates::Normal;
 using certificates::RoughVector;
 using certified::ClosestFeatures;
 
-constexpr int most_tries = 50'000;  ///< tests of a normal on an interval
+constexpr int most_tries = 50'000;  ///< the largest number of tests of a normal on an interval
 constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
 constexpr double width_of_doubles = 0x1p-50;  ///< in wider parts, doubles show which features are closest
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
-/// From this depth on, cuts approach times of change. Only the normals that are not rounded are tried, first
-/// in the middle of a part, then in all of it.
+/// From this depth on, cuts approach times of change (time_of_change()), and the normals of features are no
+/// longer rounded. Each normal is then tested first in the middle of a part, then in all of the part.
 constexpr int deep = 16;
 
 struct Piece {
   Interval at;
   Normal normal;
-  bool may_be_rounded = false;  ///< whether a rounded normal may do, too
-  bool is_extended = false;     ///< whether the piece extends as far as its normal separates
+  bool may_be_rounded = false;  ///< whether round() tries rounded normals
+  bool is_extended = false;     ///< whether extend() was applied to this piece
 };
 
 /// A part of the step for which a normal is to be found.
 struct Part {
   Interval at;
-  int depth = 0;                         ///< how often it was cut
-  const Polynomial* obstacle = nullptr;  ///< the polynomial that kept a normal from separating before the cut
-  std::optional<Root> change = {};       ///< a root of the obstacle, or of a derivative of it, in this part
-  bool is_beside_a_change = false;       ///< whether the last cut approached a change outside this part
+  int depth = 0;                         ///< the number of cuts that led to this part
+  const Polynomial* obstacle = nullptr;  ///< what first_obstacle() found before the last cut
+  std::optional<Root> change = {};       ///< the time of change of the obstacle, if it is in this part
+  bool is_beside_a_change = false;  ///< whether the last cut approached a time of change outside this part
 
   [[nodiscard]] bool is_point() const { return at.lo == at.hi; }
 };
 
-/// The polynomial without its roots at a time.
+/// The polynomial p divided by all its factors that vanish at t.
 Polynomial without_root(Polynomial p, const Number& t) {
   while (!p.is_zero() && p.sign_at(t) == 0) p = divide(p, Polynomial({-t, 1})).quotient;
   return p;
@@ -88,11 +87,11 @@ PolynomialVector times(const Polynomial& factor, const PolynomialVector& v) {
   return {factor * v[0], factor * v[1], factor * v[2]};
 }
 
-/// Separates the primitives of a query piece by piece.
 class Separator {
  public:
-  /// `reaches_h` says that the primitives come within h. Then a proof exists only if they come within h at a
-  /// cut, so all cuts are in the middle, and few normals are tried.
+  /// `reaches_h` says that the distance is at most h at some time. Then a proof is found only if the distance
+  /// is never below h, and is exactly h only at cuts. So all cuts are in the middle of a part, and few
+  /// normals are tried.
   Separator(const Query& query, bool is_strict, bool reaches_h)
       : gaps_(query, is_strict),
         halves_only_(reaches_h),
@@ -113,8 +112,8 @@ class Separator {
     return true;
   }
 
-  /// Extends pieces over their neighbours, narrow ones first, because a normal that separates where the
-  /// primitives are nearest often separates before and after, too.
+  /// Extends each piece as far as its normal separates. Narrow pieces come first: they are where the
+  /// primitives are nearest, and their normals often separate before and after, too.
   void merge(bool open) {
     const auto is_before = [](const Piece& a, const Piece& b) {
       return a.is_extended != b.is_extended ? b.is_extended : a.at.width.x < b.at.width.x;
@@ -126,7 +125,8 @@ class Separator {
     }
   }
 
-  /// Rounds the normals that were found without a look at rounded ones, if they then still separate.
+  /// Rounds the normals for which find() tried no rounded versions, if they still separate when they are
+  /// rounded.
   void round(bool open) {
     for (Piece& piece : pieces_)
       for (const int bits : certificates::roundings) {
@@ -141,7 +141,6 @@ class Separator {
   [[nodiscard]] std::vector<Piece>& pieces() { return pieces_; }
 
  private:
-  /// Extends piece i as far as its normal separates the primitives.
   void extend(std::size_t i, bool open) {
     const auto reaches = [&](std::size_t first, std::size_t last) {
       return pieces_[i].normal.separates({pieces_[first].at.lo, pieces_[last].at.hi},
@@ -160,8 +159,8 @@ class Separator {
                   pieces_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   }
 
-  /// Cuts a part in the middle or, once several cuts were of no use, around a time of change. What happens
-  /// there may last only 2^-2000.
+  /// Cuts a part in the middle or, from the depth `deep` on, around a time of change if one is known. The
+  /// pieces next to such a time may be as short as 2^-2000.
   void cut(Part&& part, bool open, std::vector<Part>& parts) {
     auto& [at, depth, obstacle, change, is_beside] = part;
     const Polynomial* const before = obstacle;
@@ -178,7 +177,8 @@ class Separator {
     if (at.lo < first) parts.push_back({{at.lo, first}, depth + 1, obstacle, {}, change.has_value()});
   }
 
-  /// Refines a root until its interval is not much longer than its distance from the ends of a part.
+  /// Refines a root until its interval is at most 2^20 times as long as the distance to either end of the
+  /// part.
   static void approach(Root& root, const Interval& in) {
     constexpr int most_refinements = 40;
     const Number much = 0x1p-20;
@@ -189,9 +189,9 @@ class Separator {
     }
   }
 
-  /// The obstacle to the normal that separates in the middle of a part: the polynomial that keeps this normal
-  /// from separating in all of the part. If that polynomial is 0 at an end of the part, this is the obstacle
-  /// to a normal that separates at this end.
+  /// The obstacle of a normal is the polynomial that keeps it from separating in all of a part. Returns the
+  /// obstacle of the normal that separates in the middle of the part. If this polynomial is 0 at an end of
+  /// the part, returns the obstacle of a normal that separates at that end, if one is known.
   const Polynomial* first_obstacle(const Interval& in, bool open) {
     const auto of = [&](Normal* normal) -> const Polynomial* {
       for (std::size_t gap = 0; normal != nullptr && gap < gaps_.size(); ++gap)
@@ -205,14 +205,15 @@ class Separator {
     return obstacle;
   }
 
-  /// A normal that separates at a time; null if none is known.
   Normal* normal_at(const Number& t) {
     for (auto& [features, normals] : normals_)
       if (Normal& exact = normals.in_front_at(t).back(); exact.separates_at(t)) return &exact;
     return nullptr;
   }
 
-  /// A time in a part at which an obstacle changes its sign, or is smallest, or the centre of several such times.
+  /// The only root in a part of an obstacle or, if there is no such root, of its first, second ...
+  /// derivative: a time at which the obstacle changes its sign or has an extremum, or the centre of several
+  /// such times. Roots at the ends of the part do not count.
   [[nodiscard]] static std::optional<Root> time_of_change(const Polynomial& obstacle, const Interval& in) {
     Polynomial p = without_root(without_root(obstacle, in.lo), in.hi);
     for (; p.degree() >= 1; p = p.derivative())
@@ -243,8 +244,8 @@ class Separator {
     return take_normal({Combination::interiors}, part, open);
   }
 
-  /// Tries the normal of these features, with the sign that separates the primitives in the middle of the
-  /// part.
+  /// Tries the normal of these features and, up to the depth `deep`, its rounded versions, with the sign that
+  /// is needed in the middle of the part.
   bool take_normal(const ClosestFeatures& features, const Part& part, bool open) {
     const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
                          features.to};
@@ -279,7 +280,6 @@ class Separator {
     return cross(x[q.to] - x[q.from], x[r.to] - x[r.from]);
   }
 
-  /// Keeps a piece with this normal if it separates the primitives.
   bool take(Normal& normal, const Part& part, bool open, bool may_be_rounded = false) {
     if (--tries_left_ < 0 || !normal.separates(part.at, open)) return false;
     pieces_.push_back({part.at, normal, may_be_rounded});
@@ -288,14 +288,13 @@ class Separator {
 
   Gaps gaps_;
   std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
-  Normal* in_the_middle_ = nullptr;  ///< separates in the middle of the part that find() got last
+  Normal* in_the_middle_ = nullptr;  ///< separates in the middle of the last part that find() tried
   std::vector<Piece> pieces_;
   bool halves_only_;
   int tries_left_;
 };
 
-/// Whether the primitives come within h in a span that begins with the step. Then the search for normals ends
-/// only if the distance never falls below h, and is exactly h only at ends of pieces.
+/// Whether the distance is at most h at some time in a span; false for a span that does not begin at 0.
 bool is_reached(const Query& query, const Span& span) {
   if (span.from != 0) return false;
   auto time = earliest_time(query);

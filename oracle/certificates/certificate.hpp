@@ -27,9 +27,9 @@ std::optional<std::string> certify_apart(const Query& query, const Span& span, b
 
 /// A proof that the distance is at most the query's separation h at some time in a part of the step. If
 /// `is_strict` is true, the proof shows that the distance is below h > 0 at that time. If the span is open,
-/// the certificate ends before the span's `to`: at the double before it if possible, otherwise at a fraction.
-/// Returns nothing if the statement is wrong, or if no proof is found. `known` is what a decision of the
-/// query has found.
+/// the interval in the certificate ends before the span's `to`: at the next smaller double if possible,
+/// otherwise at a fraction. Returns nothing if the statement is wrong, or if no proof is found. `known` is
+/// what a decision of the query has found.
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false,
                                          const KnownTimes& known = {});
 
@@ -37,18 +37,18 @@ std::optional<std::string> certify_meets(const Query& query, const Span& span, b
 /// the distance is at most h. Nothing if no proof is found.
 std::optional<std::string> certify(const Query& query);
 
-/// The certificate of each statement; nothing for a statement without a proof.
+/// The certificates of several statements; nothing for each statement without a proof.
 using Certificates = std::vector<std::optional<std::string>>;
 
 /// Proofs of the narrowest enclosure [lo, hi] of the earliest time: that the distance is above h in [0, lo),
-/// unless lo is 0, and that it is at most h at some time in [lo, hi]. If there is no collision, one proof
-/// that there is none.
+/// unless lo is 0, and that the distance is at most h at some time in [lo, hi]. If the distance is always
+/// above h, one proof of that.
 Certificates certify_time(const Query& query);
 
-/// Proofs of the enclosure that minimum_distance(query) gives: the smallest distance is at least lo, unless
-/// lo is 0, and at most hi, unless hi is infinite. If the distance is exactly lo or hi only at irrational
-/// times, there may be no proof of that bound. Then the proof has the double before lo in place of lo, or the
-/// double after hi in place of hi.
+/// Proofs of the enclosure [lo, hi] that minimum_distance(query) gives: the smallest distance is at least lo,
+/// unless lo is 0, and at most hi, unless hi is infinite. If the distance equals one of these bounds only at
+/// irrational times, there may be no proof of that bound. Then the proof has the next smaller double in place
+/// of lo, or the next larger double in place of hi.
 Certificates certify_distance(const Query& query);
 
 }  // namespace nearmiss

@@ -15,11 +15,11 @@ using certified::dot;
 using certified::operator-;
 using certified::Vec;
 
-/// For a point of each primitive, the weights of the vertices. The weights of the first primitive come first.
+/// The barycentric weights of two points, one of each primitive: a weight for each vertex x0 to x3.
 template <class Real>
 using WeightsOfPoints = std::array<Real, 4>;
 
-/// The squared distance of two points of the primitives with vertices x.
+/// The squared distance of the two points with these weights, for primitives with vertices x.
 template <class Real>
 Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const WeightsOfPoints<Real>& weights) {
   Vec<Real> d{};
@@ -36,8 +36,8 @@ Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const Weight
   return dot(d, d);
 }
 
-/// Chooses the closest points among the points that all pairs of features give. In floating-point arithmetic,
-/// the chosen points are only approximately the closest ones.
+/// Finds the closest points of two primitives, by comparing the closest points of all pairs of features. In
+/// floating-point arithmetic, the result is only approximate.
 template <class Real>
 class ClosestWeights {
  public:

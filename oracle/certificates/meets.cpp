@@ -1,6 +1,7 @@
 // Two points that are within h of each other at a rational time prove that the primitives come within h. For
-// h = 0, the time of contact may be irrational. Then either the four vertices become coplanar while all
-// weights are positive, or a vertex touches the inside of an edge (tools/certificates/README.md says why).
+// h = 0, the time of contact may be irrational. Then one of two facts proves the contact: the four vertices
+// become coplanar while all weights are positive, or a vertex passes through the inside of an edge
+// (tools/certificates/README.md says why).
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -43,22 +44,20 @@ std::array<Vec<Real>, 4> positions(const Query& query, const Real& t) {
   return x;
 }
 
-/// A double near x, with a bound of its error.
 Ball<double> ball(const mpq_class& x) { return certified::ball_around(x.get_d()); }
 
-/// Whether a time is in a span.
 template <class Time>
 bool is_in(const Time& time, const Span& span) {
   return Time(span.from) <= time && (span.is_open ? time < Time(span.to) : time <= Time(span.to));
 }
 
-/// The heading of a proof that looks at no time after `last`. Its `to` is `last` if the span is open, else
-/// the end of the span.
+/// The heading of a certificate that uses no time after `last`. The key "to" is `last` if the span is open,
+/// else the end of the span.
 std::string heading_until(const std::string& last, const Query& query, const Span& span) {
   return heading(query, "meets", span.from, span.is_open ? last : certificates::to_text(Number(span.to)));
 }
 
-/// Two points that are within h of each other at a rational time.
+/// Proofs by two points that are within h of each other at a rational time.
 class Meeting {
  public:
   Meeting(const Query& query, const Span& span, bool is_strict)
@@ -74,8 +73,8 @@ class Meeting {
     in_unit_.separation = std::ldexp(query.separation, -exponent);
   }
 
-  /// The proof that the primitives come within h at t. If approximately closest points are near enough, it
-  /// uses these, because their weights need fewer digits.
+  /// The proof that the distance is at most h at time t. If points near the closest ones are within h of each
+  /// other, the proof uses those points, because their weights need fewer digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
     if (!is_in(t, span_)) return std::nullopt;
     const PositionsAt x(query_, t);
@@ -88,7 +87,7 @@ class Meeting {
     const ClosestWeights<mpq_class> closest(query_.kind, x.exact());
     if (!is_within(closest.squared_distance())) return std::nullopt;
     if (const auto weights = shortened(closest.weights(), {50, 200, 1000}, x)) return text_at(t, *weights);
-    if (auto text = text_at(t, closest.weights())) return text;  // nothing if it is too long
+    if (auto text = text_at(t, closest.weights())) return text;  // no value if the text is too long
     const auto weights = shortened(closest.weights(), {4000}, x);
     return weights ? text_at(t, *weights) : std::nullopt;
   }
@@ -98,7 +97,8 @@ class Meeting {
   }
 
  private:
-  /// The vertices at a time, in balls and, on first use, exactly. The query and the time must outlive it.
+  /// The positions of the vertices at a time, in balls and in exact numbers, which are computed on first use.
+  /// The query and the time must outlive this object.
   class PositionsAt {
    public:
     PositionsAt(const Query& query, const mpq_class& t)
@@ -117,8 +117,8 @@ class Meeting {
     mutable std::optional<std::array<Vec<mpq_class>, 4>> exact_;
   };
 
-  /// Whether the distance is so far above h that exact arithmetic would not help, given its approximate
-  /// square in the unit of `in_unit_`.
+  /// Whether the distance is so far above h that exact arithmetic would not help. The squared distance is
+  /// approximate, and in the unit of `in_unit_`.
   [[nodiscard]] bool is_clearly_farther(double squared_distance) const {
     constexpr double error = 1e-6;
     return std::sqrt(squared_distance) > (1 + error) * in_unit_.separation + error;
@@ -128,7 +128,6 @@ class Meeting {
     return is_strict_ ? squared_distance < squared_h_ : squared_distance <= squared_h_;
   }
 
-  /// Whether the points with these weights are within h.
   [[nodiscard]] bool is_within(const WeightsOfPoints<mpq_class>& weights, const PositionsAt& x) const {
     WeightsOfPoints<Ball<double>> rough;
     std::ranges::transform(weights, rough.begin(), ball);
@@ -137,7 +136,8 @@ class Meeting {
     return excess != 0 ? excess < 0 : is_within(squared_distance(query_.kind, x.exact(), weights));
   }
 
-  /// The weights, rounded to the first number of bits in `bits` that brings the points within h.
+  /// The weights, rounded to the first number of bits in `bits` for which the points are within h of each
+  /// other; nothing if none suffices.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(const WeightsOfPoints<Real>& weights,
                                                                     std::initializer_list<unsigned> bits,
@@ -151,7 +151,8 @@ class Meeting {
     return std::nullopt;
   }
 
-  /// Multiples of 2^-bits that add up to 1 for each primitive; nothing if one of them would be negative.
+  /// The weights, rounded to multiples of 2^-bits that add up to 1 for each primitive; nothing if one of
+  /// these would be negative.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> rounded_weights(
       const WeightsOfPoints<Real>& weights, unsigned bits) const {
@@ -187,7 +188,7 @@ class Meeting {
   mpq_class squared_h_;
 };
 
-/// Contact at a time that may be irrational, for h = 0.
+/// Proofs of contact, for h = 0, at a time that may be irrational.
 class Crossing {
  public:
   Crossing(const Query& query, const Span& span)
@@ -204,7 +205,7 @@ class Crossing {
     return is_proof ? text(p, q) : std::nullopt;
   }
 
-  /// The proof of bracket() for the interval with the fewest bits that contains `known`.
+  /// The proof of bracket() for an interval that contains `known`, with ends of as few bits as possible.
   [[nodiscard]] std::optional<std::string> wide_bracket(const Enclosure& known) const {
     for (const int bits : {3, 6, 10, 15, 21, 28, 36, 44}) {
       const double lo = std::max(std::ldexp(std::floor(std::ldexp(known.lo, bits)), -bits), span_.from);
@@ -258,7 +259,7 @@ class Crossing {
   exact::Interiors of_;
 };
 
-/// Any proof of the first contact, for a time that exact arithmetic finds.
+/// A proof of the first contact, at a time that exact arithmetic has found.
 std::optional<std::string> certify_first_contact(const Span& span, const Meeting& meeting,
                                                  const Crossing& crossing, Root time) {
   constexpr int most_refinements = 40;
@@ -289,12 +290,12 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span,
   return certify_first_contact(span, meeting, crossing, contact->time);
 }
 
-/// Searches for a proof give up when its time is known to about this many bits. The distance may stay at h for
-/// no time at all, so that search ends earlier.
+/// The searches for the time of a proof give up at about this many bits. If the distance touches h only for a
+/// moment, at an irrational time, there is no proof, so certify_touch() gives up earlier.
 constexpr unsigned most_bits = 10'000;
 constexpr unsigned most_bits_of_touch = 5'000;
 
-/// The proof that the distance is h: at the first such time if this is rational, or soon after it if the
+/// The proof that the distance is h: at the first such time if this time is rational, or soon after it if the
 /// distance stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
@@ -304,8 +305,8 @@ std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   }
 }
 
-/// The proof that the distance is below h right after a time. It looks at the next multiple of 2^-bits or, if
-/// this multiple may be before the time, at the multiple after it.
+/// The proof that the distance is below h right after a time. The search tries the multiples of 2^-bits next
+/// to this time, with more and more bits.
 std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
   for (unsigned bits = 4; bits < most_bits; bits *= 2) {
     while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();
@@ -329,7 +330,8 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
     if (auto text = meeting.at(t)) return text;
   const auto approach = times.exactly ? *times.exactly : exact::first_approach(query);
   if (!approach) return std::nullopt;
-  // If the distance falls below h, points near the closest ones prove that, too, with fewer digits.
+  // If the distance falls below h, points near the closest ones are within h of each other, too, and have
+  // weights of fewer digits.
   if (approach->below)
     if (auto text = certify_below(*approach->below, meeting)) return text;
   return is_strict ? std::nullopt : certify_touch(approach->time, meeting);

@@ -23,7 +23,7 @@ RoughVector rough(const PolynomialVector& v) {
 
 /// A component of the difference of two vertices.
 RoughPolynomial moving(const DoubleWord& start, const DoubleWord& end) {
-  constexpr double underflow = 0x1p-1060;  // more than VertexDifferences loses
+  constexpr double underflow = 0x1p-1060;  // more than VertexDifferences loses by underflow
   const auto ball = [](const DoubleWord& x) { return Ball<double>(x.hi, std::abs(x.lo) + underflow); };
   return {ball(start), ball(end) - ball(start)};
 }
@@ -144,7 +144,7 @@ bool Normal::separates_at(const Number& t) {
     return true;
   };
   const int least = gaps_->is_strict() ? 1 : 0;
-  // The polynomial `excess` is longer, so its sign is determined last.
+  // The polynomial `excess` is longer than `n_d`, so its sign is determined last.
   return is_at_all_gaps([&](const auto& each) { return each.n_d.sign_at(t) > 0; }) &&
          (!gaps_->has_separation() ||
           is_at_all_gaps([&](const auto& each) { return each.excess.sign_at(t) >= least; }));

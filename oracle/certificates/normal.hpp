@@ -1,4 +1,4 @@
-// Directions that separate two primitives, as the checkers of certificates see them.
+// Directions that separate two primitives, by the tests that the checkers of certificates use.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ using exact::Polynomial;
 using exact::PolynomialVector;
 
 /// The gaps of a query: the difference of each vertex of the first primitive and each vertex of the second. A
-/// direction separates the primitives if all gaps are longer than h along it; unless `is_strict`, a length of
-/// exactly h > 0 suffices. Exact vectors are computed on first use.
+/// direction separates the primitives if the length of each gap along this direction is above h or, unless
+/// `is_strict`, equal to h > 0. Exact vectors are computed on first use.
 class Gaps {
  public:
   Gaps(const Query& query, bool is_strict);
@@ -30,13 +30,14 @@ class Gaps {
   [[nodiscard]] bool has_separation() const { return query_.separation > 0; }
   [[nodiscard]] const certified::VertexDifferences& differences() const { return differences_; }
 
-  /// The vertices.
+  /// The exact positions of the vertices.
   const std::array<PolynomialVector, 4>& points();
 
   [[nodiscard]] std::size_t size() const { return rough_.size(); }
-  /// A gap, and h². Exact and rough lengths have different units.
+  /// A gap. Exact and rough lengths have different units.
   template <class AnyPolynomial>
   [[nodiscard]] const certified::Vec<AnyPolynomial>& vector(std::size_t gap);
+  /// h², in the square of the gaps' unit.
   template <class AnyPolynomial>
   [[nodiscard]] AnyPolynomial squared_h() const;
 
@@ -50,7 +51,7 @@ class Gaps {
   std::vector<PolynomialVector> exact_;
 };
 
-/// A direction that moves with time. The gaps must outlive it.
+/// A direction that may change with time. The gaps must outlive this object.
 class Normal {
  public:
   Normal(const PolynomialVector& n, Gaps& gaps);
@@ -64,20 +65,19 @@ class Normal {
   /// middle.
   [[nodiscard]] bool clearly_fails(const Interval& interval);
 
-  /// Whether the checkers see that the direction separates the primitives in all of an interval [lo, hi] or,
-  /// if `open`, [lo, hi).
+  /// Whether the checkers accept that the direction separates the primitives in all of an interval [lo, hi]
+  /// or, if `open`, [lo, hi).
   [[nodiscard]] bool separates(const Interval& interval, bool open);
-  /// Whether the direction separates the primitives at a time.
   [[nodiscard]] bool separates_at(const Number& t);
-  /// The polynomial of a gap that keeps separates() from being true; null if this gap does not do so.
+  /// The polynomial of a gap that makes separates() false; null if this gap has none.
   [[nodiscard]] const Polynomial* obstacle(std::size_t gap, const Interval& interval, bool open);
 
-  /// Whether the first primitive is behind the second one at t, seen in this direction, judged by their first
-  /// vertices.
+  /// Whether, along this direction, the first vertex of the first primitive is behind the first vertex of the
+  /// second primitive at t.
   [[nodiscard]] bool is_behind_at(const Number& t);
 
  private:
-  /// For one gap d: n · d, and for h > 0 also (n · d)² - h² n · n.
+  /// For this direction n and a gap d: n · d, and for h > 0 also (n · d)² - h² n · n.
   template <class AnyPolynomial>
   struct Along {
     AnyPolynomial n_d, excess;
@@ -97,20 +97,20 @@ class Normal {
   std::tuple<Products<Polynomial>, Products<RoughPolynomial>> products_;
 };
 
-/// The numbers of bits to which normals are rounded, one after the other; 0: not rounded.
+/// The numbers of bits to which normals are rounded, in the order of the attempts; 0 means not rounded.
 constexpr std::array roundings{6, 20, 50, 0};
 
-/// The vector with its coefficients rounded to integers, the largest of about `bits` bits; 0 if it is tiny.
+/// A multiple of n with its coefficients rounded to integers of at most about `bits` bits; 0 if n is tiny.
 RoughVector rounded(const RoughVector& n, int bits);
 
-/// The normal of a pair of features in both directions, rounded to integers of various sizes.
+/// The normal of a pair of features and its opposite. Each has several versions: one is not rounded, the
+/// others are rounded to integers of different sizes.
 class FeatureNormal {
  public:
   FeatureNormal(const PolynomialVector& n, Gaps& gaps) : gaps_(&gaps), exact_(n, gaps) {}
 
-  /// The versions of the direction in which the first primitive is in front of the second one at t, judged by
-  /// their first vertices. The version with the smallest integers comes first, and the one that is not
-  /// rounded last.
+  /// The versions of the normal or, if the normal is_behind_at(t), of its opposite. The version with the
+  /// smallest integers comes first, and the version that is not rounded comes last.
   [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
 
  private:

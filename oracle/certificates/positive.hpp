@@ -1,4 +1,4 @@
-// Signs of polynomials on intervals, as the checkers of certificates see them.
+// Signs of polynomials on intervals, by the tests that the checkers of certificates use.
 #pragma once
 
 #include <algorithm>

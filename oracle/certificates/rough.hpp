@@ -1,4 +1,5 @@
-// Polynomials in t in doubles, with bounds of their errors. They show most signs that certificates need.
+// Polynomials in t whose coefficients are doubles with error bounds. They show most signs that certificates
+// need.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +18,10 @@ namespace nearmiss::certificates {
 
 using exact::Number;
 
-/// A double near x, with a bound of its error.
 inline certified::Ball<double> ball(const Number& x) {
   return CGAL::is_zero(x) ? certified::Ball<double>() : certified::ball_around(CGAL::to_double(x));
 }
 
-/// The part [lo, hi] of the step.
 struct Interval {
   Interval(const Number& from, const Number& to)
       : lo(from), hi(to), begin(ball(from)), width(ball(to - from)) {}
@@ -32,7 +31,7 @@ struct Interval {
 };
 
 /// a_0 + a_1 t + ... + a_n t^n, with n <= 8. Unlike exact polynomials, it may have leading coefficients of 0.
-/// So degrees add up as they do in the checkers.
+/// So sums and products have the degrees that they have in the checkers.
 class RoughPolynomial {
  public:
   using Coefficient = certified::Ball<double>;
@@ -43,7 +42,6 @@ class RoughPolynomial {
   }
 
   [[nodiscard]] std::span<const Coefficient> coefficients() const { return {a_.begin(), size_}; }
-  /// Adds a leading coefficient, or removes one.
   void push_back(const Coefficient& each) { a_[size_++] = each; }
   void pop_back() { --size_; }
 
@@ -57,7 +55,7 @@ class RoughPolynomial {
   [[nodiscard]] std::optional<bool> is_positive(const Interval& interval) const {
     const std::size_t n = size_;
     auto c = a_;
-    // First in powers of the fraction of the interval, as in exact::OnInterval.
+    // First, the polynomial in powers of (t - lo) / (hi - lo), as in exact::OnInterval.
     if (interval.begin.x != 0 || interval.begin.error != 0)
       for (std::size_t first = 0; first + 1 < n; ++first)
         for (std::size_t i = n - 1; i > first; --i) c[i - 1] = c[i - 1] + c[i] * interval.begin;

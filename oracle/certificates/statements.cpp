@@ -32,7 +32,7 @@ Certificates certify_time(const Query& query) {
 Certificates certify_distance(const Query& query) {
   const auto [lo, hi] = minimum_distance(query);
   Certificates statements;
-  if (lo > 0) {  // the distance is above it, too, as all bounds have a margin for errors
+  if (lo > 0) {  // the distance is above lo, because certified bounds have a margin
     const Query further = with_separation(query, std::nextafter(lo, 0));
     const auto text = certify_apart(with_separation(query, lo), {}, false, true);
     statements.push_back(text ? text : certify_apart(further, {}, true, true));

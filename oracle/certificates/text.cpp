@@ -11,7 +11,6 @@ namespace nearmiss::certificates {
 
 namespace {
 
-/// Appends a finite number.
 void append(std::string& text, double x) {
   std::array<char, 32> digits;
   constexpr double most = 0x1p30;  // larger integers are shorter in hexadecimal

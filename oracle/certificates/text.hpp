@@ -9,7 +9,7 @@
 
 namespace nearmiss::certificates {
 
-/// "3", "0x1.8p-3", or "p/q" if it is no double.
+/// x as text, such as "3" or "0x1.8p-3"; "p/q" if x is not a double.
 std::string to_text(const exact::Number& x);
 
 /// The beginning of a certificate, up to the keys that only one claim has: {"kind": ..., "to": ...
@@ -19,7 +19,7 @@ std::string heading(const Query& query, const char* claim, double from, const st
 /// A certificate, unless it or one of its numbers is longer than the checkers accept.
 std::optional<std::string> if_short(std::string certificate);
 
-/// "key":[a,b,...], each element given by text(element).
+/// [a,b,...], where text(element) gives each element.
 template <class List, class Text>
 std::string list(List&& elements, const Text& text) {
   std::string result = "[";

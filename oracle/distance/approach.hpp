@@ -1,4 +1,5 @@
-// The smallest distance of two primitives over the step, by floating-point arithmetic with proven bounds.
+// The smallest distance of two primitives, and the first time of a small one, by floating-point arithmetic
+// with proven bounds.
 #pragma once
 
 #include "ccd/query/query.hpp"
@@ -8,7 +9,7 @@
 
 namespace nearmiss::certified {
 
-/// lower <= the smallest distance over [0, 1] <= upper, in the unit of the differences.
+/// lower <= the smallest distance over [0, 1] <= upper, in the unit of VertexDifferences.
 struct Approach {
   double lower = 0;
   double upper = 0;
@@ -16,26 +17,26 @@ struct Approach {
   bool enough = false;  ///< whether lower >= needed(upper)
 };
 
-/// Looks at times near the smallest distance, and at further times until certified bounds around all of them
-/// cover the step. It computes in double if that resolves the distance, else in double words, and finally
-/// with 384 bits. The errors are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. The
-/// search gives up if it has to look at too many times, for example to enclose a minimum narrowly while the
-/// normal turns.
+/// Encloses the smallest distance. The search computes the distance at times near its minimum, and at further
+/// times until certified bounds around these times cover the step. It computes in double if that resolves the
+/// distance, else in double words, and finally with 384 bits. The errors are about 2^-48, 2^-98 and 2^-378 of
+/// the largest difference of two vertices. The search gives up if it needs too many times, for example to
+/// enclose a minimum narrowly while the normal turns.
 Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed);
 
-/// When the distance first falls below a bound.
+/// When the distance first falls below a bound (`low` of first_time_below()).
 struct FirstTime {
   bool never = false;  ///< the distance certainly stays above the bound: it is at least `required`
   bool comes = false;  ///< the distance certainly falls below the bound
   Enclosure
-      time;  ///< contains the first such time, if any. Earlier, the distance is at least the required one
-  double estimate = 1;  ///< an uncertified estimate of the first such time
+      time;  ///< contains the first such time, if any; before `time`, the distance is at least `required`
+  double estimate = 1;  ///< an uncertified estimate of that time
 };
 
-/// Looks for the first time at which the distance is below `low`, as closest_approach does, in double and in
-/// double words. If the search succeeds, the enclosure is at most `width` wide, or as narrow as doubles
-/// allow. Before that time, certified bounds must show a distance of at least `required`. `required` must be
-/// greater than `low`. Both distances are in the unit of the differences.
+/// Encloses the first time at which the distance is below `low`, by a search like that of closest_approach(),
+/// in double and in double words. If the search succeeds, the enclosure is at most `width` wide, or as narrow
+/// as doubles allow. Before the enclosure, certified bounds must show a distance of at least `required`.
+/// `required` must be greater than `low`. Both distances are in the unit of VertexDifferences.
 FirstTime first_time_below(const VertexDifferences& differences, double low, double required, double width);
 
 }  // namespace nearmiss::certified

@@ -31,9 +31,9 @@ struct ClosestFeatures {
   std::size_t vertex = 0, from = 0, to = 0;
 };
 
-/// Points of the two primitives, and their distance. It is not certain that they are the closest points, but
-/// it is certain that they belong to the primitives: their weights are not negative and add up to 1. Rounding
-/// may add 2 U to the sum for a triangle (points_error in moment.hpp).
+/// Points of the two primitives, and their distance. These points certainly belong to the primitives: their
+/// weights are not negative and add up to 1. (For a triangle, rounding may add 2 U to the sum; see
+/// points_error() in moment.hpp.) It is not certain that they are the closest points.
 template <class Real>
 struct ClosestPoints {
   ClosestFeatures features;
@@ -47,7 +47,7 @@ constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size
 
 namespace detail {
 
-/// A candidate for the closest points. The difference of its points is p - (a q + b r). For interiors, p, q
+/// A pair of points that may be the closest ones. Their difference is p - (a q + b r). For interiors, p, q
 /// and r are those of NormalPairs. For a vertex and an edge, p is the vertex and q the edge, both relative to
 /// `from`, and b is 0.
 template <class Real>
@@ -58,8 +58,8 @@ struct Candidate {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Keeps the closer candidate. A tie goes to the later candidate, because the interiors come last, and only
-/// they give the normal.
+/// Replaces `best` by another candidate, unless the points of that candidate are farther apart. On a tie, the
+/// later candidate wins: the interiors come last, and only they give the normal.
 template <class Real>
 void take_closer(Candidate<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
                  const Real& a, const Real& b) {
@@ -67,7 +67,6 @@ void take_closer(Candidate<Real>& best, const ClosestFeatures& features, const V
   if (squared <= best.squared_distance) best = {features, difference, a, b, squared};
 }
 
-/// Considers a vertex and the edge (from, to) of the other primitive.
 template <class Real>
 void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t from, std::size_t to,
                    Candidate<Real>& best) {
@@ -87,8 +86,9 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
   take_closer(best, features, p - weight * edge, weight, Real(0));
 }
 
-/// Considers the interiors of the triangle or the edges: the foot of the normal N, from p = q a + r b + N c.
-/// The foot counts if its weights are a, b >= 0, with a + b <= 1 for a triangle and a, b <= 1 for edges.
+/// Considers the candidate of the interiors, the feet of the common normal N. Their weights a and b solve p =
+/// a q + b r + c N. The candidate counts if a, b >= 0 and, for a triangle, a + b <= 1 or, for edges, a, b <=
+/// 1.
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const Kind kind = x.differences().kind();
@@ -108,7 +108,6 @@ void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   take_closer(best, {ClosestFeatures::Combination::interiors}, p - (a * q + b * r), a, b);
 }
 
-/// The points of a candidate.
 template <class Real>
 ClosestPoints<Real> points_of(const VerticesAt<Real>& x, Candidate<Real>& best) {
   ClosestFeatures& features = best.features;
@@ -140,7 +139,7 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
 }
 
 /// The closest points of the parts that `features` names, computed faster than by closest_points(). If these
-/// parts are interiors that do not contain the closest points, all parts are considered.
+/// parts are interiors that do not contain the feet of their common normal, all parts are considered.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

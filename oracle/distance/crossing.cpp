@@ -1,8 +1,8 @@
-// Let y and z be points of the two primitives, and n = y - z. They are the closest points iff n · (a - y)
-// >= 0 for all vertices a of the first primitive, and n · (b - z) <= 0 for all vertices b of the second
-// one. If y and z are the feet of the common perpendicular of two features, these products are 0 for the
-// vertices of the features, so it suffices that the feet lie in the features and that the signs of the
-// other products are known.
+// Let y and z be points of the two primitives, and n = y - z. The points y and z are the closest ones iff n ·
+// (a - y) >= 0 for all vertices a of the first primitive, and n · (b - z) <= 0 for all vertices b of the
+// second one. If y and z are the feet of the common perpendicular of two features, these products are 0 for
+// the vertices of the features. So it suffices that the feet lie in the features, and that the other products
+// have the right signs.
 #include "oracle/distance/crossing.hpp"
 
 #include <algorithm>
@@ -34,10 +34,10 @@ struct Dual {
   }
 };
 
-/// Bounds the error of a scaled number (see VertexDifferences).
+/// Bounds the error of a number that VertexDifferences has scaled.
 constexpr double scaling_error = 0x1p-1072;
 
-// A difference of vertices, or h, as a number of another type.
+// Converts a component of a difference of vertices, or h, to another type.
 void convert(const DoubleWord& from, double& to) { to = from.hi; }
 void convert(const DoubleWord& from, Ball<double>& to) { to = {from.hi, std::abs(from.lo) + scaling_error}; }
 void convert(const DoubleWord& from, Ball<DoubleWord>& to) { to = {from, scaling_error}; }
@@ -63,8 +63,8 @@ class At {
     squared_h_ = converted_h * converted_h;
   }
 
-  /// (distance² - h²) times a positive number, for the distance of the points, lines or planes through the
-  /// features.
+  /// (distance² - h²) times a positive number, for the distance of the points, lines or planes that contain
+  /// the features.
   [[nodiscard]] Number excess() const {
     const auto& [combination, vertex, from, to] = features_;
     if (combination == ClosestFeatures::Combination::vertices) {
@@ -82,7 +82,7 @@ class At {
     return F * F - squared_h_ * dot(N, N);
   }
 
-  /// Whether the closest points are certainly the feet of the features.
+  /// Whether the closest points are certainly the feet of the common perpendicular of the features.
   [[nodiscard]] bool are_feet_closest() const {
     const auto is_positive = [](const Number& number) { return number.sign() > 0; };
     const auto& [combination, vertex, from, to] = features_;
@@ -108,7 +108,7 @@ class At {
       if (!is_positive(along) || !is_positive(squared - along)) return false;
       n = squared * n - along * edge;
     }
-    // n points from the second feature to `vertex`, which is of either primitive.
+    // n points from the other feature to `vertex`, which may belong to either primitive.
     const auto is_first = [&](std::size_t i) { return i < second_primitive(differences_.kind()); };
     for (std::size_t i = 0; i < static_cast<std::size_t>(vertices(differences_.kind())); ++i) {
       if (i == vertex || i == from || (has_edge && i == to)) continue;
@@ -170,7 +170,8 @@ std::optional<Enclosure> narrow_crossing(const Query& query, const Enclosure& ti
     const Ball<double> rounded(excess.x.hi, std::abs(excess.x.lo) + excess.error);
     const DoubleWord root = two_sum(t, -rounded.x / slope.x);
     const auto [before, behind] = doubles_around(root);
-    // By the mean value theorem, the slope at some time in the interval gives the excess at another time.
+    // By the mean value theorem, excess(other) = excess(t) + slope(s) (other - t) for some time s in the
+    // interval.
     const auto sign_at = [&](double other) {
       return (rounded + slope * (Ball<double>(other) - Ball<double>(t))).sign();
     };

@@ -9,9 +9,9 @@
 namespace nearmiss::certified {
 
 /// Narrows `time` to neighbouring doubles. `time` must contain the first time at which the distance is at
-/// most the separation h > 0. The distance is above h from the beginning of `time` to the first double, and
-/// below h at the second one. Returns nothing if that cannot be shown, for example because other features
-/// become the closest ones in the interval.
+/// most the separation h > 0. In the result, the distance is above h from the beginning of `time` to the
+/// first double, and below h at the second one. The result is nothing if this cannot be shown, for example
+/// because the closest features change in `time`.
 std::optional<Enclosure> narrow_crossing(const Query& query, const Enclosure& time);
 
 }  // namespace nearmiss::certified

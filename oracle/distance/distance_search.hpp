@@ -14,14 +14,13 @@
 namespace nearmiss::certified {
 
 /// A search that looks at the primitives at some times of the step, until certified bounds around these times
-/// cover the step. Times are of type Real; positions are of this type, too, if they must be precise.
+/// cover the step. Times have the type Real. Positions have this type only if double is not precise enough.
 template <class Real>
 class DistanceSearch {
  public:
   DistanceSearch(const VertexDifferences& differences, const NeededDistance& needed)
       : differences_(differences), needed_(needed) {}
 
-  /// Encloses the smallest distance.
   Approach smallest() {
     look_at_ends();
     descend(&times_[0], &times_[1]);
@@ -58,9 +57,9 @@ class DistanceSearch {
   }
 
  private:
-  /// The length of the stretch that certified bounds around a time cover in one direction, at most `most`.
+  /// How far certified bounds around a time reach in one direction: `value`, at most `most`.
   struct Reach {
-    double required = 0;  ///< the distance that is certain on that stretch
+    double required = 0;  ///< the distance that the bounds certify
     double most = 0, value = 0;
   };
 
@@ -70,8 +69,9 @@ class DistanceSearch {
     Reach ahead{}, behind{};  ///< the last results of covered()
   };
 
-  /// A part of the step that no certified bound covers. It lies between the range that the time `before`
-  /// covers and the range that the next time covers.
+  /// Two neighbouring sampled times between which bounds do not cover all of the step. `before` is the index
+  /// of the first one, `width` the time between the two. Bounds around the first one cover `covered_before`
+  /// of this time, and bounds around the second one `covered_behind`.
   struct Gap {
     std::size_t before;
     double width, covered_before, covered_behind;
@@ -85,7 +85,6 @@ class DistanceSearch {
     times_.push_back(look_at(Real(1)));
   }
 
-  /// Whether the distance is certainly below `low_` at a time.
   [[nodiscard]] bool is_low(const SampledTime& time) const { return time.moment.upper < low_; }
 
   [[nodiscard]] VerticesAt<double> rough_vertices(const Real& t) const {
@@ -99,20 +98,20 @@ class DistanceSearch {
     return time;
   }
 
-  /// Looks at the double nearest to t, in double. If that is not precise enough, looks precisely at t.
+  /// Looks at the double nearest to t, in double. If double is not precise enough, looks precisely at t.
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t))};
     note(time);
     if (!resolves(time.moment) && !is_low(time)) return look_precisely(t);
     return time;
   }
-  /// Looks at a time t between a and b; precisely at t if the double nearest to t is not between them.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
     const Real rough(to_double(t));
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
   }
 
-  /// Whether a moment's errors are small compared with its distance and with the required bound.
+  /// Whether the errors of a moment are small compared with its distance or, for the lower bound, with the
+  /// required distance.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
     if (separation.products.empty()) return false;
@@ -130,9 +129,9 @@ class DistanceSearch {
     required_ = needed_(upper_);
   }
 
-  /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
-  /// The next time to look at is the minimum that one end predicts, or the middle if the predictions do not
-  /// help.
+  /// Searches for a minimum of the distance between the times a and b, if the distance falls after a and
+  /// grows before b. Each step looks at the minimum that a or b predicts, or at the middle if predictions
+  /// have not helped.
   void descend(const SampledTime* a, const SampledTime* b) {
     if (!(a->moment.slope < 0 && b->moment.slope > 0)) return;
     constexpr int most_steps = 60;
@@ -151,8 +150,8 @@ class DistanceSearch {
     }
   }
 
-  /// The time of the minimum that the end with the steeper slope predicts; the middle if no prediction lies
-  /// between the ends.
+  /// The minimum that a or b predicts, whichever has the steeper slope; the middle if no prediction lies
+  /// between a and b.
   static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
     const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
     const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
@@ -197,10 +196,10 @@ class DistanceSearch {
     return std::nullopt;
   }
 
-  /// Whether a gap is so much wider than the covered range that most of the gap is unknown.
   static bool is_wide(double covered, double gap) { return 100 * covered < gap; }
 
-  /// Looks into a gap; false if nothing more can be done about it.
+  /// Improves the bounds at the ends of a gap or, if that is not possible, looks at a time in the gap.
+  /// Returns false if nothing more can be done.
   bool look_into(const Gap& gap) {
     SampledTime& a = times_[gap.before];
     SampledTime& b = times_[gap.before + 1];
@@ -220,8 +219,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// The time of a new minimum inside the gap, if one of its ends predicts one, else some other time in the
-  /// gap.
+  /// The time of a new minimum inside the gap, if one of the gap's ends predicts one, else some other time in
+  /// the gap.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;
@@ -238,8 +237,9 @@ class DistanceSearch {
     return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
   }
 
-  /// A time in a gap. In a wide gap, it is the middle. Otherwise it is near the end that covers less, since
-  /// the distance is small there; its offset from that end is a few times the time that the end covers.
+  /// A time in the uncovered part of a gap: its middle if very little is covered. Otherwise the time is near
+  /// the end of the gap that covers less, because the distance is smaller at this end. The offset into the
+  /// uncovered part is at least eight times the length that the end covers, but at most half of the part.
   [[nodiscard]] Real inside(const Gap& gap) const {
     const double open = gap.width - gap.covered_before - gap.covered_behind;
     const bool is_before = gap.covered_before <= gap.covered_behind;
@@ -251,8 +251,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds separations to a sampled time. If it already has all separations but covers nothing, looks at it
-  /// precisely. Returns false if nothing is left to do.
+  /// Adds separations to a sampled time. If the time already has all separations but covers nothing, looks
+  /// precisely at it. Returns false if nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)
@@ -267,16 +267,16 @@ class DistanceSearch {
     return true;
   }
 
-  /// Drops all times after the first one at which the distance is low, since they no longer matter.
   void forget_what_comes_after_low() {
     const auto low =
         std::find_if(times_.begin(), times_.end(), [&](const auto& time) { return is_low(time); });
     if (low != times_.end()) times_.erase(low + 1, times_.end());
   }
 
-  /// An interval that contains the first time at which the distance is low, if there is one. It begins where
-  /// the first gap begins, and ends at a time at which the distance is certainly low, or at the end of the
-  /// step. (Times are at most 1, so `slack` is more than the rounding error of the sum.)
+  /// An interval that contains the first time at which the distance is low, if there is one. The interval
+  /// begins where the uncovered part of the first gap begins, and ends at a time at which the distance is
+  /// certainly low, or at the end of the step. (Times are at most 1, so `slack` is more than the rounding
+  /// error of the sum.)
   [[nodiscard]] Enclosure time_in(const Gap& gap) const {
     constexpr double slack = 0x1p-95;
     const SampledTime& end = times_.back();
@@ -293,9 +293,9 @@ class DistanceSearch {
   }
 
   /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives
-  /// the next time. Once Newton's step is short, it is doubled, or made 0.4 of `width` if that is more. So
-  /// the next time lies beyond the crossing, and the crossing is enclosed from both sides. Returns false if
-  /// nothing more can be done.
+  /// the next time. Once Newton's step is short, it is doubled, or set to 0.4 of `width` if that is longer.
+  /// So the next time lies beyond the crossing, and the crossing is enclosed from both sides. If `halve`, the
+  /// next time is the middle of the uncovered part. Returns false if nothing more can be done.
   bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];
@@ -338,7 +338,8 @@ class DistanceSearch {
     return std::abs(time.moment.upper - low_) > resolution * low_;
   }
 
-  /// The time until the distance is `low_`, by Newton's method; 0 or NaN if that gives no time.
+  /// The time until the distance is `low_`, by a step of Newton's method; 0 or NaN if the distance does not
+  /// fall.
   [[nodiscard]] double time_to_low(const Moment& moment) const {
     return moment.rate < 0 ? (low_ - moment.upper) / moment.rate : 0;
   }

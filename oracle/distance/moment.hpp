@@ -13,19 +13,18 @@
 
 namespace nearmiss::certified {
 
-/// The state of the primitives at one time, as the search for the smallest distance needs it. Lengths are in
-/// the unit of VertexDifferences.
+/// Lengths are in the unit of VertexDifferences.
 struct Moment {
-  bool is_precise = false;   ///< whether it was computed in the search's type of time, not in double
+  bool is_precise = false;   ///< whether this was computed in the Real of DistanceSearch, not in double
   ClosestFeatures features;  ///< features of the closest points, uncertified
   double upper = 0;          ///< a certified upper bound of the distance
   double slope = 0;          ///< has the sign of the derivative of the distance, uncertified
   double step = 0;           ///< time from here to the minimum of the distance, estimated
   double predicted = 0;      ///< the distance at that minimum, estimated
   double rate = 0;           ///< derivative of the distance, estimated
-  Vec<double> direction{};   ///< between the closest points, towards the first primitive; or 0
+  Vec<double> direction{};   ///< unit vector from the second primitive's closest point to the first's, or 0
 
-  /// The separation that fits the features best; then others, if requested.
+  /// First the separation that fits the features best; then, if `has_all`, the others.
   boost::container::small_vector<Separation, 1> separations;
   bool has_all = false;
 };
@@ -37,8 +36,8 @@ inline Vec<double> direction_of(const Vec<double>& v) {
   return size > 0 ? (1 / size) * v : Vec<double>{};
 }
 
-/// Predicts the minimum of |d + s v|, for closest points with the difference d and the velocity v. v must not
-/// have a component along the features.
+/// Predicts the minimum of |d + s v|, for closest points with the difference d and the velocity v, which must
+/// not have a component along the features.
 inline void predict(Moment& moment, const Vec<double>& difference, const Vec<double>& velocity) {
   const double squared_speed = dot(velocity, velocity);
   const double squared_distance = dot(difference, difference);
@@ -48,8 +47,8 @@ inline void predict(Moment& moment, const Vec<double>& difference, const Vec<dou
 }
 
 /// Predicts the minimum for interiors. The distance is |F| / |N|, and N changes little while F goes to zero
-/// or to its extremum. (The difference of the points is less useful: if they slide along each other, its
-/// component along the velocity consists of rounding errors only.)
+/// or to its extremum. (The difference of the closest points is less useful: if the primitives slide along
+/// each other, the component of this difference along the velocity consists of rounding errors only.)
 inline void predict(Moment& moment, double distance, const Powers<double>& F) {
   moment.predicted = distance;
   if (!(F.c[0] > 0)) return;
@@ -66,14 +65,14 @@ inline void predict(Moment& moment, double distance, const Powers<double>& F) {
 }  // namespace detail
 
 /// A bound of the error of the difference of closest points. The difference is a sum of at most three vertex
-/// differences, each rounded four times and multiplied by an exact weight of at most 1. Adding them up takes
-/// at most three more roundings. The weights of interiors may add up to 1 + 2 U.
+/// differences, each rounded four times and multiplied by an exact weight of at most 1. The additions take at
+/// most three more roundings. The weights of interiors may add up to 1 + 2 U.
 template <class Real>
 double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();
 }
 
-/// An upper bound of the distance, from the distance of two points.
+/// An upper bound of the primitives' distance, from the computed distance of a point of each.
 template <class Real>
 double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& differences) {
   return std::sqrt(closest.squared_distance) * (1 + 0x1p-48) + points_error<Real>(differences) +
@@ -133,7 +132,8 @@ void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
   const ClosestFeatures& features = moment.features;
   Vec<double> direction = moment.direction;
   if (features.combination == ClosestFeatures::Combination::interiors) {
-    // The points are so near that rounding changes the direction of their difference more than the normal's.
+    // The closest points may be so near that rounding changes the direction of their difference more than
+    // that of the normal.
     const NormalPairs pairs = normal_pairs(x.differences().kind());
     direction = detail::direction_of(to_double(cross(x.position(pairs.q), x.position(pairs.r))));
     if (dot(direction, moment.direction) < 0) direction = -direction;

@@ -9,7 +9,6 @@ namespace nearmiss::certified {
 
 namespace {
 
-/// The time at which the centres of the primitives are nearest, a first guess.
 double time_of_nearest_centres(const VertexDifferences& differences) {
   Vec<double> start{};
   Vec<double> end{};
@@ -24,8 +23,8 @@ double time_of_nearest_centres(const VertexDifferences& differences) {
   return squared > 0 ? std::min(std::max(0.0, -dot(start, moved) / squared), 1.0) : 0;
 }
 
-/// The velocity of the closest points relative to each other, without its component along an edge. For
-/// interiors, only the component along the normal matters.
+/// The velocity of the closest points relative to each other, without its component along an edge; for
+/// interiors, only its component along the normal.
 Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<double>& closest) {
   const auto& [features, difference, velocity, squared_distance] = closest;
   switch (features.combination) {
@@ -42,7 +41,8 @@ Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<d
 }
 
 /// The time until a point that is at d and has the velocity v enters the ball of radius r around the origin.
-/// It is negative if the point entered the ball in the past, and NaN if the point never enters it.
+/// The result is negative if the point entered the ball in the past, and NaN if the point never enters the
+/// ball.
 double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   const double a = dot(v, v);
   const double b = dot(d, v);
@@ -52,9 +52,9 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
 }
 
 /// The next time to look at in a gap, as an offset from one of its ends. The gap has the length `open`, and
-/// beyond that end, a bound covers the length `covered`. The smaller the distance at a time, the shorter the
-/// stretch from there on which a bound certifies the required distance. So if `covered` is small, the
-/// primitives are close at that end, and the next time is near it.
+/// beyond that end, a bound covers the length `covered`. The closer the primitives are at a time, the less of
+/// the step a bound around this time covers. So if `covered` is small, the primitives are close at that end,
+/// and the next time is near that end.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }
@@ -115,7 +115,7 @@ bool QuickSearch::look_into_first_gap() {
 
 QuickSearch::Crossing QuickSearch::crossing() const {
   constexpr int most_steps = 8;
-  constexpr double short_step = 0x1p-17;  // its square is far below the width of a rough enclosure
+  constexpr double short_step = 0x1p-17;  // the error after it, about its square, is far below a rough width
   double before = first_gap().lo;
   double behind = first_gap().hi;
   double t = std::clamp(first_gap().guess, before, behind);

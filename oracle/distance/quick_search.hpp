@@ -1,5 +1,5 @@
-// A fast search for the first time at which the distance is below a bound. Most queries need only a few
-// times, looked at in double.
+// A fast search for the first time at which the distance is below a bound. For most queries, a few times in
+// double suffice.
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@
 
 namespace nearmiss::certified {
 
-/// How far the end of a covered range, t + a or t - a, is moved inward, because its computation rounds. Ends
-/// are in [0, 1], where the two roundings, of the sum and of this correction, are at most 2^-54 each. A sum
-/// above 1 covers the step up to its end, and a difference below 0 covers it from its beginning.
+/// The end of a covered range, t + a or t - a, is moved towards t by this number, because of rounding. For
+/// ends in [0, 1], the roundings of the sum and of this correction are at most 2^-54 each. If t + a is above
+/// 1 or t - a is below 0, the range reaches the end or the beginning of the step, and rounding does not
+/// matter.
 inline constexpr double time_rounding = 0x1p-53;
 
 /// Looks at a few times of the step in double. It keeps a list of gaps, which are the parts of the step that
@@ -33,7 +34,7 @@ class QuickSearch {
   FirstTime narrow(const FirstTime& known, double width);
 
  private:
-  /// The open interval (lo, hi), in which the search looks at `guess` next.
+  /// A part (lo, hi) of the step that no bound covers, and the time in it at which the search looks next.
   struct Gap {
     double lo, hi, guess;
   };
@@ -44,32 +45,31 @@ class QuickSearch {
   static constexpr std::size_t most_gaps = 8;
   static constexpr int most_times = 24;
 
-  /// Starts with one gap.
   void start(const Gap& gap);
-  /// Adds a gap before all others. The search looks at `nearest` if that time is inside, else at `guess`.
-  /// False if there are too many gaps.
+  /// Adds a gap before all others. The search will look at `nearest` if that time is in the gap, else at
+  /// `guess`. Returns false if there are too many gaps.
   bool add(double lo, double hi, double nearest, double guess);
   [[nodiscard]] const Gap& first_gap() const { return gaps_[count_ - 1]; }
 
-  /// Looks at a time in the first gap. If the distance is below `low` at this time, the gap ends there, and
-  /// the later gaps are dropped. Otherwise, the parts of the gap that the bounds around this time do not
-  /// cover replace the gap. Returns false if the bounds cover nothing, or leave too many gaps.
+  /// Looks at a time in the first gap. If the distance is below `low` at this time, the gap is cut off at the
+  /// time, and the later gaps are dropped. Otherwise, the parts of the gap that the bounds around this time
+  /// do not cover replace the gap. Returns false if the bounds cover nothing, or leave too many gaps.
   bool look_into_first_gap();
   /// Requires that the distance is below `low` at the end of the first gap. Estimates when the distance falls
-  /// below `low`. Moves the end to just after that time if the distance is certainly below `low` there. Then
-  /// chooses the next time to look at.
+  /// below `low`. Moves the end of the gap to just after that time if the distance is certainly below `low`
+  /// at the new end. Then chooses the next time to look at.
   void look_for_crossing();
-  /// Estimates the time in the first gap at which the distance falls below `low`, given that it is below
-  /// `low` at the end of the gap; 0 if it may be below `low` from the beginning.
+  /// With the same requirement, estimates the time in the first gap at which the distance falls below `low`;
+  /// 0 if the distance may be below `low` from the beginning of the step.
   [[nodiscard]] Crossing crossing() const;
 
   const VertexDifferences& differences_;
   double low_, required_;
-  std::array<Gap, most_gaps> gaps_{};  ///< from the last to the first
+  std::array<Gap, most_gaps> gaps_{};  ///< the gaps, from the last in the step to the first
   std::size_t count_ = 0;
   bool comes_ = false;
   double width_ = 0;     ///< for narrow()
-  double low_time_ = 1;  ///< with `comes_`, a time at which the distance is certainly below `low`
+  double low_time_ = 1;  ///< if `comes_`, a time at which the distance is certainly below `low`
 };
 
 }  // namespace nearmiss::certified

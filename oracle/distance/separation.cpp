@@ -28,8 +28,8 @@ bool is_not_negative(const std::array<double, 4>& b) {
   return b[0] >= 0 && b[1] >= 0 && b[2] >= 0 && b[3] >= 0;
 }
 
-/// An estimate of the first root above 0 of a cubic that is positive at 0; nothing if an iteration shows that
-/// there is no root.
+/// An estimate of a root near 0, usually the first above 0, of a cubic that is positive at 0; nothing if not
+/// all roots are found to be real.
 std::optional<double> first_root(const Powers<double>& p) {
   const auto& [c0, c1, c2, c3] = p.c;
   constexpr double accuracy = 1e-4;
@@ -39,8 +39,8 @@ std::optional<double> first_root(const Powers<double>& p) {
   return 2 * c0 / (std::sqrt(discriminant) - c1);
 }
 
-/// An end in [0, most] up to which the cubic is certainly not negative. It is usually near the first root;
-/// the search is kept short for speed.
+/// An end in [0, most] up to which the cubic is certainly not negative. This end is usually near the first
+/// root; the search is kept short for speed.
 double not_negative_until(const Powers<double>& p, double most) {
   const auto holds_until = [&](double end) { return is_not_negative(on(p, end)); };
   if (!(p.c[0] > 0)) return 0;

@@ -12,35 +12,38 @@
 
 // The primitives are the convex hulls of their vertices. So for any vector n(t), their distance is at least
 // the smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first primitive and j of the second.
-// Around a time t0, with s = t - t0, three kinds of n make these products polynomials in s. The bound is
-// sharp at t0 if n(t0) is the direction between the closest points:
+// At a time t0, this bound is sharp if n(t0) has the direction between the closest points. Around t0, the
+// products n · (x_i - x_j) are polynomials in s = t - t0 for three kinds of n:
 //
-// - constant: linear products;
-// - edge(t) × k with a constant k: quadratic products; both vertices of that edge have the same product, so
-//   the turning of the edge loses nothing;
-// - N(t), the normal of the triangle, or of both edges: all products are ±F, the coplanarity cubic.
+// - A constant n gives linear products.
+// - n = edge(t) × k with a constant k gives quadratic products. Both vertices of that edge have the same
+//   product, so the turning of the edge loses nothing.
+// - n = N(t), the normal of the triangle or of both edges: all products are ±F, the coplanarity cubic.
 //
 // Errors of the coefficients. Each coefficient is a sum of products of components of two or three vectors.
-// Each product is rounded at most n times on its way into the coefficient, so its relative error is at most n
+// Each product is rounded at most m times on its way into the coefficient, so its relative error is at most m
 // U (U = roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c the
 // magnitudes of the products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for
-// two vectors, to at most a b. The sums of magnitudes in the components of a cross product form a vector of
-// length at most 2/√3 a b. A vector x_i - x_j has a length of at most R = reach(i, j), and its velocity one
-// of at most 2 R. So the errors, in units of U times the lengths, are:
+// two vectors, to at most a b. For a cross product, the sums of the magnitudes in each component form a
+// vector of length at most 2/√3 a b. A vector x = x_i - x_j has a length of at most R = reach(i, j), and its
+// velocity w one of at most 2 R. The table has a number for each coefficient, from s^0 on. The lengths of
+// products are in units of the R of all factors and of |n| or |k|, and errors in these units times U. An
+// error is m times the length and, except in the first row, times 2/√3:
 //
-//               n                lengths        error                       taken
+//               m                lengths        error                       taken
 //   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
 //   (e × k)·x   13, 12, 9        1, 4, 4        15.1, 55.5, 41.6            16, 64, 64
 //   e × k       6, 4             1, 2           7, 9.3                      16, 32
 //   F           17, 17, 15, 11   1, 6, 12, 8    19.7, 117.8, 207.9, 101.7   24, 144, 288, 192
 //   N           10, 9, 6         1, 4, 4        11.6, 41.6, 27.8            16, 64, 64
 //
-// tests/oracle/separation_test.cpp determines n with a scalar that counts roundings in the templates below.
+// tests/oracle/separation_test.cpp determines m with a scalar that counts roundings in the templates below.
 //
 // The column "taken" exceeds the error to cover terms of second order in U and the rounding of the bounds
-// themselves. Rounding coefficients to double adds 2^-53 of each, taken as 2^-52. Underflow adds at most
-// 2^-1018 for each of less than 100 operations, times at most 2^100 for the length of k, and 2^-536 for a
-// length. This is far below `least_distance`, which is added to each error.
+// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude, taken as 2^-52. In coefficients,
+// underflow adds at most 2^-1018 for each of less than 100 operations, times at most 2^100 for the length of
+// k; in the length of n, it adds at most 2^-536. This is far below `least_distance`, which is added to each
+// error.
 
 namespace nearmiss::certified {
 
@@ -66,8 +69,8 @@ struct Separation {
   }
 };
 
-/// An upper bound of the length of a vector that is known up to `error`. `v` has its components, rounded to
-/// double.
+/// An upper bound of the exact length of a vector. v has the computed components, rounded to double; `error`
+/// bounds the error before this rounding.
 inline double longest(const Vec<double>& v, double error) {
   return length(v) * (1 + 0x1p-48) + error + least_distance;
 }
@@ -87,7 +90,7 @@ Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& di
   return separation;
 }
 
-/// The separation with n = (x_to - x_from) × k, with the k that brings n as near to `direction` as possible.
+/// The separation with n = (x_to - x_from) × k, for the k that brings n as near to `direction` as possible.
 template <class Real>
 Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::size_t to,
                             const Vec<double>& direction) {

@@ -11,9 +11,9 @@
 
 namespace nearmiss::certified {
 
-/// The vectors p, q and r (x_to - x_from), with the normal N = q × r and the coplanarity cubic F = p · N.
-/// For vertex and triangle, they are x0 - x1, x2 - x1 and x3 - x1; for edges, x0 - x2, x0 - x1 and x3 - x2.
-/// So p = a q + b r + c N gives the weights a and b of the closest points.
+/// The vectors p, q and r (x_to - x_from), with the normal N = q × r and the coplanarity cubic F = p · N. For
+/// vertex and triangle, they are x0 - x1, x2 - x1 and x3 - x1; for edges, x0 - x2, x0 - x1 and x3 - x2. So p
+/// = a q + b r + c N gives the weights a and b of the feet of the common normal.
 struct NormalPairs {
   VertexPair p, q, r;
 };
@@ -43,8 +43,8 @@ template <class Use>
 }
 
 /// The differences x_i - x_j of all pairs of vertices at both ends of the step; 0 for vertices that the kind
-/// does not have. The unit is 2^exponent, chosen so that the largest component is between 1 and 2 (all are 0
-/// if all vertices coincide).
+/// does not have. The unit is 2^exponent, chosen so that the magnitude of the largest component is between 1
+/// and 2 (all components are 0 if all vertices coincide).
 ///
 /// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
 /// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference, or the sum
@@ -56,10 +56,9 @@ class VertexDifferences {
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] int exponent() const { return exponent_; }
-  /// The largest distance of x_i and x_j over [0, 1] is at most this.
+  /// An upper bound of the distance of x_i and x_j over [0, 1].
   [[nodiscard]] double reach(std::size_t i, std::size_t j) const { return pair_of(i, j).reach; }
   [[nodiscard]] double reach(VertexPair pair) const { return reach(pair.to, pair.from); }
-  /// The sum of the reaches of all pairs.
   [[nodiscard]] double total_reach() const { return total_reach_; }
 
   /// x_i - x_j at the start (0) or the end (1) of the step, for i < j.
@@ -85,10 +84,11 @@ class VertexDifferences {
   double total_reach_;
 };
 
-/// The vertices at one time. Each component of a position is a sum of two products that are rounded at most
-/// four times: 1 - t, the product, the sum and, in double, the difference itself; with more than 106 bits,
-/// the last rounding is in the sum of the halves of a double word. A velocity is rounded twice, and is at
-/// most twice as large as a position.
+/// The relative positions and velocities of the vertices at one time. Each component of a position is a sum
+/// of two products. A product is rounded at most four times: in 1 - t, in the product, in the sum, and in the
+/// conversion of the difference to Real. (Double words represent the difference exactly; for more bits, the
+/// sum of the halves of the double word is rounded.) A velocity is rounded at most twice, and is at most
+/// twice as large as reach(i, j).
 template <class Real>
 class VerticesAt {
  public:

@@ -1,5 +1,6 @@
-// The sign of (distance - h) only changes at the candidates. So the sign is constant between two neighbouring
-// candidates, and the distance falls below h at the first candidate after which that sign is -1.
+// The sign of (distance - h) only changes at the times of Nearness::candidates(). So the sign is constant
+// between two neighbouring candidates, and the distance falls below h at the first candidate after which the
+// sign is -1.
 #include "oracle/exact/first_approach.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 /// Sorts times and removes duplicates.
 void sort_out(std::vector<Root>& times) {
-  // A comparison may refine what is known about a time, but std::sort compares constants.
+  // Not by std::sort, because a comparison may refine both times.
   std::vector<Root> sorted;
   for (Root& each : times) {
     const auto place =

@@ -1,5 +1,5 @@
-// Every first contact is at a root of a certain polynomial; at each root, signs of polynomials decide whether
-// the primitives meet.
+// Every first contact is at a root of F or, if F is identically zero, at t = 0 or at a root of one of
+// deciding_polynomials(). At each of these times, signs of polynomials decide whether the primitives meet.
 #include "oracle/exact/first_contact.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   for (const OnSegment& on : predicates.segments()) {
     if (std::any_of(on.cross.begin(), on.cross.end(), [&](const Polynomial& c) { return t.sign_of(c) != 0; }))
       continue;
-    const int beyond = t.sign_of(on.dot);  // zero at an end of the segment
+    const int beyond = t.sign_of(on.dot);  // 0 if the vertex is at an end of the segment
     if (beyond <= 0) vanishing_weights = std::max(vanishing_weights, beyond == 0 ? 2 : 1);
   }
   if (vanishing_weights == 0) return std::nullopt;
@@ -42,8 +42,9 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
 /// weight. Proof: the set of colliding times is closed, so it has a least element t*. Suppose that t* is
 /// neither 0 nor a root of one of the polynomials that are not identically zero. Then N_k is not zero and no
 /// polynomial changes its sign in a neighbourhood of t*, so there are collisions before t*, a contradiction.
-/// If N is identically zero, the polynomials of the segments have this property. One polynomial is enough for
-/// several that have the same roots, such as the three components of a vector that stays in one plane.
+/// If N is identically zero, the polynomials are those of the segments, for the same reason. Of several
+/// polynomials that are proportional, such as the components of a vector of constant direction, one is
+/// enough.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {
@@ -76,7 +77,7 @@ std::optional<FirstContact> first_contact(Predicates& predicates) {
   if (const auto meeting = meet_at(predicates, start)) return FirstContact{start, *meeting};
   std::optional<FirstContact> first;
   for (const Polynomial& p : deciding_polynomials(predicates)) {
-    if (first && OnInterval(p, 0, first->time.hi()).changes() == 0) continue;  // no root before
+    if (first && OnInterval(p, 0, first->time.hi()).changes() == 0) continue;  // no root before `first`
     for (Root& t : roots_in_step(p)) {
       if (first && !t.is_below(first->time)) break;
       const auto meeting = meet_at(predicates, t);

@@ -10,15 +10,15 @@ namespace nearmiss::exact {
 
 /// How the primitives meet at a time.
 struct Meeting {
-  /// The number of weights that vanish: none for a contact inside the triangle or the edges, one on an edge
-  /// or at one end, two at a vertex or at two ends. Primitives without a common normal always meet at a
-  /// border, so the number is one or two.
+  /// The number of weights that vanish. For a triangle: none inside, one on an edge, two at a vertex. For two
+  /// edges: none inside both, one at an end of one, two at an end of both. Primitives without a common normal
+  /// always meet at a border, so the number is one or two.
   int vanishing_weights = 0;
-  /// There is no common normal: the triangle has no area, or the edges are parallel or have no length.
+  /// Whether there is no common normal: the triangle has no area, or the edges are parallel or have no
+  /// length.
   bool degenerate = false;
 };
 
-/// The earliest time at which the primitives meet, and how they meet.
 struct FirstContact {
   Root time;
   Meeting meeting;
@@ -27,8 +27,8 @@ struct FirstContact {
 /// The first contact of the primitives; nothing if they never meet in [0, 1].
 std::optional<FirstContact> first_contact(Predicates& predicates);
 
-/// Whether the primitives meet in [0, 1] at all. `first` is set if the search happens to find the first
-/// contact.
+/// Whether the primitives meet in [0, 1] at all. `first` is the time of the first contact, if the search
+/// happens to find it.
 struct Collision {
   bool any = false;
   std::optional<Root> first = std::nullopt;

@@ -10,7 +10,6 @@
 
 namespace nearmiss::exact {
 
-/// A moving vector; each component is a polynomial in t.
 using PolynomialVector = certified::Vec<Polynomial>;
 
 using certified::cross;
@@ -18,8 +17,8 @@ using certified::cross_component;
 using certified::dot;
 using certified::operator-;
 
-/// A power of two that scales all coordinates of a query below 1/4. Differences of four coordinates are then
-/// below 1, and these and most products have no more limbs than necessary.
+/// A power of two that scales all coordinates of a query below 1/4. A sum of four coordinates or their
+/// negatives is then below 1, and such sums and most of their products have no more limbs than necessary.
 class Unit {
  public:
   explicit Unit(const Query& query);
@@ -32,7 +31,7 @@ class Unit {
   double factor_;  ///< the power of two; infinite if it is too large for a double
 };
 
-/// The points x0 to x3, x(0) + t (x(1) - x(0)), in a unit.
+/// The points x0 to x3 in a unit; each is x(0) + t (x(1) - x(0)).
 std::array<PolynomialVector, 4> moving_points(const Query& query, const Unit& unit);
 /// Point i minus point j.
 PolynomialVector moving_difference(const Query& query, std::size_t i, std::size_t j, const Unit& unit);

@@ -1,19 +1,20 @@
-// The distance at a time is at most b if and only if one of finitely many statements about a pair of features
-// holds: a vertex of each, a vertex and an edge, the vertex and the triangle, or two edges. Each statement
-// says that the closest points of the lines or planes through the two features lie in the features and are
-// within b of each other. It holds at t iff the polynomials `excess` and `outside` are at most 0 there, and
-// `extents` are positive. (An extent is 0 if the features are degenerate; then another statement covers the
-// same points.) If the distance is at most b, the statement about the closest pair of features holds; if any
-// statement holds, there are points within b.
+// The distance at a time is at most b if and only if one of finitely many statements holds. Each is about a
+// pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the triangle, or two
+// edges. It says that the closest points of the lines or planes through the two features lie in the features
+// and are within b of each other. The statement holds at t iff the polynomials `excess` and `outside` are at
+// most 0 at t, and `extents` are positive. (An extent is 0 if the features are degenerate; then another
+// statement covers the same points.) If the distance is at most b, the statement about the closest pair of
+// features holds; if any statement holds, two points are within b of each other.
 //
 // The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. First
-// case: at t0, the sign changes to or from -1. On that side of t0, the statement of a closest pair holds
-// strictly. At t0, by continuity, its `outside` are at most 0, and its excess is at most 0. The excess is not
-// negative, because an excess is 0 where an extent is 0. So t0 is a root of the excess, which is not
-// identically 0. Second case: at t0, the sign changes between 0 and 1. On the side where it is 0, a closest
-// pair is b apart for some time, so its excess is identically 0. On the other side, its statement does not
-// hold, although its extents have only isolated zeros. So one of `outside` is positive there, and 0 at t0. In
-// both cases all `outside` are at most 0 at t0.
+// case: at t0, the sign changes to or from -1. On the side of t0 with the sign -1, the statement about a
+// closest pair holds strictly. At t0, by continuity, the pair's `outside` are at most 0, and its excess is at
+// most 0. The excess is not negative at t0: if the extents are positive, the distance would be less than b,
+// and if an extent is 0, so is the excess. So t0 is a root of the excess, which is not identically 0. Second
+// case: at t0, the sign changes between 0 and 1. On the side with the sign 0, a closest pair is b apart for
+// some time, so its excess is identically 0. On the side with the sign 1, the pair's statement does not hold,
+// although its extents have only isolated zeros. So one of its `outside` is positive on this side, and 0 at
+// t0. In both cases all `outside` are at most 0 at t0.
 #include "oracle/exact/nearness.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ Interiors two_edges(const std::array<PolynomialVector, 4>& x) {
   const PolynomialVector v = x[3] - x[2];
   const PolynomialVector x20 = x[2] - x[0];
   const PolynomialVector N = cross(u, v);
-  const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by this
+  const Polynomial whole = dot(N, N);  // the weights α and β are `alpha` and `beta` below divided by this
   const Polynomial alpha = dot(cross(x20, v), N);
   const Polynomial beta = dot(cross(x20, u), N);
   return {dot(x20, N), whole, {Polynomial() - alpha, alpha - whole, Polynomial() - beta, beta - whole}};
@@ -119,18 +120,19 @@ void Nearness::add_interiors(Interiors&& of) {
       {Features::interiors, F * F - squared_b_ * squared_N, std::move(outside), {squared_N}});
 }
 
-// The smallest distance is that of two features at one of the times below, if their closest points lie in the
-// features then. Proof: Let the smallest distance be reached at t0. Among the pairs of features that are at
-// that distance then, take one of the lowest dimension, and the statement about it. If t0 is neither 0 nor 1,
-// the closest points of the lines or planes through these two features are strictly inside the features,
-// which are not degenerate: otherwise the closest points would lie in features of a lower dimension. So the
-// statement gives a distance near t0, too. The square of this distance is a quotient of polynomials, which
-// has a minimum at t0 and a derivative of 0. If the derivative is not identically 0, t0 is one of its roots.
-// If it is, the distance stays the same until t is 0 or 1, or until the closest points leave the inside of
-// the features; at that time, features of a lower dimension are at the same distance.
+// For each pair of features, the constructor collects times at which the closest points of the lines or
+// planes lie in the features. The smallest distance is that of a pair at one of its times. Proof: Let the
+// smallest distance be reached at t0. Of the pairs of features that are at this distance at t0, take one of
+// the lowest dimension. If t0 is neither 0 nor 1, the closest points of the lines or planes through these two
+// features are strictly inside the features, which are not degenerate: otherwise the closest points would lie
+// in features of a lower dimension. So around t0, the features have the distance of the lines or planes. The
+// square of this distance is a quotient of polynomials with a minimum at t0, so its derivative is 0 at t0. If
+// the derivative is not identically 0, t0 is one of its roots. Otherwise the distance stays the same until t
+// is 0 or 1, or until the closest points leave the inside of the features; at that time, features of a lower
+// dimension are at the same distance.
 SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
   const Interiors of = interiors(query.kind, moving_points(query, unit_));
-  const Nearness contact(query, 0);  // b = 0, so that each excess is a numerator
+  const Nearness contact(query, 0);  // b = 0, so that each excess is the numerator of a squared distance
   for (const FeatureNearness& each : contact.statements()) {
     const bool are_vertices = each.extents.empty();
     Minima minima{each.excess, are_vertices ? Polynomial({Number(1)}) : each.extents[0], {}};

@@ -11,9 +11,8 @@
 
 namespace nearmiss::exact {
 
-/// The statement that two features of the primitives, such as a vertex and an edge, are within b of each
-/// other. Consider the lines or planes through the features: if their closest points lie in the features, the
-/// features have the same distance as the lines or planes.
+/// A statement about two features of the primitives, such as a vertex and an edge: the closest points of the
+/// lines or planes through the features lie in the features, and are within b of each other.
 struct FeatureNearness {
   /// What the features are. `interiors` are the insides of both edges, or the vertex and the inside of the
   /// triangle.
@@ -56,7 +55,7 @@ class Nearness {
   [[nodiscard]] bool holds_strictly_at(Root& t) const;
 
   /// Times in [0, 1], in no particular order and with repetitions: 0, and all times at which the sign of
-  /// (distance - b) changes. So the earliest time at which the distance is at most b is one of them.
+  /// (distance - b) changes. So the earliest time at which the distance is at most b is one of these times.
   [[nodiscard]] std::vector<Root> candidates() const;
 
   [[nodiscard]] const std::vector<FeatureNearness>& statements() const { return statements_; }
@@ -71,17 +70,18 @@ class Nearness {
   std::vector<FeatureNearness> statements_;
 };
 
-/// The smallest distance over [0, 1], for exact comparisons with any numbers.
+/// Compares the smallest distance over [0, 1] exactly with any numbers.
 class SmallestDistance {
  public:
   explicit SmallestDistance(const Query& query);
 
-  /// Whether the distance is at most `bound`, a finite number >= 0. Each comparison makes later ones faster.
+  /// Whether the smallest distance is at most `bound`, a finite number >= 0. Each comparison makes later ones
+  /// faster.
   [[nodiscard]] bool is_at_most(double bound);
 
  private:
-  /// The squared distance of two features is numerator / denominator; the closest points lie in the
-  /// features at each of the times.
+  /// For a pair of features: the squared distance of their lines or planes is numerator / denominator, and
+  /// the closest points of these lie in the features at each of the times.
   struct Minima {
     Polynomial numerator, denominator;
     std::vector<Root> times;

@@ -79,8 +79,8 @@ bool are_proportional(const Polynomial& p, const Polynomial& q) {
 
 namespace {
 
-/// The remainder of dividing c p by q, where c is |the leading coefficient of q|^(1 + the difference of
-/// degrees).
+/// The remainder of c p divided by q. The factor c is a power of the magnitude of q's leading coefficient;
+/// the exponent is 1 plus the difference of the degrees.
 Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
   const int side = sign(q.leading());
   const Number lead = side > 0 ? q.leading() : -q.leading();
@@ -116,8 +116,8 @@ Division divide(const Polynomial& p, const Polynomial& q) {
 }
 
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
-  // Subresultants, except for their signs. Their known common factors are divided out, so they stay as short
-  // as determinants of the coefficients of p and q.
+  // Computes subresultants, except for their signs. Known common factors are divided out of their
+  // coefficients, which therefore stay as short as determinants of the coefficients of p and q.
   std::vector<Polynomial> sequence{p, q};
   Number g = 1;
   Number h = 1;
@@ -158,7 +158,7 @@ Polynomial primitive(const Polynomial& p) {
 
 namespace {
 
-/// The quotient of a polynomial and one of its linear factors, whose coefficients have no common divisor.
+/// The quotient of p and one of its linear factors. The coefficients of this factor have no common divisor.
 Polynomial without_factor(const Polynomial& p, const Polynomial& factor) {
   Numbers quotient(p.coefficients().begin() + 1, p.coefficients().end());
   quotient.back() = quotient.back() / factor.leading();

@@ -16,7 +16,6 @@ using Number = CGAL::Mpzf;
 /// A list of numbers. Lists of up to four numbers, as many as F has coefficients, need no allocation.
 using Numbers = boost::container::small_vector<Number, 4>;
 
-/// The sign of x: -1, 0 or 1.
 int sign(const Number& x);
 
 /// a_0 + a_1 t + ... + a_n t^n, with a_n not zero; the zero polynomial has no coefficients.
@@ -46,15 +45,16 @@ class Polynomial {
 /// Whether one polynomial is a constant times the other; neither may be zero.
 bool are_proportional(const Polynomial& p, const Polynomial& q);
 
-/// The quotient and the remainder of a positive multiple of p, divided by q; q must not be zero.
+/// The result of divide(p, q): quotient and remainder of a positive multiple of p divided by q, which must
+/// not be zero.
 struct Division {
   Polynomial quotient, remainder;
 };
 Division divide(const Polynomial& p, const Polynomial& q);
 
 /// The remainder sequence p, q, ...: each further polynomial is the negative remainder of the two before it,
-/// times a positive factor. The last one is the greatest common divisor of p and q. The degree of p must not
-/// be below that of q, and q must not be zero.
+/// times a positive factor. The last polynomial is the greatest common divisor of p and q. The degree of p
+/// must not be below that of q, and q must not be zero.
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 
 /// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.

@@ -11,8 +11,8 @@
 
 namespace nearmiss::exact {
 
-/// The point x lies on the closed segment (a, b) iff every component of `cross` = (x - a) × (b - a) is zero
-/// and `dot` = (x - a) · (x - b) is not positive. This also holds if a = b.
+/// Whether a point x lies on the closed segment from a to b: it does iff every component of `cross` = (x - a)
+/// × (b - a) is zero and `dot` = (x - a) · (x - b) is not positive. This also holds if a = b.
 struct OnSegment {
   PolynomialVector cross;
   Polynomial dot;
@@ -23,12 +23,12 @@ struct OnSegment {
 /// x0 - x1, x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
-///  - if a component N_k of the normal is not zero, projecting along axis k loses nothing, and the primitives
-///    meet iff every weight's component k is zero or has the sign of N_k. Here a weight is a barycentric
-///    weight times N = q × r. A triangle has the weights of x1, x2 and x3, which add up to N, from p = w2 q +
-///    w3 r. Edges have the weights of x1 and x0 on the first edge, and of x3 and x2 on the second; the
-///    weights of each edge add up to N, from p = α q - β r;
-///  - if N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
+///  - If a component N_k of the normal is not zero, projecting along axis k loses nothing. The primitives
+///    then meet iff component k of every weight is zero or has the sign of N_k. Here a weight is a
+///    barycentric weight times N = q × r. A triangle has the weights of x1, x2 and x3; they add up to N, and
+///    p = w2 q + w3 r for the barycentric weights w2 and w3. Edges have the weights of x1 and x0 on the first
+///    edge, and of x3 and x2 on the second; those of each edge add up to N, and p = α q - β r.
+///  - If N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
 ///    does. Two edges are then parallel or points, and meet iff an end point of one lies on the other.
 class Predicates {
  public:

@@ -16,7 +16,8 @@ namespace {
 constexpr unsigned bits = 31;
 constexpr std::uint64_t prime = (std::uint64_t{1} << bits) - 1;
 
-/// A number modulo the prime. A power of two has an inverse, 2^-k = 2^(31 - k), since 2^31 = 1.
+/// A number modulo the prime. A power of two has an inverse, 2^-k = 2^(31 - k), since 2^31 = 1 modulo the
+/// prime.
 std::uint64_t residue(const Number& x) {
   const CGAL::Gmpq fraction(x);
   const std::size_t exponent = mpz_sizeinbase(fraction.denominator().mpz(), 2) - 1;
@@ -41,7 +42,7 @@ Residues residues(const Polynomial& p) {
   return all;
 }
 
-/// The remainder of a division by q, which is not zero.
+/// The remainder of p divided by q, which is not zero.
 Residues remainder(Residues p, const Residues& q) {
   const std::uint64_t by_lead = inverse(q.back());
   while (p.size() >= q.size()) {
@@ -54,7 +55,7 @@ Residues remainder(Residues p, const Residues& q) {
   return p;
 }
 
-/// A greatest common divisor of the residues of p and q; nothing if the prime divides the leading coefficient
+/// A greatest common divisor of the residues of p and q; empty if the prime divides the leading coefficient
 /// of p.
 Residues common_divisor(const Polynomial& p, const Polynomial& q) {
   Residues a = residues(p);
@@ -66,7 +67,7 @@ Residues common_divisor(const Polynomial& p, const Polynomial& q) {
 
 using Integers = std::vector<mpz_class>;  ///< coefficients, the constant first
 
-/// The coefficients, times a power of two.
+/// The coefficients, times a power of two that makes all of them integers.
 Integers integers(const Polynomial& p) {
   Integers all;
   mpz_class power = 1;
@@ -101,7 +102,7 @@ bool vanishes_at(const Integers& c, const mpz_class& numerator, const mpz_class&
 
 Number number(const mpz_class& x) {
   if (x == 0) return 0;
-  const Number size(CGAL::Gmpz(mpz_class(abs(x)).get_mpz_t()));  // the conversion is right for these only
+  const Number size(CGAL::Gmpz(mpz_class(abs(x)).get_mpz_t()));  // right for positive integers only
   return x < 0 ? -size : size;
 }
 

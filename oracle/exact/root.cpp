@@ -29,7 +29,8 @@ std::ptrdiff_t exponent_above(const Number& x) {
   return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) - exponent_of_denominator(fraction);
 }
 
-/// The numbers in double, scaled by a power of two that brings the largest near 1; not all may be zero.
+/// The numbers in double, scaled by a power of two if the largest is very large or small; not all may be
+/// zero.
 std::vector<double> in_proportion(const Numbers& numbers) {
   std::vector<double> result;
   result.reserve(numbers.size());
@@ -59,8 +60,8 @@ Number integer_quotient(const Number& x, const Number& y) {
   return CGAL::is_zero(quotient) ? Number(0) : Number(quotient);
 }
 
-// The functions below represent a polynomial in double as OnInterval does: by the c_i of s^i (1 - s)^(n - i),
-// its Bernstein coefficients times binomial coefficients.
+// The functions below represent a polynomial in double as OnInterval does: by the coefficients c_i of s^i (1
+// - s)^(n - i), which are Bernstein coefficients times binomial coefficients.
 
 std::vector<double> derivative(const std::vector<double>& c) {
   const std::size_t n = c.size() - 1;
@@ -88,19 +89,19 @@ Number power_of_half(unsigned bits) { return Number(1) / Number(CGAL::Gmpz(1) <<
 
 namespace {
 
-/// Replaces the coefficients of a polynomial in x, the leading one first, by those of the polynomial in x -
-/// shift.
+/// Replaces the coefficients of a polynomial in powers of x, the leading one first, by its coefficients in
+/// powers of x - shift.
 template <class Multiply>
 void shift(Numbers& c, const Multiply& times_shift) {
   for (std::size_t last = c.size() - 1; last > 0; --last)
     for (std::size_t i = 1; i <= last; ++i) c[i] = c[i] + times_shift(c[i - 1]);
 }
 
-/// The coefficients of OnInterval, from the coefficients of the powers of t, of which the leading one comes
-/// first.
+/// Converts the coefficients of the powers of t, the leading one first, to those of OnInterval.
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
-  // Powers of s, the fraction of the interval, counted from the end with fewer bits.
-  constexpr std::size_t short_size = 4;  // up to this degree, the difference is small
+  // First, the coefficients of the powers of s, the fraction of the interval, counted from the end with fewer
+  // bits.
+  constexpr std::size_t short_size = 4;  // up to this many coefficients, either end will do
   const bool from_hi = c.size() > short_size &&
                        exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));
   const Number& from = from_hi ? hi : lo;
@@ -114,13 +115,13 @@ Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
       c[i] = c[i] * power;
     }
   }
-  // The sum of a_i s^i is that of a_i s^i (s + (1 - s))^(n - i).
+  // The sum of a_i s^i equals the sum of a_i s^i (s + (1 - s))^(n - i).
   shift(c, [](const Number& each) -> const Number& { return each; });
   if (from_hi) std::reverse(c.begin(), c.end());
   return std::move(c);
 }
 
-/// Rounds a number toward 0, to a multiple of 2^exponent; whether that changed it.
+/// Rounds x toward 0, to a multiple of 2^exponent; returns whether this has changed x.
 bool round_off(Number& x, std::ptrdiff_t exponent) {
   const CGAL::Gmpq fraction(x);
   const std::ptrdiff_t denominator = exponent_of_denominator(fraction);
@@ -216,7 +217,8 @@ double OnInterval::guess_extremum() const {
 
 std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
   const int n = static_cast<int>(c_.size()) - 1;
-  // The value and two derivatives at the lower end. Schröder's method is Newton's for f / f'.
+  // A step of Schröder's method, which is Newton's for f / f', from the lower end. f0, f1 and f2 are the
+  // value and two derivatives at this end.
   const Number& f0 = c_[0];
   const Number f1 = c_[1] - Number(n) * f0;
   const Number f2 = Number(2) * (c_[2] - Number(n - 1) * c_[1]) + Number(n * (n - 1)) * f0;
@@ -234,9 +236,9 @@ std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
   using Exponents = std::vector<std::ptrdiff_t>;
   Exponents exponents;
   for (const Number& c : c_) exponents.push_back(CGAL::is_zero(c) ? 0 : exponent_above(c));
-  // With x = s / (1 - s), the sum of c_i x^i has the same roots. If c_n > 0, it is positive for x >= 2 max
-  // (-c_i / c_n)^(1 / (n - i)) over the negative c_i, because each of their terms is then at most c_n x^n /
-  // 2^(n - i).
+  // With x = s / (1 - s), the sum of c_i x^i has the same roots. If c_n > 0, the sum is positive for x >= 2
+  // max (-c_i / c_n)^(1 / (n - i)) over the negative c_i, because -c_i x^i is then at most c_n x^n / 2^(n -
+  // i).
   const auto above_roots = [n = c_.size() - 1](const auto& c, const auto& exponent) {
     std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::min();
     for (std::size_t i = 0; i < n; ++i) {
@@ -269,7 +271,8 @@ void Root::cut(const Number& at) {
     (side == sign_at_lo_ ? lo_ : hi_) = at;
 }
 
-/// Takes another polynomial that has the root, which is its only root in (lo, hi), and simple.
+/// Replaces the polynomial by p, and the interval by (lo, hi). The only root of p in (lo, hi) must be this
+/// root, a simple one.
 void Root::take(std::shared_ptr<const Polynomial> p, Number lo, Number hi) {
   p_ = std::move(p);
   lo_ = std::move(lo);
@@ -316,10 +319,9 @@ void Root::refine() {
 
 namespace {
 
-/// If q shares the root that p has between two numbers, returns the polynomial of the lowest degree that was
-/// found to have this root; otherwise nothing. p has at most one root there, a simple one, and the two
-/// polynomials are not both zero at one of the numbers. So a common divisor has the root if and only if its
-/// sign changes.
+/// p has at most one root between lo and hi, a simple one, and p and q are not both zero at lo or at hi. If q
+/// shares the root, returns the polynomial of the lowest degree that was found to have this root; otherwise
+/// nothing. A common divisor of p and q has the root if and only if it has different signs at lo and hi.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
   constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues

@@ -1,4 +1,4 @@
-// Real roots of polynomials in [0, 1], and signs of polynomials at them.
+// Real roots of polynomials in [0, 1], and signs of polynomials at these roots.
 #pragma once
 
 #include <CGAL/Gmpq.h>
@@ -24,7 +24,8 @@ Number between(const Number& lo, const Number& hi, double part);
 Number power_of_half(unsigned bits);
 
 /// A polynomial on an interval, given by its Bernstein coefficients times binomial coefficients. The number
-/// of roots in the open interval is the number of sign changes of these, or smaller by an even number.
+/// of roots in the open interval is the number of sign changes of these products, or smaller by an even
+/// number.
 class OnInterval {
  public:
   /// p must not be the zero polynomial.
@@ -34,16 +35,15 @@ class OnInterval {
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
   /// Rounds very long coefficients. Parts inherit the errors.
   void round();
-  /// Whether rounding cannot have changed the sign of a coefficient, nor its size by a factor of 2.
+  /// Whether rounding cannot have changed the sign of any coefficient, or its size by a factor of 2.
   [[nodiscard]] bool is_certain() const;
 
-  /// The numbers, of which there is one more than the degree.
+  /// The n + 1 Bernstein coefficients times binomial coefficients, for the degree n.
   [[nodiscard]] const Numbers& coefficients() const { return c_; }
   [[nodiscard]] int changes() const { return sign_changes(c_); }
   /// The sign on the open interval, if the coefficients show it; else 0.
   [[nodiscard]] int only_sign() const;
 
-  /// The value at the upper end minus the value at the lower end.
   [[nodiscard]] Number rise() const { return c_.back() - c_.front(); }
 
   /// The value at a fraction of the interval.
@@ -58,9 +58,9 @@ class OnInterval {
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
   /// Three fractions of the interval, for the case that all roots are near the same end. All roots lie
-  /// strictly between two of these fractions. The third fraction is between these two; its distance from that
-  /// end is about the geometric mean of their distances. All three are 0 if the coefficients show that there
-  /// is no root. There must be a change of sign, and no root at the ends.
+  /// strictly between `lower` and `upper`. The distance of `middle` from that end is about the geometric mean
+  /// of the distances of `lower` and `upper`. All three are 0 if the coefficients show that there is no root.
+  /// roots_near_end() requires a change of sign, and no root at the ends.
   struct NearEnd {
     Number lower, middle, upper;
   };
@@ -84,8 +84,8 @@ class Root {
   Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi, int sign_at_lo)
       : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(sign_at_lo) {}
 
-  /// lo <= the root <= hi. They are equal if the root is an explicit number; else the root lies strictly
-  /// between them.
+  /// lo <= the root <= hi. The bounds lo and hi are equal if the root is an explicit number; else the root
+  /// lies strictly between them.
   [[nodiscard]] const Number& lo() const { return lo_; }
   [[nodiscard]] const Number& hi() const { return hi_; }
 
@@ -93,17 +93,15 @@ class Root {
   int sign_of(const Polynomial& q);
   /// Shrinks the interval to at most half its width.
   void refine();
-  /// Whether the root is this number.
   [[nodiscard]] bool is(const Number& number) const;
   /// The root if it is rational, and nothing otherwise. The interval is refined until it contains only one
   /// fraction whose denominator divides the leading coefficient.
   std::optional<CGAL::Gmpq> as_rational();
-  /// Whether this root is smaller than the other root.
   bool is_below(Root& other);
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  /// Whether this and `other` are the same root. If so, both then share what is known about the root.
+  /// Whether this and `other` are the same root. If so, both then have the same polynomial and interval.
   bool is_same(Root& other);
   void cut(const Number& at);
   void take(std::shared_ptr<const Polynomial> p, Number lo, Number hi);

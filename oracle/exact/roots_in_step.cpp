@@ -11,15 +11,16 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// The roots in (0, 1) of a polynomial that is not zero at 0 or 1, in ascending order; or one root that was
-/// found as a number; or neither, if the search gave up.
+/// The result of isolate() for a polynomial that is not zero at 0 or 1: its roots in (0, 1), in ascending
+/// order, or one root that was found as a number. `found` is false if the search gave up.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
   bool found = true;
 };
 
-/// Fractions of a part outside of which there is no root, and where to cut between them, the upper cut first.
+/// How to cut a part, in fractions of the part. There is no root outside [lo, hi]; `at` has the cuts inside,
+/// the highest one first.
 struct Cuts {
   Number lo, hi;
   Numbers at;
@@ -29,7 +30,7 @@ struct Cuts {
 struct Part {
   Number lo, hi;
   OnInterval on;
-  bool at_extremum = true;     ///< if not, it is cut in the middle
+  bool at_extremum = true;     ///< whether usual() cuts near an extremum next, not in the middle
   unsigned bits = 44;          ///< see clusters()
   bool is_in_cluster = false;  ///< whether clusters() was called, so that coefficients may be long
 
@@ -86,10 +87,10 @@ struct Part {
   }
 };
 
-/// Cuts the interval until every part has no root or one simple root. It cuts alternately near an extremum
-/// and in the middle; there is an extremum between two close roots. If a few cuts do not help, it gives up
-/// unless the polynomial is known to have no multiple roots; for such a polynomial, it looks for clusters of
-/// roots between the cuts.
+/// Cuts [0, 1] until every part has no root or one simple root. The cuts are alternately near an extremum and
+/// in the middle; there is an extremum between two close roots. `is_simple` says that the polynomial has no
+/// multiple roots. If it is false, the search gives up after a few cuts; if it is true, the search then looks
+/// for clusters of roots between the cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;

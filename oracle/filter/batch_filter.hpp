@@ -29,9 +29,9 @@ class BatchFilter {
   BatchFilter(const QueryRows& queries, double caution, const QueryRows& ahead)
       : queries_(queries), ahead_(ahead), caution_(caution) {}
 
-  /// Processes the queries of kind `kind` in a batch of at most batch_size. It sets stages[i] if it
-  /// decides query i, and leaves it `undecided` otherwise. If `times` is set, it sets times[i] if it knows
-  /// between which neighbouring doubles the first contact is.
+  /// Processes the queries of the kind `kind` among at most batch_size queries. Sets stages[i] if query i is
+  /// decided, and leaves stages[i] `undecided` otherwise. If `times` is not null, sets times[i] if two
+  /// neighbouring doubles around the first contact are found.
   void run(FilterStage* stages, KnownTime* times) {
     const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);
@@ -50,7 +50,7 @@ class BatchFilter {
   using OfBatch = std::array<double, batch_size + n>;  ///< one number for each query
   static constexpr std::size_t weight_count = has_triangle(kind) ? 3 : 4;
 
-  /// A list of indices of queries, taken n at a time.
+  /// A list of the indices of some queries. Packs of n indices are processed together.
   class Rows {
    public:
     Rows() = default;
@@ -72,7 +72,8 @@ class BatchFilter {
     }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t operator[](std::size_t i) const { return rows_[i]; }
-    /// Rows first .. first + n - 1. Rows after the last one are arbitrary, and their lanes are ignored.
+    /// The n indices from `first` on. Those beyond the end of the list are arbitrary, and their lanes are
+    /// ignored.
     [[nodiscard]] const std::uint8_t* pack(std::size_t first) const { return rows_.data() + first; }
 
    private:
@@ -80,7 +81,6 @@ class BatchFilter {
     std::size_t size_ = 0;
   };
 
-  /// Calls `visit(lane, number)` for each of the first `count` lanes.
   template <class Visit>
   static void for_lanes(const typename Real::Integers& bits, std::size_t count, const Visit& visit) {
     std::array<std::int64_t, n> numbers;
@@ -111,7 +111,7 @@ class BatchFilter {
     __builtin_prefetch(x + 23);
   }
 
-  /// The lanes in which the swept boxes do not meet; box.hpp says why that is exact.
+  /// The lanes in which the swept boxes do not meet; box.hpp says why this test is exact.
   static Mask boxes_apart(const PointLanes& x) {
     constexpr std::size_t middle = split(kind);
     Mask apart{};
@@ -138,8 +138,8 @@ class BatchFilter {
       for (std::size_t l = 0; l < n; ++l) fetch(ahead_.x(rows[i + l]));
       const PointLanes x = points(rows.pack(i));
       const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
-      // Computes four sums at a time, since each addition depends on the one before. The total is finite only
-      // if all coordinates are.
+      // Four sums are computed side by side, because each addition to a sum waits for the one before. The
+      // total is finite only if all coordinates are finite.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
@@ -180,7 +180,7 @@ class BatchFilter {
     return left;
   }
 
-  /// Stores the weights in the component in which the normal is largest at t = 1/2.
+  /// Computes and stores the weights in the component in which the normal is largest at t = 1/2.
   void prepare_weights(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const StepPart<Real> whole = whole_step<Real>(points(rows.pack(i)));
@@ -197,7 +197,7 @@ class BatchFilter {
   using Quadratics = std::array<Bernstein<Real, 3>, weight_count>;
   using Look = certified::Look<n>;
 
-  /// F and the weights of some queries; `take` reads n numbers from a column.
+  /// F and the weights of n queries; `take` reads their n numbers from an array of F_ or W_.
   template <class Take>
   std::pair<Bernstein<Real, 4>, Quadratics> polynomials(const Take& take) const {
     const Bernstein<Real, 4> F{{take(F_[0]), take(F_[1]), take(F_[2]), take(F_[3])}, take(F_[4])};
@@ -213,14 +213,13 @@ class BatchFilter {
     std::uint8_t place;
     std::uint8_t depth;
   };
-  /// Parts that still have to be examined.
   struct PendingParts {
     static constexpr std::size_t room = 4 * batch_size;
     std::array<PendingPart, room + n> parts;
     std::size_t count = 0;
 
-    /// Adds the part [lo, hi] of `whole` if it is not empty; false if there is no room or the part is too
-    /// small.
+    /// Adds the part [lo, hi] of `whole` if that part is not empty. Returns false if there is no room, or if
+    /// `whole` has been divided too often.
     bool push(const PendingPart& whole, double lo, double hi) {
       constexpr std::uint8_t deepest = 6;
       if (whole.depth == deepest || count == room) return false;
@@ -229,7 +228,6 @@ class BatchFilter {
     }
   };
 
-  /// Examines the whole step of every query, then the remaining parts until none remains.
   void search(const Rows& rows, FilterStage* stages) {
     PendingParts parts;
     PendingParts next;
@@ -269,7 +267,8 @@ class BatchFilter {
     }
   }
 
-  /// Looks in double words at the weights near roots at which double does not show their signs.
+  /// Computes in double words the weights near those roots of F at which double does not show the weights'
+  /// signs.
   void look_precisely(std::size_t i, const Rows& rows, FilterStage* stages, PendingParts& next) {
     const PendingPart* const pack = &precise_.parts[i];
     const auto take = [&](const OfBatch& c) {
@@ -305,7 +304,7 @@ class BatchFilter {
         seen, precise_.count - i, [&](std::size_t l) { return pack[l]; }, rows, stages, next);
   }
 
-  /// Sets the stages and first contacts from the results for n parts, and adds the parts to examine next.
+  /// Sets stages and first contacts from the results for n parts, and adds the parts to examine next.
   template <class PartOfLane>
   void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
                  FilterStage* stages, PendingParts& next) {
@@ -364,14 +363,15 @@ class BatchFilter {
   }
 
   QueryRows queries_, ahead_;
-  double caution_;  ///< factor of all bounds, at least 1
+  double caution_;  ///< factor of all error bounds, at least 1
   bool asks_first_ = false;
-  // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
-  std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error
+  // These arrays are indexed like the list of searched queries; a pack of lanes may reach beyond the end of
+  // this list.
+  std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error of F
   std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
   PendingParts precise_;                     ///< parts for look_precisely()
-  // For each query, the bracket around the first contact that has been found, and the beginning of the first
-  // unclear part, or 1 if no part is unclear.
+  // For each query, the bracket [first_lo_, first_hi_] around the earliest contact found so far, and the
+  // beginning of the first unclear part, or 1 if no part is unclear.
   OfBatch first_lo_, first_hi_, unclear_from_;
 };
 

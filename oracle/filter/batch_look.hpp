@@ -38,7 +38,6 @@ struct Signs {
   typename Lanes<n>::Mask positive, negative;
 };
 
-/// The lanes in which all numbers are certainly positive, and those in which all are certainly negative.
 template <int n, std::size_t count>
 Signs<n> certain_signs(const std::array<Lanes<n>, count>& numbers, const Lanes<n>& error) {
   Signs<n> signs{numbers[0] > error, numbers[0] < -error};
@@ -71,9 +70,9 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
   return {all & (!opposed), opposed};
 }
 
-/// The outcome for a part of the step, and which of its parts must be examined next: [lo, left], [left,
-/// right] and [right, hi]. With `bracket`, there is a collision in [left, right]. With `precise`, F has a
-/// root there, but double does not show the signs of the weights.
+/// What look() finds in a part [lo, hi] of the step, in each lane. With `before`, `middle` and `behind`, [lo,
+/// left], [left, right] and [right, hi] must be examined next. With `bracket`, there is a collision in [left,
+/// right]. With `precise`, F has a root in [left, right], but double does not show the signs of the weights.
 template <int n>
 struct Look {
   enum : std::int64_t {
@@ -89,8 +88,9 @@ struct Look {
   Lanes<n> left, right;
 };
 
-/// The lanes in which the sign of F is known at the left end, at the right end and at both ends of a part,
-/// and those in which the signs differ.
+/// The lanes in which F certainly rises through 0 from the left to the right end of a part, or changes its
+/// sign in either direction; and the lanes in which the sign of F is known at the left end, the right end or
+/// both.
 template <int n>
 struct EndSigns {
   typename Lanes<n>::Mask rises, changes, left_known, right_known, known;
@@ -110,7 +110,7 @@ struct EndSigns {
 template <int n>
 struct RootBracket {
   Lanes<n> t, h, before, behind;
-  typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes sign in it
+  typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes its sign in the bracket
 
   /// Finds the root by Newton's method from the root of the secant; f has the Bernstein coefficients of F on
   /// [lo, hi].
@@ -146,7 +146,7 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
 }
 
 /// The lanes in which two weights certainly have opposite signs at each end of [lo, hi] at which the sign of
-/// F is not known. So there is no contact at these ends, and smaller parts may show more.
+/// F is not known. So there is no contact at these ends, and dividing the part may still decide the query.
 template <int n, std::size_t count>
 typename Lanes<n>::Mask opposed_at_unknown_ends(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                                                 const EndSigns<n>& ends, const Lanes<n>& lo,

@@ -8,8 +8,8 @@
 namespace nearmiss {
 
 /// Whether the axis-aligned boxes that the two primitives sweep over [0, 1] are at most the separation h
-/// apart along every axis; for h = 0, whether these closed boxes meet. If not, there is no collision. The
-/// test is exact: rounding is monotone, so fl(a - b) > h implies a - b > h.
+/// apart along every axis; for h = 0, whether these closed boxes meet. If the result is false, there is no
+/// collision. The test is exact: rounding is monotone, so fl(a - b) > h implies a - b > h.
 inline bool boxes_meet(const Query& query) {
   const auto range = [&](int first, int last, int k) {
     double lo = query.x[static_cast<std::size_t>(3 * first + k)];

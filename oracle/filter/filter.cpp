@@ -18,8 +18,8 @@ namespace nearmiss {
 namespace certified {
 namespace {
 
-/// Whether a plane perpendicular to an axis or a diagonal separates the primitives. Each pass tests two of
-/// these directions, one per lane.
+/// Whether a plane perpendicular to an axis or a diagonal separates the primitives. Each call of `across`
+/// tests two of these directions, one per lane.
 template <Kind kind>
 bool separated_by_a_plane(const Query& query) {
   using Two = Lanes<2>;
@@ -36,9 +36,7 @@ bool separated_by_a_plane(const Query& query) {
          });
 }
 
-/// The result of a search, and an interval of time. If the search was asked for a time, the interval contains
-/// the first contact, and is absent if there certainly is no contact. Otherwise, the interval is one that is
-/// unclear, or absent.
+/// The results of ContactSearch: run(), and first() with is_between().
 struct Found {
   FilterStage stage;
   std::optional<KnownTime> time;
@@ -61,22 +59,23 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
 }
 
 /// The neighbouring doubles around the first contact, or the double at which the contact happens; nothing if
-/// neither can be shown. `time` contains the first contact, if there is one. Everything is inlined, so that
-/// the compiler drops what this one root does not need.
+/// neither can be shown. `time` contains the first contact, if there is one. All calls are inlined, so that
+/// the compiler drops the computations that a single root does not need.
 [[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
                                                              const Bernstein<double, 4>& F,
                                                              const Enclosure& time) {
   const auto [lo, hi, hold] =
       neighbours_of_root(whole_step<DoubleWord>(coordinates(query)), F, time.lo, time.hi);
   if (hold) return KnownTime{{lo, hi}, true};
-  // If F is monotone, a touch is its only root.
+  // If F is monotone in the interval, F has at most one root in it, so a contact at t is the only contact in
+  // it.
   const double t = simplest_between(time.lo, time.hi);
   if (derivative(F).sign_on(time.lo, time.hi) == 0 || !touch_at(query, t)) return std::nullopt;
   return KnownTime{{t, t}};
 }
 
-/// Decides a query whose F may have a root. If `time` is not null, it also sets the time of the first
-/// contact if neighbouring doubles are known between which it lies.
+/// Decides a query whose F may have a root. If `time` is not null, sets it to two neighbouring doubles around
+/// the first contact, or to the time of the contact, if either is found.
 [[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
                                                         const Bernstein<double, 4>& F, KnownTime* time) {
   const auto may_touch_at = [&](int end) { return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error); };
@@ -88,7 +87,8 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
   if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
-    // There is an unclear part before the contact; without `time`, the search would have ended there.
+    // There may be an unclear part before the contact, and a search without `time` ends at such a part. The
+    // stage must not depend on `time`, so a search without `time` decides it.
     if (!found.time->is_between) found = search(query, F, whole);
   }
   if (found.stage != FilterStage::undecided) return found.stage;

@@ -1,4 +1,5 @@
-// The certified filter that precedes exact arithmetic: double arithmetic that never gives a wrong answer.
+// The certified filter that precedes exact arithmetic: floating-point arithmetic that never gives a wrong
+// answer.
 #pragma once
 
 #include <array>
@@ -20,8 +21,8 @@ enum class FilterStage : std::uint8_t {
   planes,       ///< no: a moving plane (planes.hpp) separates the primitives, by more than h
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: two weights have opposite signs at every time at which F may vanish
-  sign_change,  ///< yes: F changes its sign where all weights are inside
-  at_an_end,    ///< yes: they touch where F or a weight is exactly 0, as at t = 0 or 1 (sure_contact.hpp)
+  sign_change,  ///< yes: F changes its sign while all weights have one sign
+  at_an_end,    ///< yes: a contact with F or a weight exactly 0, as at t = 0 or 1 (sure_contact.hpp)
   apart,        ///< no: the distance is always above the separation h > 0
   within,       ///< yes: the distance falls below the separation h > 0
   undecided,    ///< exact arithmetic must decide
@@ -38,20 +39,20 @@ constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end || stage == FilterStage::within;
 }
 
-/// Decides a query in double arithmetic with certified bounds, or leaves it undecided; the box test is not
-/// included. A query with a coordinate that is not finite is left undecided.
+/// Decides a query in double and double words with certified bounds, or leaves it undecided; the box test is
+/// not included. A query with a coordinate that is not finite is left undecided.
 FilterStage filter(const Query& query);
 
 /// The width to which most times can be enclosed without double words.
 inline constexpr double rough_time = 0x1p-30;
 
-/// An interval that contains the time of the first contact, if there is one, found in the arithmetic of
-/// filter(); nothing if there certainly is none. Most intervals are at most `width` wide, or as narrow as
-/// doubles allow. The box test is not included.
+/// An interval that contains the time of the first contact, computed in the arithmetic of filter(); nothing
+/// if there certainly is no contact. Most intervals are at most `width` wide, or as narrow as doubles allow.
+/// The box test is not included.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
-/// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the
-/// answers. A query with a coordinate that is not finite is left undecided.
+/// Decides many queries of any kinds, including the box test. The instruction set does not affect the
+/// answers.
 void filter(const QueryRows& queries, std::span<FilterStage> stages,
             Instructions instructions = chosen_instructions());
 inline void filter(std::span<const Query> queries, std::span<FilterStage> stages,
@@ -60,8 +61,8 @@ inline void filter(std::span<const Query> queries, std::span<FilterStage> stages
 }
 
 /// Decides as filter() does. For a collision, `time` is set to the neighbouring doubles between which the
-/// first contact lies, or to that time itself, or to [0, 1] if it is not known so precisely. If there is
-/// no collision, `time` means nothing.
+/// first contact lies, or to the time of the contact, or to [0, 1] if neither is known. If there is no
+/// collision, `time` means nothing.
 FilterStage filter_for_time(const Query& query, KnownTime& time);
 void filter_for_times(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
                       Instructions instructions = chosen_instructions());

@@ -12,10 +12,9 @@ namespace nearmiss::certified {
 inline constexpr std::size_t batch_size = 128;
 
 /// Decides at most batch_size queries, with every error bound multiplied by `caution`, or leaves them
-/// `undecided`. If `times` is not null, it also sets times[i] for a collision i whose first contact
-/// certainly lies between two neighbouring doubles, and leaves the other times as they are. All
-/// instruction sets give the same results. At the same time, the queries in `ahead` are prefetched;
-/// `ahead` must have the size of `queries`.
+/// `undecided`. If `times` is not null, also sets times[i] for each collision i whose first contact certainly
+/// lies between two neighbouring doubles, and leaves the other times as they are. Meanwhile, the queries in
+/// `ahead` are prefetched; `ahead` must have the size of `queries`.
 using FilterBatch = void(const QueryRows& queries, double caution, FilterStage* stages, KnownTime* times,
                          const QueryRows& ahead);
 

@@ -12,10 +12,10 @@ namespace nearmiss::certified {
 
 inline bool any_of(bool mask) { return mask; }
 
-inline constexpr double value_growth = 1.02;   ///< factor by which roundings and underflow increase E
-inline constexpr double secant_rounding = 10;  ///< roundings, in units of U (|v| + |S| g)
+inline constexpr double value_growth = 1.02;   ///< factor by which roundings and underflow increase E (below)
+inline constexpr double secant_rounding = 10;  ///< roundings, in units of U (|v| + |S| g) (below)
 
-/// Two neighbouring doubles, and the lanes in which the root certainly lies between them.
+/// Two neighbouring doubles, and whether a root certainly lies between the two, for each lane.
 template <class Real>
 struct Neighbours {
   using Mask = decltype(Real() < Real());
@@ -24,13 +24,14 @@ struct Neighbours {
 };
 
 /// Looks for the neighbouring doubles around a root of F that lies in [lo, hi]; F is given over the whole
-/// `step`. The result is right only if F is monotone in [lo, hi], so that F has no other root there.
+/// `step`. `hold` is true only if F is certainly monotone in [lo, hi], so that F has no other root there.
 ///
 /// After Newton's method in double, one more step from a time t, with F in double words, gives both doubles.
-/// The mean value theorem gives the signs of F at them: F(d) = F(t) + F'(s) (d - t) for an s between t and d.
-/// F(t) = v is computed within a bound E, and F'(s) is S within a bound R < |S|. With g >= |d - t|, the
-/// roundings of v to its upper half, of d - t, of its product with S, and of the sum add 2 U |v| + 3 U |S| g,
-/// and those of R g another 4 U |S| g. Underflow adds at most 5 H, and E is at least 512 H.
+/// The mean value theorem gives the sign of F at each double d: F(d) = F(t) + F'(s) (d - t) for an s between
+/// t and d. Let v be the computed F(t), with an error of at most E, and S the computed slope, which differs
+/// from F'(s) by at most R < |S|. With g >= |d - t|, the roundings of v to its upper half, of d - t, of S (d
+/// - t), and of the sum add 2 U |v| + 3 U |S| g, and the roundings of R g add another 4 U |S| g. Underflow
+/// adds at most 5 H, with H = `smallest` / 2, and E is at least 512 H.
 template <class Real>
 Neighbours<Real> neighbours_of_root(const StepPart<DoubleWordOf<Real>>& step, const Bernstein<Real, 4>& F,
                                     const Real& lo, const Real& hi) {

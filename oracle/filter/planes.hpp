@@ -1,4 +1,5 @@
-// Separation by moving planes perpendicular to the axes and the diagonals. These tests only need comparisons.
+// Separation by moving planes perpendicular to the axes and the diagonals. These tests only need comparisons
+// of coordinates, and of sums of two coordinates.
 #pragma once
 
 #include <algorithm>
@@ -24,16 +25,16 @@ struct HeightRange {
   }
 };
 
-/// Whether the first primitive is above the second one at both ends of the step, or below it at both.
-/// `height(time, vertex)` gives the heights of the vertices in some direction, and `is_above(lo, hi)`
-/// compares the lowest vertex of one primitive with the highest vertex of the other. If so, all differences
-/// of heights between the primitives have one sign at both ends and, because they are linear, at every time.
-/// Their convex combinations have this sign, too, so the primitives never meet. If `is_above` asks for a
-/// difference of more than g, the heights of the primitives always differ by more than g.
+/// Whether the first primitive is above the second one at both ends of the step, or below the second one at
+/// both ends. `height(time, vertex)` gives the heights of the vertices in some direction, and `is_above(lo,
+/// hi)` compares the lowest vertex of one primitive with the highest vertex of the other. If the result is
+/// true, all differences of heights between the primitives have one sign at both ends and, because these
+/// differences are linear, at every time. Their convex combinations have this sign, too, so the primitives
+/// never meet. If `is_above` asks for a difference of more than g, the heights of the primitives always
+/// differ by more than g.
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
-  // The range of the heights of the vertices from `begin` to `end` - 1.
   const auto range = [&](std::size_t time, std::size_t begin, std::size_t end) {
     HeightRange<Real> heights(height(time, begin));
     for (std::size_t vertex = begin + 1; vertex < end; ++vertex) heights.add(height(time, vertex));
@@ -97,18 +98,19 @@ struct IsFartherAbove {
 
 inline constexpr double root_of_two = 1.4142136;  ///< rounded up, with a relative error below 2^-25
 inline constexpr double height_rounding =
-    0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
+    0x1p-51;  ///< rounding of a difference of two sums, relative to the sum of their magnitudes
 
 /// For a separation h: whether a height along a diagonal is so far above another one that the points are more
-/// than h apart. Heights along a diagonal are sums of two coordinates, rounded once. The diagonal vector has
-/// length √2, so heights of points at a distance of at most h differ by at most √2 h.
+/// than h apart. The diagonal vector has length √2, so heights of points at a distance of at most h differ by
+/// at most √2 h.
 ///
-/// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact.
-/// D = fl(A - B) is at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact
-/// heights differ by at least A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The right side below computes
-/// √2 h + 4 u (|A| + |B|). Its roundings may make it smaller by a relative error of 3 u, which the margins of
-/// its constants cover. Underflow in its products may make it smaller by twice the smallest double, which is
-/// added. If a sum or D is infinite, the right side is infinite or NaN, and the answer is false.
+/// With u = 2^-53, a computed sum S is within u |S| of the exact sum; a subnormal sum is exact. Let A and B
+/// be the computed heights. D = fl(A - B) is at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1
+/// (|A| + |B|). The exact heights differ by at least A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The
+/// right side below computes √2 h + 4 u (|A| + |B|). Roundings may make the right side smaller by a relative
+/// error of 3 u, which the margins of its constants cover. Underflow in its products may make it smaller by 2
+/// `smallest`, which is added. If a sum or D is infinite, the right side is infinite or NaN, and the answer
+/// is false.
 struct IsFartherAboveDiagonally {
   double h;
   bool operator()(double lo, double hi) const {

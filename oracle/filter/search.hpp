@@ -1,4 +1,4 @@
-// The search for the zeros of F in a part of the step, and for the signs of the weights there.
+// The search for the zeros of F in a part of the step, and for the signs of the weights near these zeros.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +14,18 @@
 
 namespace nearmiss::certified {
 
-/// When a subinterval becomes a part of its own, both its ends move outward by this much.
+/// When an interval becomes a part of its own, each of its ends moves outward by this length.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// The question to a search: whether there is a contact, or also its first time, roughly or to neighbouring
-/// doubles.
+/// What a search is asked: only whether there is a contact, or also when the first contact is, roughly or to
+/// neighbouring doubles.
 enum class Asked : std::uint8_t { whether, when, when_precisely };
 
-/// Searches a part of the step, from its beginning to its end. It drops an interval if F has one sign or two
-/// weights have opposite signs on it, and splits an interval if that helps. It ends when all intervals are
-/// dropped, one contains a collision, or one is unclear. An unclear interval is searched again as a part of
-/// its own, in which the vectors and hence their errors are smaller.
+/// Searches a part of the step for a contact, from the beginning of the part to its end. The search drops an
+/// interval if F has one sign or two weights have opposite signs in the interval, and divides other
+/// intervals. If errors hide these signs in a small interval, the interval is searched as a part of its own
+/// (zoom()), in which the vectors and hence their errors are smaller. The search ends when all intervals are
+/// dropped, one contains a collision, or one remains unclear.
 template <class Real>
 class ContactSearch {
  public:
@@ -45,14 +46,15 @@ class ContactSearch {
     return found_ ? FilterStage::sign_change : unclear_ ? FilterStage::undecided : FilterStage::weights;
   }
 
-  /// An interval of the step. If the search was asked for a time, it contains the time of the first contact
-  /// in this part, if there is a contact. Otherwise, it is the interval that is unclear, or nothing.
+  /// An interval of the step. If the search was asked for a time, the interval contains the first contact in
+  /// this part, and the result is nothing if there certainly is no contact. If the search was asked only
+  /// whether there is a contact, the result is the interval that is unclear, or nothing.
   [[nodiscard]] std::optional<Enclosure> first() const {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
   }
-  /// Whether the time of the first contact is certainly no end of the interval of first(): F is certainly not
-  /// zero at the ends of an interval in which it changes its sign.
+  /// Whether the time of the first contact is certainly neither end of the interval of first(): F changes its
+  /// sign in this interval, and is certainly not zero at its ends.
   [[nodiscard]] bool is_between() const { return is_between_ && !unclear_; }
 
  private:
@@ -81,7 +83,7 @@ class ContactSearch {
     if (left_known && right_known) {
       split = turn(interval, f);
     } else {
-      // If F is hardly above its error, a smaller interval shows little more.
+      // If |F| hardly exceeds its error, dividing the interval would show little more.
       if (std::all_of(f.begin(), f.end(), [&](double x) { return std::abs(x) <= 2 * clear * F_.error; }))
         return zoom(interval);
       if (right_known) split = lo + (hi - lo) * beyond_error(f);
@@ -105,8 +107,8 @@ class ContactSearch {
   }
 
   /// An estimate of the time at which F, given by its Bernstein coefficients, has an extremum in an interval;
-  /// the middle of the interval if there is none. If the extremum is at an end to double precision, the
-  /// result is a time near that end.
+  /// the middle of the interval if no extremum is found. If the extremum is at an end to double precision,
+  /// the result is a time near that end.
   [[nodiscard]] static double turn(const Enclosure& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
@@ -117,10 +119,11 @@ class ContactSearch {
   }
 
   /// Examines an interval in which F certainly changes its sign. `agree` says whether all weights have one
-  /// sign there.
+  /// sign in this interval.
   FilterStage look_around(const Enclosure& interval, const std::array<double, 4>& f,
                           const Weights<Real>& weights, bool agree) {
-    // The root is computed from the end at which |F| is smaller, so it is as precise as F is there.
+    // The root is computed relative to the end at which |F| is smaller. Near this end, the root is then as
+    // precise as F.
     const double f_lo = f[0];
     const bool from_lo = std::abs(f[0]) <= std::abs(f[3]);
     const auto seen = from_lo ? f : backwards(f);
@@ -148,7 +151,8 @@ class ContactSearch {
     return agree ? found(interval, interval) : zoom(interval);
   }
 
-  /// Notes a contact in `near`, a part of an interval: F changes its sign there, and all weights are inside.
+  /// Notes a contact in `near`, a part of an interval: F changes its sign in `near`, and all weights have one
+  /// sign.
   FilterStage found(const Enclosure& near, const Enclosure& interval) {
     const Enclosure first = asked_ == Asked::when_precisely && is_whole() ? first_change(near) : near;
     found_ = in_step(first, is_whole() ? 0 : zoom_rounding);
@@ -156,7 +160,8 @@ class ContactSearch {
     return look_before(first, interval);
   }
 
-  /// A smaller interval with F's first change of sign; neighbouring doubles if F is clear of its error.
+  /// Narrows an interval around F's first change of sign: to neighbouring doubles if |F| exceeds its error at
+  /// each time that is tried.
   [[nodiscard]] Enclosure first_change(Enclosure near) const {
     const bool rises = F_.at(near.hi) > 0;
     while (true) {
@@ -170,8 +175,8 @@ class ContactSearch {
     }
   }
 
-  /// Ends the search after a contact in `near`, unless a time is asked for and F may have a root earlier in
-  /// the interval; then the search goes on there, and drops everything later.
+  /// Ends the search after a contact in `near`. But if a time is asked for and F may have a root before
+  /// `near` in the interval, the search goes on before `near`, and drops all later intervals.
   FilterStage look_before(const Enclosure& near, const Enclosure& interval) {
     if (asked_ == Asked::whether || interval.lo == near.lo || F_.sign_on(interval.lo, near.lo) != 0)
       return FilterStage::sign_change;
@@ -185,8 +190,8 @@ class ContactSearch {
     return F_.sign_on(interval.lo, near.lo) != 0 && F_.sign_on(near.hi, interval.hi) != 0;
   }
 
-  /// An interval around a root in which two weights certainly have opposite signs. They have in `near`.
-  /// Returns the widest of some intervals that contain `near` and in which they have, too; else `near`.
+  /// The widest of some intervals that contain `near` and in which two weights certainly have opposite signs,
+  /// as they have in `near`.
   Enclosure widest_opposed(const Enclosure& interval, double root, const Enclosure& near,
                            const Weights<Real>& weights) const {
     for (const double part : {0.25, 0x1p-5}) {
@@ -205,14 +210,13 @@ class ContactSearch {
     return *weights_;
   }
 
-  /// Continues with the two parts of an interval on both sides of its middle, the earlier one first.
+  /// Continues with the two parts of `interval` before and after `middle`, the earlier one first.
   FilterStage go_on_beside(const Enclosure& interval, const Enclosure& middle) {
     if (middle.hi < interval.hi && !push({middle.hi, interval.hi})) return unclear(interval);
     if (interval.lo < middle.lo && !push({interval.lo, middle.lo})) return unclear(interval);
     return FilterStage::weights;
   }
 
-  /// Notes that it is not known whether there is a contact in an interval.
   FilterStage unclear(const Enclosure& interval) {
     return unclear_in_step(in_step(interval, is_whole() ? 0 : zoom_rounding));
   }
@@ -223,7 +227,7 @@ class ContactSearch {
     return asked_ == Asked::whether ? FilterStage::undecided : FilterStage::weights;
   }
 
-  /// Searches the interval as a part of its own, if it is much smaller than this part.
+  /// Searches the interval as a part of its own, if it is at most half as long as this part.
   FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
@@ -241,11 +245,10 @@ class ContactSearch {
     return stage == FilterStage::undecided ? unclear_in_step(closer.first()) : stage;
   }
 
-  /// Whether this part is the whole step. If so, the times of the part are the times of the step.
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
-  /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the
-  /// error of four roundings of numbers up to 1. The widened interval is still inside the step.
+  /// Converts an interval of this part to the time of the step, and widens it by `rounding` within this part.
+  /// `zoom_rounding` is more than the error of four roundings of numbers up to 1.
   [[nodiscard]] Enclosure in_step(const Enclosure& interval, double rounding) const {
     const double length = part_.end - part_.begin;
     return {std::max(part_.begin, part_.begin + interval.lo * length - rounding),
@@ -259,7 +262,7 @@ class ContactSearch {
     return true;
   }
 
-  static constexpr double clear = 8;  ///< F is clear of its error if |F| exceeds it by this factor
+  static constexpr double clear = 8;  ///< F is clear of its error if |F| exceeds this error by this factor
 
   Kind kind_;
   const StepPart<Real>& whole_;
@@ -268,7 +271,7 @@ class ContactSearch {
   int depth_;
   Asked asked_;
   std::optional<Enclosure> found_;    ///< in the time of the step; contains the first contact found so far
-  bool is_between_ = false;           ///< whether that time is certainly neither end of `found_`
+  bool is_between_ = false;           ///< whether that contact is certainly at neither end of `found_`
   std::optional<Enclosure> unclear_;  ///< in the time of the step; contains all unclear intervals
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;

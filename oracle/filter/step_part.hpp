@@ -15,61 +15,63 @@
 //   W3 = (b - a) × (c - a) = W0 + W1 + W2.
 // At F = 0 the primitives meet only if, in every component, these agree in sign or are zero:
 //   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
-//   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, from x20 = α x10 - β x32.
+//   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, for x20 = α x10 - β x32.
 // The reason is that at a meeting point each weight is a number in [0, 1], and each W is that number times N,
 // even for N = 0. So two W with certainly opposite signs exclude a collision. If all W certainly have the
-// same sign in one component, N is not zero there, and F = 0 means a collision; so there is one if F
+// same sign in one component, N is not zero, and F = 0 means a collision. Then there is a collision if F
 // certainly changes its sign.
 //
-// Rounding errors, in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. A
-// vector v comes with V, the largest magnitudes of its computed components, and e_v, bounds of their errors.
-// tests/proofs/ derives each constant below again from this code, proves it with Gappa, and shows how near an
-// error can come to it.
+// Rounding errors are in units of U, the relative error of one operation (`roundoff`); (1 + U)^k - 1 is at
+// most 1.01 k U. A vector v comes with V, the largest magnitudes of its computed components, and e_v, bounds
+// of the errors of these components. tests/proofs/ derives each constant below again from this code, proves
+// it with Gappa, and shows how near an error can come to it.
 //
 // - A product x y of two components changes by at most X e_y + Y e_x + e_x e_y because of the errors of its
 //   factors.
 //
 // - W_k consists of at most four products: the middle Bernstein coefficient is half the sum of two
-//   differences of two products. Let w be the sum of the magnitudes of two products, and l the sum of the
-//   errors from their factors. The roundings of product, difference and sum add 3 U w; halving is exact. One
-//   level of de Casteljau's algorithm adds 3 roundings (s = 1 - t, product, sum), and its result stays within
-//   the range of the coefficients, because s + t = 1 with both in [0, 1]. Two levels add 6.1 U (w + l). The
-//   sum is at most 9.2 U w + (1 + 6.1 U) l (8 is proven, since t itself is exact). The code uses 10 U w +
-//   1.01 l.
+//   differences of two products. For the two products in component k of p × q, let w = P_i Q_j + P_j Q_i, and
+//   let l be the bound of the errors that come from their factors. The roundings of product, difference and
+//   sum add 3 U w; halving is exact. One level of de Casteljau's algorithm adds 3 roundings (s = 1 - t,
+//   product, sum), and its result stays within the range of the coefficients, because s + t = 1 with both in
+//   [0, 1]. Two levels add 6.1 U (w + l). In all, the error is at most 9.2 U w + (1 + 6.1 U) l (8 U w is
+//   proven, since t itself is exact). The code uses 10 U w + 1.01 l.
 //
-// - F consists of such sums, without the halving, and a third vector a. The errors from the factors are L = Σ
-//   (A_k l_k + e_a (w_k + l_k)). The roundings are 3 in the sums, 1 in the product, 2 in two additions, 1 in
-//   the sum of two dot products, and 2 in a division by 3 (in double words, a product with a rounded 1/3).
-//   They add 9 U M with M = Σ A_k w_k. Three levels of de Casteljau's algorithm add 9.1 U (M + L). The sum is
-//   at most 18.3 U M + (1 + 9.1 U) L (16 is proven, and 17 in double words). The code uses 20 U M + 1.01 L.
+// - F is the dot product of such W_k, without the halving, and a third vector a. The errors from the factors
+//   are L = Σ (A_k l_k + e_a (w_k + l_k)). There are 3 roundings in W_k, 1 in its product with a_k, 2 in the
+//   two additions of the dot product, 1 in the sum of two dot products, and 2 in a division by 3 (in double
+//   words, a product with a rounded 1/3). These add 9 U M with M = Σ A_k w_k. Three levels of de Casteljau's
+//   algorithm add 9.1 U (M + L). In all, the error is at most 18.3 U M + (1 + 9.1 U) L (16 U M is proven, and
+//   17 U M in double words). The code uses 20 U M + 1.01 L.
 //
 // - w, l, M and L are computed in double and may be too small by a relative error of 12 · 2^-53. This is far
-//   less than the margin above.
+//   less than the margins of the code's constants.
 //
 // - Underflow adds at most H, `product_underflow` times the smallest double, to the error of a product, a
-//   halving or a division by 3; sums are exact in that range. For W it adds 2 H or, in the middle, 3 H, and 2
-//   H for each of two levels: 7 H. The products in the bound itself, with those of `error_near`, may lose 11
-//   H. For F, the products of b and c add 2 H Σ A_k, and all others add 9 H; L loses less than 10 H Σ (A_k +
-//   e_k), and the rest of the bound 10 H. The code uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
+//   halving or a division by 3; sums are exact in that range. Underflow adds 2 H to a coefficient of W, or 3
+//   H to the middle one, and 2 H in each of two levels: at most 7 H. The products in the bound of W, with
+//   those of `error_near`, may lose 11 H. For F, the products of b and c add 2 H Σ A_k, and all other
+//   products add 9 H; L loses less than 10 H Σ (A_k + e_k), and the rest of the bound loses 10 H. The code
+//   uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
 //
 // - Overflow: sums of products are at most 2 w in W and 3 M in F, up to rounding. The bounds are computed
-//   from 4 w and 4 M (`headroom`). If anything overflows in a coefficient or in the results of `Bernstein`,
-//   these are infinite or NaN. The error bound is then infinite or NaN too, and every comparison with it
-//   fails. (Differences of coordinates that overflow have infinite magnitudes. In double words a coefficient
-//   may be NaN earlier.)
+//   from 4 w and 4 M (`headroom`). If a coefficient or a result of `Bernstein` overflows, it is infinite or
+//   NaN. Its error bound is then infinite or NaN, too, and every comparison with this bound fails.
+//   (Differences of coordinates that overflow have infinite magnitudes. In double words, a coefficient may be
+//   NaN where double would still be finite: `two_product` overflows when it splits a factor of about 2^997 or
+//   more.)
 
 namespace nearmiss::certified {
 
-inline constexpr double weight_rounding = 10;     ///< rounding of W, in units of U w
-inline constexpr double F_rounding = 20;          ///< rounding of F, in units of U M
+inline constexpr double weight_rounding = 10;     ///< roundings of W, in units of U w
+inline constexpr double F_rounding = 20;          ///< roundings of F, in units of U M
 inline constexpr double two_leaves = 2.01;        ///< l in units of U w, if both factors are rounded once
 inline constexpr double three_leaves = 3.02;      ///< L in units of U M, if three factors are rounded once
 inline constexpr double leaf_growth = 1.01;       ///< factor by which later roundings increase l and L
-inline constexpr double part_rounding = 4;        ///< a vector on a part of the step, in units of U V
+inline constexpr double part_rounding = 4;        ///< roundings of a vector in part_of(), in units of U V
 inline constexpr double underflow_products = 32;  ///< underflow, in units of H
 inline constexpr double headroom = 4;
 
-/// The underflow term of a bound.
 template <class Real>
 inline constexpr double underflow = smallest*(underflow_products* product_underflow<Real>);
 
@@ -77,9 +79,9 @@ inline constexpr double underflow = smallest*(underflow_products* product_underf
 template <class Real>
 struct Motion {
   Vec<Real> start, end;
-  Vec<Bound<Real>> magnitude;  ///< the larger magnitude of both ends, for each component
-  bool rounded_once;           ///< every component is exact up to a factor of 1 ± U; then `error` is not set
-  Vec<Bound<Real>> error;      ///< bound for both ends, for each component
+  Vec<Bound<Real>> magnitude;  ///< the larger of the magnitudes at the two ends, for each component
+  bool rounded_once;       ///< whether components are exact up to a factor of 1 ± U; `error` is then not set
+  Vec<Bound<Real>> error;  ///< bound of the error at both ends, for each component
 };
 
 template <class Real>
@@ -91,8 +93,8 @@ Vec<Bound<Real>> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
   return m;
 }
 
-/// x_i - x_j over the whole step, from the points `x(time, vertex, k)`. It is exact in double words, and
-/// rounded once otherwise.
+/// x_i - x_j over the whole step, from the points `x(time, vertex, k)`. The result is exact in double words,
+/// and rounded once otherwise.
 template <class Real, class Points>
 Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   constexpr bool is_exact = is_double_word<Real>;
@@ -113,8 +115,8 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   return motion;
 }
 
-/// The motion over the part [lo, hi] of the time that `whole` covers. It has 3 roundings: 1 - t, products,
-/// sum.
+/// The motion over the part [lo, hi] of the time that `whole` covers. Each component is rounded 3 times: in 1
+/// - t, in the products, and in the sum.
 template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
@@ -138,8 +140,8 @@ Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bou
   return part;
 }
 
-/// `headroom` times the sum of the magnitudes of both products in component k of p × q, and the error that
-/// comes from their factors.
+/// Bounds for one component of a cross product: w4 is `headroom` times w, and l is the error from the factors
+/// (w and l as above).
 template <class Real>
 struct CrossBound {
   Bound<Real> w4, l;
@@ -224,7 +226,8 @@ StepPart<Real> part_of(const StepPart<Real>& whole, double begin, double end) {
   return {begin, end, part(whole.a), part(whole.b), part(whole.c), part(whole.x21), part(whole.x31)};
 }
 
-/// One component of the weights' quadratics, with signs chosen so that they agree at a collision.
+/// The weights' quadratics in component k, with signs chosen so that all weights agree in sign at a
+/// collision.
 template <class Real>
 struct Weights {
   std::array<Bernstein<Real, 3>, 4> w;
@@ -246,7 +249,7 @@ struct Weights {
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
-  /// The result of agreement_on for [t - h, t + h]; faster, and as good if h is small.
+  /// Like agreement_on(t - h, t + h), but faster, and as good if h is small.
   [[nodiscard]] int agreement_near(double t, double h) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
   }

@@ -16,7 +16,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 
-/// The sign of the area of three points, projected along axis k.
+/// The sign of the area of the triangle x[i] x[j] x[l], projected along axis k.
 int orientation(const std::array<Point, 4>& x, int i, int j, int l, int k) {
   const auto see = [&](int n) {
     const Point& p = x[static_cast<std::size_t>(n)];
@@ -28,8 +28,8 @@ int orientation(const std::array<Point, 4>& x, int i, int j, int l, int k) {
 /// Whether two signs are not opposite.
 bool agree(int first, int second) { return first * second >= 0; }
 
-/// The coordinates at a time, and whether they are doubles; if not, they mean nothing. A product far above
-/// the smallest double has an error that is a double.
+/// The coordinates of the vertices at a time, and whether all of them are doubles; if not, `x` means nothing.
+/// two_product() is exact for products far above the smallest double.
 struct CoordinatesAt {
   std::array<double, 12> x;
   bool are_exact = true;
@@ -55,9 +55,9 @@ struct InPlane {
   Motion<double> from_start, to_end, along;  ///< start to vertex, vertex to end, and start to end of the edge
   std::size_t k;
 
-  /// Whether the vertex certainly crosses the edge near a time at which their area is about 0. Where the area
-  /// changes its sign, the vertex is on the edge's line. If, in one coordinate, the vertex is also between
-  /// the ends of the edge, it is on the edge.
+  /// Whether the vertex certainly crosses the edge near a time t at which `area`, of the triangle of the
+  /// vertex and the edge, is about 0. When the area changes its sign, the vertex is on the edge's line. If,
+  /// in one coordinate, the vertex is also between the ends of the edge, it is on the edge.
   [[nodiscard]] bool cross_near(double t, const Bernstein<double, 3>& area) const {
     const double slope = 2 * ((1 - t) * (area.b[1] - area.b[0]) + t * (area.b[2] - area.b[1]));
     const double h = 4 * area.error / std::abs(slope) + 0x1p-50;
@@ -75,7 +75,7 @@ struct InPlane {
     return lies_between((k + 1) % 3) || lies_between((k + 2) % 3);
   }
 
-  /// Whether the vertex certainly crosses the edge. Its time is a root of the area, up to rounding.
+  /// Whether the vertex certainly crosses the edge, at a time that is a root of the area.
   [[nodiscard]] bool cross() const {
     const Bernstein<double, 3> area = cross_component(from_start, along, k);
     if (common_sign(area.b, area.error) != 0) return false;
@@ -108,7 +108,7 @@ bool touch_at(const Query& query, double time) {
     if (of_0 == of_1 && of_2 == of_3) continue;  // perhaps parallel, or projected onto one line
     return of_0 * of_1 <= 0 && of_2 * of_3 <= 0;
   }
-  // The triangle is the union of its edges, or the edges are parallel.
+  // If no component has decided, the triangle is the union of its edges, or the two edges are parallel.
   return std::ranges::any_of(topology(query.kind).vertices_and_edges, [&](const VertexAndEdge& each) {
     const Point& vertex = x[each.vertex];
     return CGAL::collinear(x[each.from], vertex, x[each.to]) &&

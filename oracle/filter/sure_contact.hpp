@@ -1,4 +1,5 @@
-// Contacts that no search in floating-point arithmetic finds, because F or a weight is exactly zero there.
+// Contacts that no search in floating-point arithmetic finds, because F or a weight is exactly zero at the
+// contact.
 #pragma once
 
 #include "ccd/query/query.hpp"
@@ -6,11 +7,11 @@
 namespace nearmiss::certified {
 
 /// Whether the primitives touch at a time in [0, 1], by exact predicates. The answer is exact if all vertices
-/// have doubles as coordinates at that time, as they have at t = 0 and t = 1; otherwise it is false.
+/// have doubles as coordinates at that time, as they have at t = 0 and t = 1; otherwise the answer is false.
 bool touch_at(const Query& query, double time);
 
-/// Whether a vertex certainly crosses an edge of the other primitive while both stay in a plane that is
-/// perpendicular to an axis, and may move along it. Scenes of boxes and grids have many such contacts.
+/// Whether a vertex certainly crosses an edge of the other primitive while both stay in a plane perpendicular
+/// to an axis. The plane may move along the axis. Scenes of boxes and grids have many such contacts.
 bool crosses_in_a_plane(const Query& query);
 
 }  // namespace nearmiss::certified

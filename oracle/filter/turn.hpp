@@ -1,4 +1,4 @@
-// Chooses the components in which the weights of queries in lanes are computed.
+// Chooses, for the query in each lane, the component in which the weights are computed.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace nearmiss::certified {
 
-/// Turns vectors so that the component in which the normal is largest at some time comes first. Only the
-/// other two components are kept, because the weights need no more.
+/// Permutes the components of vectors cyclically, so that the component in which the normal is largest at
+/// some time comes first. Only the other two are kept, because they determine that component of the weights.
 template <int n, Kind kind>
 class Turn {
   using Real = Lanes<n>;

@@ -1,6 +1,6 @@
 // The oracle behind the interface that contact codes use for CCD: the positions of all points at the start
-// and the end of the step, a time of impact, a minimum distance, and the largest time. A class with these
-// names and arguments can be replaced by nearmiss::ExactCCD. C++20.
+// and the end of the step, a time of impact, a minimum distance, and the largest time. nearmiss::ExactCCD can
+// replace a class whose functions have the names and arguments below. C++20.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 namespace nearmiss {
 
 /// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at
-/// some t in [0, tmax], and sets `toi` to the largest double that is not after the first such t. So nothing
-/// happens in [0, toi), and `toi` need not be scaled down. If there is no such t, `toi` is infinite. If a
-/// coordinate is not finite, `min_distance` negative, or tmax above 1, the functions report a collision with
-/// toi = 0, because a simulation must not take that step.
+/// some t in [0, tmax], and sets `toi` to the largest double that is not after the first such t. So the
+/// distance is above `min_distance` in [0, toi), and `toi` need not be scaled down. If there is no such t,
+/// `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions
+/// report a collision with toi = 0, because a simulation must not take that step.
 ///
 /// Points may have any type with operator[] or operator(). They have three coordinates; if their size() is 2,
 /// the third coordinate is 0.
@@ -53,7 +53,8 @@ class ExactCCD {
   }
 
  private:
-  /// A float as a double, exactly, even if the processor takes subnormal floats for 0. NaN becomes infinity.
+  /// Converts a float to double exactly, even if the processor takes subnormal floats for 0. NaN becomes
+  /// infinity.
   static double widened_float(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     constexpr std::uint32_t exponent = 0x7f800000;

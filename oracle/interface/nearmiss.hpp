@@ -28,7 +28,7 @@ namespace nearmiss {
 enum class Status : int {
   ok = NEARMISS_OK,
   not_finite = NEARMISS_NOT_FINITE,      ///< all queries are answered, some by Answer::none or NaN
-  bad_argument = NEARMISS_BAD_ARGUMENT,  ///< nothing is answered: a span of another length, or a null pointer
+  bad_argument = NEARMISS_BAD_ARGUMENT,  ///< nothing is answered: a span of a wrong length, or a null pointer
   out_of_memory = NEARMISS_OUT_OF_MEMORY,  ///< some queries are not answered
 };
 
@@ -63,7 +63,7 @@ struct Interval {
 /// A sentence that explains a status.
 inline const char* message(Status status) noexcept { return nearmiss_message(static_cast<int>(status)); }
 
-/// Queries of one kind in the caller's memory, which must outlive them. Nothing is copied.
+/// Queries of one kind in the caller's memory, which must outlive this object. Nothing is copied.
 class Queries {
  public:
   /// Queries one after another: six coordinates for each vertex, x0 x1 .. at t = 0, then at t = 1. Numbers at
@@ -96,8 +96,8 @@ class Queries {
   /// These queries with one separation h for all. `h` must outlive the result.
   [[nodiscard]] Queries with_separation(const double& h) const noexcept { return with_separations(&h, 0); }
   Queries with_separation(double&&) const = delete;
-  /// These queries with a separation for each. If the number of separations is wrong, nothing will be
-  /// answered, and the status is bad_argument.
+  /// These queries with a separation h[q] for each query q. If the number of separations is wrong, nothing
+  /// will be answered, and the status is bad_argument.
   [[nodiscard]] Queries with_separations(std::span<const double> h) const noexcept {
     Queries queries = with_separations(h.data(), sizeof(double));
     queries.separations_ = h.size();
@@ -175,7 +175,7 @@ inline Status earliest_times(const Queries& queries, std::span<double> lo, std::
 }
 
 /// nearmiss_time_of_impact(): whether each query is a collision in [0, tmax], and the largest double that is
-/// not after its earliest time.
+/// not after the earliest time of the collision.
 inline Status times_of_impact(const Queries& queries, std::span<std::int8_t> answers, std::span<double> toi,
                               double tmax = 1) noexcept {
   const bool fit = detail::fits(queries, answers) && detail::fits(queries, toi);
@@ -193,8 +193,8 @@ inline Status smallest_distances(const Queries& queries, std::span<double> lo, s
   });
 }
 
-/// nearmiss_certificate(): makes `text` the certificate of query q; "" if there is none. Throws nothing but
-/// std::bad_alloc.
+/// nearmiss_certificate(): sets `text` to the certificate of query q, or to "" if there is no certificate.
+/// Throws nothing but std::bad_alloc.
 inline Status certificate(const Queries& queries, std::size_t q, std::string& text,
                           Prove what = Prove::decision) {
   std::size_t length = 0;
@@ -218,7 +218,7 @@ inline Status wang(const Queries& queries, std::span<std::int8_t> answers) noexc
                      [&](const nearmiss_queries* layout) { return nearmiss_wang(layout, answers.data()); });
 }
 
-/// nearmiss_wang_bound(): the largest distance of a false positive of wang.
+/// nearmiss_wang_bound(): an upper bound of the distance at which wang may report a false positive.
 inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noexcept {
   const bool fit = detail::fits(queries, bounds);
   return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
@@ -226,8 +226,8 @@ inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noex
   });
 }
 
-/// One query: x0 x1 .. at t = 0, then at t = 1, as many numbers as the kind demands. With too few, there is
-/// no answer.
+/// One query: x0 x1 .. at t = 0, then at t = 1, as many numbers as the kind demands. With too few numbers,
+/// there is no answer.
 using Coordinates = std::span<const double>;
 
 /// nearmiss_collides() for one query.

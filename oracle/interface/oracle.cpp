@@ -49,7 +49,6 @@ struct Answers {
   }
 };
 
-/// The arrays of the lower and upper ends of enclosures; `hi` may be null.
 struct Enclosures {
   double *lo, *hi;
 
@@ -63,7 +62,6 @@ struct Enclosures {
   }
 };
 
-/// An enclosure of a query's t*, at most `width` wide; infinite if there is no collision.
 Enclosure enclosed_time(const Query& query, double width) {
   auto time = earliest_time(query);
   return time ? time->enclosure(width) : Enclosure{HUGE_VAL, HUGE_VAL};
@@ -76,7 +74,7 @@ int for_each_time(const nearmiss_queries* queries, double width, const Set& set,
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<FilterStage, block_size> stages;
     std::array<KnownTime, block_size> times;
-    // A wider enclosure would depend on how it is found.
+    // For a `width` above 0, the enclosure would depend on whether queries are searched side by side.
     const bool side_by_side =
         width == 0 && block.size() >= fewest_side_by_side && ask_for_contact(*queries, first, block.size());
     if (side_by_side) filter_for_times(block, stages, std::span(times).first(block.size()));
@@ -109,7 +107,6 @@ Certificates certificates_of(const Query& query, int what) {
   }
 }
 
-/// The proofs that exist, one a line.
 std::string in_lines(const Certificates& certificates) {
   std::string text;
   for (const auto& each : certificates)
@@ -117,8 +114,8 @@ std::string in_lines(const Certificates& certificates) {
   return text;
 }
 
-/// Writes the certificate of a query, or "" if it cannot be answered, as snprintf() does. Returns a status
-/// and throws nothing.
+/// Writes the certificate of a query, or "" if the query cannot be answered; cuts off the text as snprintf()
+/// does.
 int write_certificate(Query query, int what, char* text, std::size_t size, std::size_t* length) noexcept {
   try {
     if (what == NEARMISS_PROVE_DISTANCE) query.separation = 0;
@@ -179,7 +176,7 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
   return nearmiss::interface::for_each_time(
       queries, 0,
       [&](std::size_t q, const nearmiss::Enclosure& time) {
-        // If t* is not a double, it is at most tmax if and only if the next double is.
+        // If t* is not a double, t* <= tmax if and only if the next larger double is <= tmax.
         const bool is_collision = time.hi <= tmax;
         answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
         toi[q] = is_collision ? time.lo : HUGE_VAL;

@@ -36,7 +36,7 @@ int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t*
 
 /** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are equal
  * if t* is a double, and neighbouring doubles if not. If `width` is above 0, hi - lo may be up to `width`. So
- * lo is a safe time of impact: nothing happens before it. Both lo and hi are infinite if there is no
+ * lo is a safe time of impact: before lo, the distance is above h. Both lo and hi are infinite if there is no
  * collision, and NaN if there is no answer. `hi` may be null. */
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi);
 
@@ -51,25 +51,25 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
 
-/** The certificate of query q. It lets the short programs in tools/certificates/ of the sources verify the
- * answer with fractions alone. It is a text of lines, with '\n' between two of them. Each line is JSON, and
- * proves one statement about the query:
+/** The certificate of query q. From a certificate, the short programs in tools/certificates/ of the sources
+ * verify the answer with fractions alone. A certificate is a text of lines, with '\n' between two of them.
+ * Each line is JSON, and proves one statement about the query:
  *
  *     what                       statements
- *     NEARMISS_PROVE_DECISION    the primitives never come within h; or they do so at some time
- *     NEARMISS_PROVE_TIME        they never do so in [0, lo), unless lo is 0; they do so at some time in
- *                                [lo, hi]. If there is no collision, as NEARMISS_PROVE_DECISION
- *     NEARMISS_PROVE_DISTANCE    the distance is at least lo, unless lo is 0; and at some time at most hi,
- *                                unless hi is infinite. Separations are ignored
+ *     NEARMISS_PROVE_DECISION    the distance is always above h; or it is at most h at some time
+ *     NEARMISS_PROVE_TIME        the distance is above h in [0, lo), unless lo is 0; it is at most h at some
+ *                                time in [lo, hi]. If there is no collision, as for NEARMISS_PROVE_DECISION
+ *     NEARMISS_PROVE_DISTANCE    the distance is always at least lo, unless lo is 0; it is at most hi at some
+ *                                time, unless hi is infinite. Separations are ignored
  *
  * Compare what a line states with what you asked: a line may prove something true about another query.
- * Statements without a proof are left out. This happens only if the distance touches h > 0 at an irrational
- * time, where it neither falls below h nor stays at h. If nothing is left, or there is no answer, the text is
- * empty.
+ * A statement without a proof is left out. This happens only if the distance touches h > 0 at an irrational
+ * time, and neither falls below h nor stays at h at that time. If no statement is left, or there is no
+ * answer, the text is empty.
  *
  * `length` is set to the number of characters of the whole text. As with snprintf(), at most `size`
- * characters are written to `text`, of which the last one is a '\0', and what does not fit is cut off. If
- * `size` is 0, nothing is written, and `text` may be null. */
+ * characters are written to `text`, the last of them a '\0', and the rest is cut off. If `size` is 0, nothing
+ * is written, and `text` may be null. */
 int nearmiss_certificate(const nearmiss_queries* queries, size_t q, int what, char* text, size_t size,
                          size_t* length);
 

@@ -37,7 +37,7 @@ Integer determinant(const IntegerVector& a, const IntegerVector& b, const Intege
 
 // --- directions -------------------------------------------------------------------------------------------
 
-/// A direction of the ray: a given vector; if unset, the infinitesimally perturbed (1, ε, ε²).
+/// The direction of a ray: a vector or, if unset, the infinitesimally perturbed (1, ε, ε²).
 using RayDirection = std::optional<IntegerVector>;
 
 /// The sign of n · d. For the perturbed direction it is that of n's first component that is not zero.
@@ -57,8 +57,8 @@ const std::vector<RayDirection>& directions() {
 
 // --- triangles --------------------------------------------------------------------------------------------
 
-/// The number of times a ray crosses a surface; nothing if the ray meets an edge or runs in the surface's
-/// plane, where the number is undefined.
+/// The number of times that a ray from the origin crosses a surface; nothing if this number is undefined,
+/// because the ray meets an edge or runs in the surface's plane.
 using Crossings = std::optional<int>;
 
 /// The crossings with a triangle that does not contain the origin.
@@ -66,10 +66,11 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
                          const RayDirection& d) {
   const int volume = sign(determinant(a, b, c));
   if (volume == 0) {
-    // The plane holds the origin, so a ray that leaves the plane does not meet it again.
+    // The triangle's plane holds the origin, so a ray that leaves the plane does not meet the triangle.
     const IntegerVector n = CGAL::cross_product(b - a, c - a);
     if (n == CGAL::NULL_VECTOR) {
-      // The triangle is a segment or a point. Only rays in the plane through it and the origin can meet it.
+      // The triangle is a segment or a point. Only rays in a plane through the origin and the triangle can
+      // meet it.
       for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
         if (const IntegerVector m = CGAL::cross_product(p, q); m != CGAL::NULL_VECTOR && side(m, d) == 0)
           return std::nullopt;
@@ -83,7 +84,7 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
   const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
   if (*least < 0 && *most > 0) return 0;
   if (std::count(sides.begin(), sides.end(), 0) > 0) return std::nullopt;
-  return *least == volume ? 1 : 0;  // in front of the origin, or behind it
+  return *least == volume ? 1 : 0;  // 1 if the ray, not its opposite, meets the triangle
 }
 
 // --- bilinear patches -------------------------------------------------------------------------------------
@@ -140,8 +141,8 @@ bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h
   return false;
 }
 
-/// Whether the origin is on a flat patch whose plane contains it. If so, the origin is at some t on the
-/// segment from a(t), on the side s = 0, to b(t), on the side s = 1.
+/// Whether the origin is on a flat patch whose plane contains it: on the segment, for some t, from a(t), on
+/// the side s = 0 of the patch, to b(t), on the side s = 1.
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -159,12 +160,12 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
 }
 
 /// The place of the origin relative to a patch. The barycentric coordinates λ of a point in the tetrahedron
-/// of the corners satisfy λ00 λ11 = λ10 λ01 only on the patch. The two faces with the diagonal p00 p11 are on
-/// the side on which the left product is larger.
+/// of the corners satisfy λ00 λ11 = λ10 λ01 only on the patch. The two faces of the tetrahedron with the edge
+/// p00 p11 are on the side of the patch on which λ00 λ11 is larger.
 struct Position {
   bool on_patch = false;
-  bool in_plane = false;    ///< the origin is in the plane of a flat patch; rays that leave the plane miss it
-  bool other_pair = false;  ///< the triangles with the diagonal p10 p01, not p00 p11, replace the patch
+  bool in_plane = false;    ///< the origin is in a flat patch's plane; rays out of the plane miss the patch
+  bool other_pair = false;  ///< whether triangles with the diagonal p10 p01, not p00 p11, replace the patch
 };
 
 Position position(const BilinearPatch& patch) {
@@ -253,7 +254,8 @@ IntegerVector difference(const Query& query, int i, int j, std::size_t time, con
   return {along(0), along(1), along(2)};
 }
 
-/// The images of the faces of the prism or the cube. A triangle is stored as a patch with a side of length 0.
+/// The images under f (parity.hpp) of the faces of the prism or the cube. A triangle is stored as a patch
+/// with a side of length 0.
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>
@@ -269,7 +271,7 @@ std::vector<BilinearPatch> boundary(const Query& query) {
     else
       faces.push_back({f(0, 2, time), f(1, 2, time), f(0, 3, time), f(1, 3, time)});
   }
-  // Along a side, one difference of vertices moves to another one.
+  // Across each of the other faces, one difference of vertices turns linearly into another one.
   for (const auto& [vertex, from, to] : of.first_to_second)
     faces.push_back({f(vertex, from, 0), f(vertex, to, 0), f(vertex, from, 1), f(vertex, to, 1)});
   for (const auto& [vertex, from, to] : of.second_to_first)

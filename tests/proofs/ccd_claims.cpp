@@ -27,7 +27,7 @@ constexpr std::string_view sum = "Gappa, sum of three (proven.hpp)";
 
 // For ε = 1, the printed errors equal their factors of ε.
 const auto printed = printed_errors(1.0);
-// The factors of `full_errors` are largest at the largest ε. They are computed for S = B.
+// The factors of ε in `full_errors` are largest at the largest ε. They are computed for S = B.
 constexpr double largest_eps = 0x1p-10;
 constexpr auto full = full_errors(largest_eps, 1.0, 0.0);
 constexpr double factor(double error) { return error / largest_eps; }
@@ -45,7 +45,6 @@ std::function<Problem()> vertices_of(Reach reach, VertexPart part) {
   return [=] { return exact_vertices(reach, part); };
 }
 
-/// The row of the audit with this name.
 const RoundingConstant& row_of(std::string_view name) {
   static const auto rows = rounding_bounds();
   const auto row =
@@ -127,7 +126,7 @@ std::vector<CcdClaim> full_claims() {
   };
 }
 
-/// Claims of bounds that the audit shows and the code does not use.
+/// Claims about bounds that the audit shows and the code does not use.
 std::vector<CcdClaim> shown_claims() {
   return {
       replaced("EE: weight, far p", "weight_far, ccd/wang/bounds/proven.hpp", proven::weight_far, edges,

@@ -19,7 +19,7 @@ namespace {
 constexpr Kind vt = Kind::vertex_triangle;
 constexpr Kind ee = Kind::edge_edge;
 
-/// The coordinates of four vertices at both times.
+/// The coordinates of four vertices at t = 0 and t = 1.
 struct TracedPoints {
   std::array<Traced, 24> x;
 };
@@ -57,8 +57,7 @@ Traced threshold(Problem& problem, const char* name) {
   return input;
 }
 
-/// Makes both sides of a comparison, left <= right, the two sides of the problem. A test has made this
-/// comparison.
+/// Takes the two sides of a comparison left <= right, which a test made, as the two sides of the problem.
 void choose(Problem& problem, const Branch& comparison) {
   problem.left = Traced(comparison.left);
   problem.right = Traced(comparison.right);
@@ -104,13 +103,14 @@ Problem configuration(Reach reach, ConfigurationPart part) {
     std::ignore = configuration.inside();
     problem.degree = 4;
   }
-  // The last comparison is of the third weight, which for a triangle is computed from the others.
+  // The last comparison is that of the third weight. For a triangle, this weight is computed from the other
+  // two.
   choose(problem, problem.trace->branches().back());
   return problem;
 }
 
 /// A determinant of order 3 with elements in [-1, 1] is at most 4. It is linear in each element, so it is
-/// largest if all are 1 or -1. Then it is a multiple of 4, and at most 3√3 by Hadamard's inequality.
+/// largest if all elements are 1 or -1. Then it is a multiple of 4, and at most 3√3 by Hadamard's inequality.
 constexpr double determinant = 4;
 
 void know_coefficients(Problem& problem, const Cubic<Traced>& F, double p) {
@@ -150,8 +150,9 @@ Cubic<Traced> exact_coefficients(Problem& problem) {
   return F;
 }
 
-/// The vectors of a pair with end points in any order. If some end points of two edges are within B* of each
-/// other, any two end points are within 3B* at t = 0 and within 4B* at t = 1 (motion.hpp). B* = E + W = 1.
+/// The vectors of a pair with end points in any order. If an end point of one edge is within B* of an end
+/// point of the other edge, any two end points are within 3B* at t = 0 and within 4B* at t = 1 (motion.hpp).
+/// Here, B* = E + W = 1.
 template <Kind kind>
 Pair<kind, Traced> pair_with_bound(Problem& problem) {
   auto pair = pair_of<kind>(problem, Reach::near);
@@ -165,8 +166,8 @@ Pair<kind, Traced> pair_with_bound(Problem& problem) {
   return pair;
 }
 
-/// The slack of `excludes_collision`, and its last comparison, w > N·N + slack. h, the half width
-/// of the interval around the root, is an input in [0, 1]; both the slack and the brackets are computed from h.
+/// The problem of the last comparison in `excludes_collision`, w > N·N + slack, and the slack itself. h, the
+/// half width of the interval around the root, is an input in [0, 1], from which the slack is computed.
 struct Culling {
   Problem problem;
   Traced slack;
@@ -185,7 +186,7 @@ Culling culling() {
   Tolerances<Traced> tol{};
   if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), configuration, problem.time, tol))
     throw std::runtime_error("the sample is a collision, but it is excluded");
-  // The last comparisons are h > 1, and then w < -slack and N·N + slack < w for each weight.
+  // The last comparisons are h > 1, and then w < -slack and N·N + slack < w for each weight w.
   const auto& branches = problem.trace->branches();
   const auto last = branches.size() - 1;
   const Branch& h_above_1 = branches.at(last - 2 * configuration.weights.size());
@@ -294,7 +295,7 @@ Problem vertex_edge(Reach reach, EdgePart part) {
     case EdgePart::inside:
       break;
     // F = (‖x_0i × x_ji‖₁ - S ‖x_ji‖∞)(1 + δ). Each part ends with a rounding; the addition of 0 stands for
-    // it.
+    // this rounding.
     case EdgePart::F_without_S:
       problem.left = Traced(difference.left) + 0;
       problem.right = 0;
@@ -310,8 +311,8 @@ Problem vertex_edge(Reach reach, EdgePart part) {
 Problem exact_vertices(Reach reach, VertexPart part) {
   Problem problem = begun();
   const auto ji = exact_vector(*problem.trace, 'x');
-  // These vectors are computed from exact vectors within the bounds. Rounding makes them longer by at most 5u
-  // <= 2^-8.
+  // These vectors are computed from exact vectors within the bounds. Rounding makes these vectors longer by
+  // at most a factor of 1 + 5u, and 5u <= 2^-8.
   constexpr double longer = 1 + 0x1p-8;
   const double most = (reach == Reach::far ? 2 : 1) * longer;
   problem.motions = {{ji, most, most, longer}};

@@ -1,4 +1,4 @@
-// Makes problems from the computations of ccd/, by running its templates with recording scalars.
+// Makes problems from the computations of ccd/, by running the templates of ccd/ with recording scalars.
 #pragma once
 
 #include "ccd/query/query.hpp"
@@ -19,33 +19,37 @@ enum class Reach : std::uint8_t {
 enum class ConfigurationPart : std::uint8_t { normal, height, weight, inside };
 Problem configuration(Kind kind, Reach reach, ConfigurationPart part);
 
-/// A coefficient or the value of the cubic (cubic.hpp), from rounded vectors.
+/// Parts of the cubic (cubic.hpp): its coefficients, and its value at a time.
 enum class CubicPart : std::uint8_t { a, b, c, d, value };
+/// A part of the cubic, from rounded vectors.
 Problem cubic(Kind kind, CubicPart part);
-/// A coefficient of the cubic, from exact vectors.
+/// A part of the cubic, from exact vectors.
 Problem exact_cubic(CubicPart part);
-/// The value of the cubic by Horner's rule and, below, its clearance, both from exact coefficients.
+/// The value of the cubic by Horner's rule, from exact coefficients.
 Problem horner();
+/// The clearance of the cubic, from exact coefficients.
 Problem clearance_of_exact();
 
-/// The bound B, and its part E + W (motion.hpp).
+/// The bound B (motion.hpp).
 Problem bound(Kind kind);
+/// The part E + W of B.
 Problem extents(Kind kind);
 
-/// Culling of vertex-edge tests (ve_culling.hpp): the bound of how far a weight moves, and the comparison of
-/// a weight with N·N plus slack.
+/// The bound of how far a weight moves, in the culling of vertex-edge tests (ve_culling.hpp).
 Problem spread(Kind kind);
+/// The comparison of a weight with N·N plus slack, in the culling of vertex-edge tests.
 Problem culling(Kind kind);
 
-/// The test of a vertex and an edge (vertex_edge.hpp).
+/// Parts of the test of a vertex and an edge (vertex_edge.hpp).
 enum class EdgePart : std::uint8_t { length2, weight, inside, F, F_without_S, F_of_S };
 Problem vertex_edge(Reach reach, EdgePart part);
 
-/// Two vertices (vertex_vertex.hpp), from exact vectors: x·v and v·v; the time, for ‖v‖∞ = 1, before it is
+/// Parts of the test of two vertices (vertex_vertex.hpp): x·v and v·v; the time, for ‖v‖∞ = 1, before it is
 /// clamped to [0, 1]; the squared distance at a given time.
 enum class VertexPart : std::uint8_t { xv, vv, time, squared_distance };
+/// A part of the test of two vertices, from exact vectors.
 Problem exact_vertices(Reach reach, VertexPart part);
-/// The squared distance at a given time, from rounded vectors.
+/// The squared distance of two vertices at a given time, from rounded vectors.
 Problem vertices(Reach reach);
 
 }  // namespace nearmiss::proofs

@@ -15,8 +15,8 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// The largest result that is allowed for B = 1. Results have degree at most 4 in B <= 2^100 (claims.hpp), so
-/// they are then finite.
+/// The largest result that a claim may have for B = 1. Since results have degree at most 4 in B, and B <=
+/// 2^100 (claims.hpp), results within this limit are finite.
 constexpr double largest_allowed = 0x1p20;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Random search and hill climb for the problem that comes nearest to a bound.
+// Random search and hill climbing for the problem that comes nearest to a bound.
 #pragma once
 
 #include <cmath>
@@ -11,14 +11,13 @@
 
 namespace nearmiss::proofs {
 
-/// The effort of a search. The search is a pure function of the seed.
+/// The effort and the seed of a search.
 struct ClimbEffort {
   int rounds;
-  int steps;  ///< steps of each round, of which the first quarter is random
+  int steps;  ///< steps of each round, after a quarter as many random draws
   std::uint64_t seed = 1;
 };
 
-/// A problem and its value.
 template <class P>
 struct Climbed {
   double value;
@@ -49,7 +48,6 @@ auto highest(const ClimbEffort& climb, const Draw& draw, const Change& change, c
 /// x, rounded to the thread's precision.
 inline double snapped(double x) { return static_cast<double>(MpfrFloat(x)); }
 
-/// The roundoff u for a number of bits.
 inline double roundoff(int bits) { return std::ldexp(1.0, -bits); }
 
 /// A number in [-size, size]: any number, a small number, 0, or an end.
@@ -66,7 +64,7 @@ inline double draw_number(Random& random, double size) {
   }
 }
 
-/// A number near x, or a new one.
+/// A number near x, or a new number in [-size, size].
 inline double changed_number(Random& random, double x, double size, int bits) {
   switch (random.integer(0, 5)) {
     case 0:

@@ -1,6 +1,7 @@
-// Proves that two margins for rounding suffice. One belongs to the test whether planes separate primitives by
-// more than h: it covers heights along diagonals. The other belongs to the search for the first time at which
-// the distance is small: it covers the ends of gaps.
+// Proves that two margins for rounding suffice. One margin is for heights along diagonals, in the test
+// whether planes separate primitives by more than h. The other margin is for the ends of gaps, which are
+// parts of the step that no bound covers yet, in the search for the first time at which the distance is
+// small.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,9 +39,8 @@ TEST(ProofsOfPlanes, HeightsAlongDiagonalsDifferByMoreThanRootTwoH) {
   EXPECT_FALSE(is_proven(heights(1.4142135, certified::height_rounding)));
 }
 
-/// The script for this claim: the computed end of a gap after t is at most the exact end, t + a. The code
-/// rounds t + a, subtracts `rounding`, and rounds again. t is a time, and a is the time from t on for which a
-/// bound of the distance holds.
+/// The script for this claim: if a bound of the distance holds from t until t + a, the computed beginning of
+/// the following gap is at most t + a. The code rounds t + a, subtracts `rounding`, and rounds again.
 std::string ahead(double rounding) {
   return fmt::format(
       "@double = float<ieee_64, ne>;\n"
@@ -53,8 +53,8 @@ std::string ahead(double rounding) {
       dyadic(rounding));
 }
 
-/// The script for this claim: the computed end of a gap before t is at least the exact end, t - a. (If t - a
-/// is rounded to 1, the computed end is at least 1.)
+/// The script for this claim: if a bound of the distance holds from t - a until t, the computed end of the
+/// preceding gap is at least t - a. (If t - a is rounded to 1, the computed end is at least 1.)
 std::string behind(double rounding) {
   return fmt::format(
       "@double = float<ieee_64, ne>;\n"

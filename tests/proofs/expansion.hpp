@@ -11,7 +11,7 @@
 
 namespace nearmiss::proofs {
 
-/// Inputs by name, with their powers.
+/// A product of inputs: the power of each input, by its name.
 using Monomial = std::map<std::string, int>;
 
 /// The term coefficient · monomial · (1 + δ_1) ... (1 + δ_k). Each |δ_i| is at most the relative error of one
@@ -24,7 +24,7 @@ struct Term {
   int underflows = 0;
 };
 
-/// A sum of terms. Without roundings and underflows it is the value in exact arithmetic.
+/// A sum of terms. Without roundings and underflows, the sum is the value in exact arithmetic.
 using Expansion = std::vector<Term>;
 
 /// The errors of operations, as numbers of roundings.
@@ -39,7 +39,7 @@ inline constexpr Roundings in_double_words{.quotient = 2};
 /// The name of 1 - t in monomials, for an input t in [0, 1].
 std::string complement(const std::string& t);
 
-/// The name of the largest |x - y| of several pairs of inputs.
+/// The name, in monomials, of the largest |x - y| of several pairs of inputs.
 inline const std::string steepest = "steepest";
 
 /// The expansion of an expression that contains only sums, differences, products, and quotients by constants.
@@ -50,11 +50,10 @@ inline const std::string steepest = "steepest";
 /// underflow, because they are exact if their result is below 2^-1022. The same δ may occur in several terms,
 /// and several times in one term.
 Expansion expand(const Traced& expression, const Roundings& arithmetic = in_double);
-/// The expansion of one result of a program.
 Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);
 
-/// A bound, coefficient · monomial, of the magnitudes of all terms with the same monomial, and the largest
-/// number of roundings among these terms.
+/// coefficient · monomial is a bound of the sum of the magnitudes of all terms with the same monomial.
+/// `roundings` is the largest number of roundings among these terms.
 struct BoundTerm {
   Rational coefficient;
   int roundings = 0;

@@ -17,7 +17,7 @@ inline std::string script_text(double x) { return fmt::format("{:a}", x); }
 /// The factors of one script, each with its own variable δ.
 class Factors {
  public:
-  /// The product (1 + δ) ... with this many variables, each at most `size` in magnitude.
+  /// The product of `count` factors 1 + δ; each |δ| is at most `size`.
   std::string product(int count, double size) {
     std::string text = "1";
     for (int i = 0; i < count; ++i) {
@@ -28,7 +28,6 @@ class Factors {
     return fmt::format("({})", text);
   }
 
-  /// The script with these factors and a goal.
   [[nodiscard]] std::string script(const std::string& goal) const {
     return fmt::format("{{ {}{}{} }}\n", ranges_, ranges_.empty() ? "" : " -> ", goal);
   }

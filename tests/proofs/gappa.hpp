@@ -35,12 +35,13 @@ struct ProvenBounds {
 ///
 /// A problem is proven in steps. First Gappa proves lemmas, which bound the errors of frequent expressions: a
 /// velocity, a position at the time, or an expression of maxima, minima and magnitudes. A maximum, minimum or
-/// magnitude changes by no more than its arguments do, so its error is at most the largest error of its
+/// magnitude changes by no more than its operands do, so its error is at most the largest error of its
 /// operands. Later scripts have a new variable for each such expression. The last script has all other
 /// operations.
 class Prover {
  public:
-  /// Throws std::runtime_error if Gappa proves no bounds, does not run, or does not understand the script.
+  /// The bounds that Gappa proves. Throws std::runtime_error if Gappa proves no bounds, does not run, or does
+  /// not understand the script.
   ProvenBounds bounds(const Problem& problem, const Arithmetic& arithmetic);
 
   /// Whether Gappa proves that the error is at most `bound` for B = 1.
@@ -49,7 +50,6 @@ class Prover {
   /// The last script that `proves` gives to Gappa.
   std::string script(const Problem& problem, const Arithmetic& arithmetic, double bound);
 
-  /// Gappa's answer to a script.
   GappaAnswer run(const std::string& script);
 
  private:

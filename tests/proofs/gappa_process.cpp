@@ -19,7 +19,7 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// A file with a text, which the destructor removes.
+/// A temporary file with a text. The destructor removes the file.
 class ScriptFile {
  public:
   explicit ScriptFile(const std::string& text) {
@@ -39,7 +39,6 @@ class ScriptFile {
   std::string path_ = std::filesystem::temp_directory_path() / "gappa-XXXXXX";
 };
 
-/// A command's output and its exit status.
 std::pair<std::string, int> output_of(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("gappa does not run");
@@ -61,7 +60,7 @@ bool has_grave_warning(const std::string& output) {
   return false;
 }
 
-/// The precision of Gappa's own interval bounds, in bits.
+/// Gappa's option for the precision of its interval bounds, in bits.
 constexpr auto fine = "-Eprecision=400";
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace nearmiss::proofs {
 
-/// Gappa's output for a script, and whether it proves all of its goals.
+/// Gappa's output for a script, and whether Gappa proves all goals of the script.
 struct GappaAnswer {
   std::string text;
   bool proven;
@@ -16,7 +16,7 @@ struct GappaAnswer {
 GappaAnswer run_gappa(const std::string& script, const std::string& options = "");
 
 /// The upper end of the interval that Gappa proves for the only goal of a script, "... in ?", rounded upward.
-/// Gappa's interval bounds are finer than the errors of double words.
+/// Gappa computes it with 400 bits, which is finer than the errors of double words.
 double proven_upper_end(const std::string& script);
 
 /// Whether Gappa proves all goals. Throws like run_gappa.

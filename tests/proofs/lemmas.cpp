@@ -13,8 +13,8 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// Parses a number that Gappa prints, rounded upward: an integer of at most 60 bits, with or without a power
-/// of two.
+/// Parses a number that Gappa prints, an integer of at most 60 bits with or without a power of two, and
+/// rounds it upward.
 double at_least(const std::string& text) {
   char* end = nullptr;
   const auto mantissa = static_cast<long double>(std::strtoll(text.c_str(), &end, 10));
@@ -34,10 +34,10 @@ bool is_extreme(Operation operation) {
          operation == Operation::smallest;
 }
 
-/// Lemmas about a position X = D + t V between D and E. X is a convex combination of its ends. The ends are
-/// within `reach`, so X is within `reach`, too. Likewise, k, the part of X's error that comes from the errors
-/// of its ends, is within the bound of these errors. Interval arithmetic derives this from reach - X and
-/// reach + X, which are sums of products of nonnegative numbers.
+/// Hints for Gappa about a position X = D + t V between D and E. X is a convex combination of D and E, which
+/// are within `reach`, so X is within `reach`, too. Likewise, k, the part of X's error that comes from the
+/// errors of D and E, is within the bound of these errors. Interval arithmetic derives this from bound - X
+/// and bound + X (or k in place of X), which are sums of products of nonnegative numbers.
 std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
   return fmt::format(
       "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"
@@ -45,7 +45,8 @@ std::string convex_hints(const char* combination, const char* start, const char*
       combination, start, end, dyadic(reach));
 }
 
-/// The script about a motion.
+/// Writes scripts that bound the position X = D + t V of a moving vector, and the error of x, its computed
+/// position.
 class MotionScript {
  public:
   MotionScript(const BoundedMotion& motion, const Arithmetic& arithmetic)
@@ -59,7 +60,7 @@ class MotionScript {
     ranges_ += " /\\ w - m in " + interval(-most, most);
   }
 
-  /// The script for exact x = D and v = V.
+  /// The script for exact D and V.
   [[nodiscard]] std::string exact() const {
     return fmt::format(
         "X = D + t * V;\nE = D + V;\n{}{{ {}{} ->\nX in ? /\\ x - X in ? }}\n{}"
@@ -67,7 +68,7 @@ class MotionScript {
         moved("D", "V"), ranges_, roundings("D", "V"), convex_hints("X", "D", "E", reach_));
   }
 
-  /// The script for rounded ends d and e, and their difference v.
+  /// The script for rounded ends d and e, and their rounded difference v.
   [[nodiscard]] std::string rounded() const {
     const double u = std::ldexp(1, -arithmetic_.bits);
     return fmt::format(
@@ -166,7 +167,7 @@ std::set<int> Lemmas::needed() {
 }
 
 // An extreme (a maximum, a minimum or a magnitude) is a leaf if an operation that is not an extreme uses it.
-// Operands come first in a program.
+// In a program, operands have lower indices, so their lemmas come first.
 void Lemmas::know_extremes() {
   const std::set<int> all = needed();
   std::set<int> used{left_, right_};

@@ -16,7 +16,7 @@ struct ProvenRange {
   [[nodiscard]] double magnitude() const { return std::max(-lowest, highest); }
 };
 
-/// The enclosures that Gappa printed, by expression.
+/// The ranges that Gappa printed, by expression.
 std::map<std::string, ProvenRange> bounds_in(const std::string& output);
 
 /// The lemmas of one problem. Each lemma is proven when it is made.
@@ -24,8 +24,8 @@ class Lemmas {
  public:
   Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);
 
-  /// The script with all operations that are not in a lemma. `goal` is the interval in which the error d is
-  /// to be proven.
+  /// The script with all operations that are not in a lemma. `goal` is the interval that is to be proven for
+  /// the error d.
   std::string last_script(const std::string& goal) { return last().text({"d in " + goal}); }
   /// The script whose goals are the ranges of the error and of all results.
   std::string script_of_bounds();

@@ -167,7 +167,6 @@ Inputs climbed(const Inputs& known, const ClimbEffort& effort, const Draw& draw,
   return highest(effort, begin, change, seen).problem;
 }
 
-/// The inputs with one of them changed.
 Inputs changed(Inputs inputs, const OracleClaim& claim, Random& random) {
   const auto name = std::next(inputs.begin(), random.integer(0, static_cast<int>(inputs.size()) - 1));
   double& value = name->second;
@@ -188,7 +187,7 @@ Inputs changed(Inputs inputs, const OracleClaim& claim, Random& random) {
   return inputs;
 }
 
-/// Whether lower halves of double words are within half an ulp of the upper ones.
+/// Whether the lower halves of all double words are within half an ulp of the upper halves.
 bool are_double_words(const Inputs& inputs) {
   return std::all_of(inputs.begin(), inputs.end(), [&](const auto& input) {
     const auto& [name, value] = input;

@@ -23,7 +23,7 @@ class Measure {
   /// The exact error in the claim's unit, truncated to double; nothing if the inputs are out of bounds for
   /// every B.
   [[nodiscard]] std::optional<double> error(const Inputs& inputs) const { return measured<Rational>(inputs); }
-  /// An estimate of the error, which is quick to compute.
+  /// A quick estimate of the error, in long double.
   [[nodiscard]] std::optional<double> estimate(const Inputs& inputs) const {
     return measured<long double>(inputs);
   }
@@ -61,8 +61,8 @@ class Measure {
   std::vector<std::string> names_;
 };
 
-/// The largest error of a claim that hill climbs find when they start from random inputs and, if there are
-/// any, from known inputs.
+/// The witness with the largest error that hill climbs find when they start from random inputs and, unless
+/// `known` is empty, from `known`.
 Witness find_witness(const CcdClaim& claim, const Inputs& known, const ClimbEffort& effort);
 Witness find_witness(const OracleClaim& claim, const Inputs& known, const ClimbEffort& effort);
 

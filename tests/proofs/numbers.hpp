@@ -10,7 +10,6 @@
 
 namespace nearmiss::proofs {
 
-/// An exact number.
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 

@@ -19,7 +19,8 @@ constexpr double u = 0x1p-53;
 
 // --- the exact errors at given inputs ----------------------------------------------------------------------
 
-/// The relative error of a product of rounded leaves 1 - value, one for each input, in units of u.
+/// The relative error, in units of u, of a product of rounded leaves. There is one leaf, 1 - value, for each
+/// input.
 double seen_leaves(const Inputs& inputs) {
   Rational exact = 1;
   Rational rounded = 1;
@@ -47,7 +48,8 @@ double seen_end(const Inputs& in) {
                                 : ratio(abs(Rational(in.at("t") - in.at("h")) - exact), Rational(0x1p-54));
 }
 
-/// The rounding error of the beginning of a part within a part of the step, in units of 2^-52.
+/// The rounding error of b + x (e - b), the beginning of a part of the part [b, e] of the step, in units of
+/// 2^-52.
 double seen_zoom(const Inputs& in) {
   const double b = in.at("b");
   const double e = in.at("e");
@@ -58,7 +60,8 @@ double seen_zoom(const Inputs& in) {
   return !is_in_step ? 0 : ratio(abs(Rational(end) + Rational(zoom_rounding) - exact), Rational(0x1p-52));
 }
 
-/// The change of P on [t, t + h] from its value at t, divided by the bound in `error_near`, for exact b.
+/// The change of a quadratic polynomial from 0 to h, divided by the bound of the change in `error_near`, for
+/// exact coefficients b.
 double seen_spread(const Inputs& in) {
   const std::array<Rational, 3> b{Rational(in.at("b0")), Rational(in.at("b1")), Rational(in.at("b2"))};
   const Rational h(in.at("h"));
@@ -68,7 +71,7 @@ double seen_spread(const Inputs& in) {
 }
 
 /// The amount by which a slope of exact coefficients exceeds the slope of computed coefficients, divided by
-/// the error.
+/// the error of a coefficient.
 double seen_slope(const Inputs& in) {
   const Rational e(in.at("e"));
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));
@@ -92,7 +95,7 @@ double seen_slope_rounding(const Inputs& in) {
 /// of a coefficient.
 double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
 
-/// The error of F(t) + S (d - t), in units of u (|F(t)| + |S (d - t)|).
+/// The error of v + S (d - t), where v is F(t), in units of u (|v| + |S (d - t)|).
 double seen_secant(const Inputs& in) {
   const double v = in.at("v");
   const double S = in.at("S");
@@ -105,7 +108,8 @@ double seen_secant(const Inputs& in) {
                (Rational(std::abs(v)) + abs(Rational(S) * exact_g)) * Rational(u));
 }
 
-/// The error of a derivative of tiny coefficients beyond its relative error, in units of the smallest double.
+/// The error of the derivative of a cubic with tiny coefficients, which is an error by underflow, in units of
+/// the smallest double.
 double seen_slope_underflow(const Inputs& in) {
   const Bernstein<double, 4> F{{in.at("b0"), in.at("b1"), in.at("b2"), in.at("b3")}, 0};
   if (F.largest() > 0x1p-1060) return 0;
@@ -136,8 +140,8 @@ double seen_word_sum(const Inputs& in) {
   const Rational computed = exact_word(word(in, "a") + word(in, "b"));
   return exact == 0 ? 0 : ratio(abs((computed - exact) / exact), Rational(0x1p-103));
 }
-/// The part of the error of a product of double words that exceeds the relative error, in units of the
-/// smallest double.
+/// The part of the error of a product of double words that exceeds the bound of the relative error, in units
+/// of the smallest double.
 double seen_word_underflow(const Inputs& in) {
   const Rational exact = exact_word(word(in, "a")) * exact_word(word(in, "b"));
   const Rational computed = exact_word(word(in, "a") * word(in, "b"));
@@ -147,7 +151,7 @@ double seen_word_underflow(const Inputs& in) {
 
 // --- the claims --------------------------------------------------------------------------------------------
 
-/// A claim about the roundings of results, in units of U w or U M.
+/// A claim about the rounding errors of results, in units of U times `size`.
 template <class Real, class Number>
 OracleClaim rounding(std::string name, double claimed, Results results, const std::string& vectors,
                      Rational (*size)(const Inputs&)) {
@@ -203,7 +207,6 @@ Inputs draw_signs(Random& random, const std::string& vectors) {
   return in;
 }
 
-/// Draws each input from its interval.
 std::function<Inputs(Random&)> draw_from(const std::map<std::string, std::pair<double, double>>& ranges) {
   return [ranges](Random& random) {
     Inputs in;

@@ -23,8 +23,8 @@ class ResultsAt {
 
   /// The largest |computed - exact| of all results, in units of `unit`.
   [[nodiscard]] double error(const Inputs& inputs, const Rational& unit) const;
-  /// The largest magnitude of all results that have a component of every vector as a factor, in units of
-  /// `unit`.
+  /// The largest magnitude of all results, including those of single operations, that have a component of
+  /// every vector as a factor, in units of `unit`.
   [[nodiscard]] double reach(const Inputs& inputs, const Rational& unit) const;
 
  private:
@@ -35,13 +35,16 @@ class ResultsAt {
   std::vector<int> results_;
 };
 
-/// The magnitude of component x of a; the w of component x of b × c; and M.
+/// A of component x of a (step_part.hpp): the larger of its magnitudes at both ends.
 Rational A_of(const Inputs& inputs);
+/// w of component x of b × c (step_part.hpp).
 Rational w_of(const Inputs& inputs);
+/// M of F (step_part.hpp).
 Rational M_of(const Inputs& inputs);
 
 /// Draws components of some vectors in [-1, 1] and two times, of which t is the earlier one. The components
-/// have few bits, the same magnitude, or any magnitudes. Lower halves of `words` are within half an ulp.
+/// are 0 or ±1, have nearly the same magnitude, or have any magnitudes. With `words`, each component also has
+/// a lower half within half an ulp.
 Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
 
 }  // namespace nearmiss::proofs

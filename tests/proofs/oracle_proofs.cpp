@@ -16,7 +16,7 @@ namespace {
 
 constexpr double u = 0x1p-53;
 
-/// The largest upper end of the goals of some scripts.
+/// The largest upper end that Gappa proves for the goals of some scripts.
 double largest_end(const std::set<std::string>& scripts) {
   double largest = 0;
   for (const std::string& script : scripts) largest = std::max(largest, proven_upper_end(script));
@@ -25,8 +25,8 @@ double largest_end(const std::set<std::string>& scripts) {
 
 std::string quotient(const std::string& a, const std::string& b) { return fmt::format("({}) / ({})", a, b); }
 
-/// The largest number of roundings of any term in the bounds. The roundings of a bound reduce it by at most a
-/// factor with this many roundings.
+/// The largest number of roundings of any term in the bounds. If this number is k, roundings reduce a bound
+/// by at most the factor (1 - u)^k.
 int most_roundings(const std::vector<Bounded>& results) {
   int most = 0;
   for (const Bounded& each : results)
@@ -77,7 +77,7 @@ double proven_underflow(Results results, Leaves leaves, int more) {
   return largest_end(scripts);
 }
 
-/// The `error_near` of a polynomial at h. Its coefficients, its error and h are inputs.
+/// The `error_near` of a polynomial at h. The polynomial's coefficients, its error and h are inputs.
 Traced traced_error_near(Trace& trace) {
   Bernstein<Traced, 3> polynomial;
   for (std::size_t i = 0; i < 3; ++i)
@@ -86,7 +86,7 @@ Traced traced_error_near(Trace& trace) {
   return polynomial.error_near(trace.input("h", 0.5));
 }
 
-/// The number of roundings of `error_near`. Double words have two more, those of `upper_halves`.
+/// The number of roundings of `error_near`. For double words, there are two more, those of `upper_halves`.
 int roundings_near() {
   Trace trace;
   int most = 0;
@@ -129,7 +129,8 @@ double proven_leaf_growth() { return proven_growth(most_roundings(cubic_results<
 double proven_underflow_products() {
   double largest = 0;
   for (const Leaves leaves : {Leaves::rounded_once, Leaves::given_errors}) {
-    // `error_near` has two more products than the template. Other underflow in it is at most that in `error`.
+    // `error_near` has two more products than the template. All other underflow in `error_near` is at most
+    // that in `error`.
     largest = std::max(largest, proven_underflow<Traced>(weight_results<Traced>, leaves, 2));
     largest = std::max(largest, proven_underflow<Traced>(cubic_results<Traced>, leaves, 0));
     largest = std::max(largest, proven_underflow<Traced>(part_results<Traced>, leaves, 0));
@@ -178,8 +179,9 @@ double proven_upper_halves() {
       "{ a in [1, 2] /\\ al in [-1b-53, 1b-53] /\\ bl in [-1b-53, 1b-53] -> (al - bl) / a * 1b52 in ? }\n");
 }
 
-// A coefficient 3 (b_i+1 - b_i) is rounded twice, and three times in each of two levels of de Casteljau's
-// algorithm. The bound is rounded in at most two products and two sums.
+// A coefficient of the derivative, 3 (b_i+1 - b_i), has two roundings. Each of the two levels of de
+// Casteljau's algorithm adds three roundings. The bound has at most two rounded products and two rounded
+// sums.
 constexpr int roundings_of_slope = 8;
 constexpr int roundings_of_slope_bound = 4;
 
@@ -198,8 +200,9 @@ double proven_slope_growth() {
       factors.script(quotient(grown, factors.product(roundings_of_slope_bound, u)) + " in ?"));
 }
 
-// In the value, S g is rounded three times. The term R g of the bound loses up to four roundings, and R is
-// at most |S|. The term of these roundings is itself rounded at most six times.
+// In the value v + S g, the term S g is rounded three times. The term R g of the bound (neighbours.hpp) loses
+// up to four roundings, and R is at most |S|. The bound's term for these seven roundings is itself rounded at
+// most six times.
 double proven_secant_rounding() {
   Factors factors;
   const std::string missed =

@@ -8,7 +8,7 @@
 
 namespace nearmiss::proofs {
 
-/// The results of one of the templates below.
+/// A function that traces one of the templates below, and returns the results with their bounds.
 using Results = std::vector<Bounded> (*)(Trace&, Leaves);
 
 /// The coefficients of a polynomial, its coefficients on [t, s], and its value at t, each with its bound.

@@ -16,7 +16,8 @@ int degree(const Monomial& monomial) {
   return sum;
 }
 
-/// Adds the terms that contain an error after each leaf is replaced by leaf + error.
+/// Replaces each leaf of a term by leaf + error, expands the product, and adds the terms that contain an
+/// error to `all`.
 void add_leaf_errors(const Term& term, const std::vector<std::string>& leaves, Expansion& all) {
   for (std::size_t chosen = 1; chosen < (std::size_t{1} << leaves.size()); ++chosen) {
     Term missed{term.coefficient, term.monomial, 0, 0};
@@ -33,8 +34,7 @@ std::vector<std::string> leaves_of(const Term& term) {
   std::vector<std::string> leaves;
   for (const auto& [name, power] : term.monomial)
     if (is_component(name))
-      leaves.push_back(name);  // each occurs once, because they belong to different
-                               // vectors
+      leaves.push_back(name);  // each occurs once, because a term's leaves belong to different vectors
   return leaves;
 }
 
@@ -81,7 +81,7 @@ std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& p
     const auto times = [&](const BoundTerm& s, double size) {
       return fmt::format("{} * {}", script_text(s.coefficient), factors.product(s.roundings, size));
     };
-    // Written as products, because half of the smallest double is not a double.
+    // The unit H is written as a product, because half of the smallest double is not a double.
     const auto underflow = [&](const BoundTerm& s, double size, double of_smallest) {
       return fmt::format("{} * {:a} * {:a}", times(s, size), of_smallest, certified::smallest);
     };

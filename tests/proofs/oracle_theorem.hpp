@@ -1,4 +1,4 @@
-// The theorem that a bound of the oracle's filter is at least the error of its value.
+// The theorem that each error bound of the oracle's filter is at least the error of the value that it bounds.
 #pragma once
 
 #include <set>
@@ -10,12 +10,12 @@
 
 namespace nearmiss::proofs {
 
-/// The arithmetic of values; bounds are computed in double.
+/// The arithmetic in which a value is computed. Its bound is computed in double.
 struct ValuePrecision {
   double roundoff;   ///< U
   double underflow;  ///< H, the largest error of a product by underflow, in units of the smallest double
   Roundings roundings;
-  bool is_double_word;  ///< if true, magnitudes are those of upper halves
+  bool is_double_word;  ///< whether values are double words, so that magnitudes are those of upper halves
 };
 
 template <class Real>
@@ -35,7 +35,7 @@ struct Bounded {
 /// The parts of a value's error and of its bound, as sums over monomials in the magnitudes and errors of the
 /// leaves.
 struct Needs {
-  BoundTerms values;            ///< magnitudes of terms in exact arithmetic; roundings multiply them
+  BoundTerms values;            ///< the value's terms in exact arithmetic, which roundings multiply by 1 + δ
   BoundTerms leaves;            ///< contribution of given errors of leaves, in exact arithmetic
   BoundTerms underflows;        ///< contribution of underflow, in units of H
   BoundTerms bound;             ///< the bound, without its own roundings
@@ -46,8 +46,9 @@ Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 /// The scripts that together prove |value - exact value| <= error for all leaves and times. Monomials with
 /// the same coefficients and roundings have the same script, which proves that such a monomial's share of the
 /// bound is at least its share of the error. A share of the error is
-///   coefficient |Π (1 + δ) - Π (1 + λ)| + leaves + underflow,
-/// with Π (1 + δ) over the roundings of a term, and Π (1 + λ) over its leaves if these are rounded once.
+///   coefficient |Π (1 + δ) - Π (1 + λ)| + (share of the leaves' given errors) + (share of underflow).
+/// Π (1 + δ) goes over the roundings of a term. Π (1 + λ) goes over its leaves if these are rounded once, and
+/// is 1 otherwise.
 std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);
 
 }  // namespace nearmiss::proofs

@@ -1,4 +1,5 @@
-// The error bounds of the oracle's filter are at least the errors, for all leaves, sizes and times.
+// Tests that the error bounds of the oracle's filter are at least the errors, for all leaves, sizes and
+// times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +13,8 @@
 namespace nearmiss::proofs {
 namespace {
 
-/// Adds the scripts that prove all results of some templates, with each bound multiplied by `factor`.
+/// Adds the scripts that prove the bounds of all results of some templates, with each bound multiplied by
+/// `factor`.
 template <class Real>
 void add_scripts(std::set<std::string>& scripts, Leaves leaves, std::initializer_list<Results> all,
                  double factor = 1) {

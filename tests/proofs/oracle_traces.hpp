@@ -1,4 +1,5 @@
-// The oracle's templates over Traced, which record the computation of F, the weights and their bounds.
+// Lets the oracle's templates compute with Traced, to record the computation of F, of the weights, and of
+// their bounds.
 #pragma once
 
 #include <cctype>
@@ -51,7 +52,7 @@ struct BoundOf<proofs::TracedWord> {
 
 namespace nearmiss::proofs {
 
-/// How the components of a vector differ from the exact ones.
+/// How the computed components of a vector, the leaves of all expressions, differ from the exact components.
 enum class Leaves {
   exact,         ///< no difference
   rounded_once,  ///< a factor of 1 ± U
@@ -75,7 +76,6 @@ certified::Motion<Real> traced_motion(Trace& trace, char name, Leaves leaves) {
   return motion;
 }
 
-/// Whether an input is a component of a moving vector.
 inline bool is_component(const std::string& input) {
   return input.size() == 3 && (input[1] == '0' || input[1] == '1');
 }

@@ -26,8 +26,8 @@ struct BoundedExpression {
 /// The problem of bounding an error for all inputs within bounds: the error of an expression, or of the
 /// difference of the two sides of a comparison.
 ///
-/// Everything is homogeneous, so a proof for B = 1 is a proof for every B: scaling by a power of two changes
-/// no rounding, and the bound of relative errors is the same everywhere in a binade.
+/// All expressions are homogeneous in the lengths, so a proof for B = 1 is a proof for every B: scaling by a
+/// power of two changes no rounding, and the bound of relative errors is the same everywhere in a binade.
 struct Problem {
   std::shared_ptr<Trace> trace;  ///< trace of the inputs
   Traced time;

@@ -56,7 +56,7 @@ inline int Program::add(const Node& node) {
   return place->second;
 }
 
-/// The result of one instruction, computed from earlier results and its input.
+/// The result of one instruction, computed from earlier results or taken from the inputs.
 template <class Number>
 Number result_of(const Instruction& one, const std::vector<Number>& results,
                  const std::map<std::string, Number>& inputs, const Number& epsilon) {
@@ -96,7 +96,7 @@ Number result_of(const Instruction& one, const std::vector<Number>& results,
 }
 
 /// The results of all instructions in the arithmetic of `Number`: rounded for floating-point numbers, exact
-/// for rational ones. The results in `given` are not computed.
+/// for rational ones. The results in `given` are taken from there, not computed.
 template <class Number>
 std::vector<Number> evaluate(const Program& program, const std::map<std::string, Number>& inputs,
                              const Number& epsilon, const std::map<int, Number>& given = {}) {

@@ -11,7 +11,7 @@ using namespace nearmiss::proofs;
 
 namespace {
 
-/// Searches for a larger error of each claim, and keeps it.
+/// For each claim, searches for a larger error than the known one. If it finds one, keeps the new witness.
 template <class Claim>
 void search_all(const std::vector<Claim>& claims, Witnesses& witnesses, const ClimbEffort& effort) {
   for (const Claim& claim : claims) {
@@ -22,7 +22,6 @@ void search_all(const std::vector<Claim>& claims, Witnesses& witnesses, const Cl
   }
 }
 
-/// The options of the command line.
 struct Options {
   int steps = 0;
   std::uint64_t seed = 0;

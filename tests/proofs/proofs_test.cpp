@@ -1,4 +1,4 @@
-// Every claim of the table is proven, and the proofs can fail.
+// Tests that every claim of the table is proven, and that wrong claims are not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

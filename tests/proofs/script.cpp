@@ -79,8 +79,7 @@ void Script::write_constant(int index, double value) {
           std::ldexp(1, -arithmetic_.bits));
 }
 
-// Writes the result of an operation with its rounding error, and with its error by underflow. The result is a
-// new number.
+// Writes the result of an operation as a new variable, with its rounding error and its error by underflow.
 void Script::rounded(int index, const std::string& result) {
   inexact_.insert(index);
   const Operation operation = program_[index].operation;

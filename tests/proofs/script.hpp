@@ -10,7 +10,7 @@
 
 namespace nearmiss::proofs {
 
-/// A number in Gappa's exact notation: 3 is "3b0".
+/// A number in Gappa's exact notation: "3", or "3b-2" for 3/4.
 std::string dyadic(double number);
 /// "[lowest, highest]".
 std::string interval(double lowest, double highest);
@@ -36,11 +36,10 @@ class Script {
   void difference(int left, int right);
 
   [[nodiscard]] std::string computed(int index) const;
-  /// The computed values that are not exact.
+  /// The names of the computed values that are not exact.
   [[nodiscard]] std::vector<std::string> results() const;
   static std::string exact(int index);
 
-  /// The whole script with its goals.
   [[nodiscard]] std::string text(const std::vector<std::string>& goals) const;
 
  private:

@@ -23,7 +23,7 @@ Cubic<T> cubic(const Coefficients& k) {
   return {T(k[0]), T(k[1]), T(k[2]), T(k[3])};
 }
 
-/// 0, the computed critical points, and 1.
+/// The nodes of the solver: 0, the computed critical points, and 1.
 std::vector<double> nodes_of(const Coefficients& k) {
   CandidateTimes<MpfrFloat, 2> critical;
   detail::find_critical_times(critical, cubic<MpfrFloat>(k));
@@ -34,7 +34,7 @@ std::vector<double> nodes_of(const Coefficients& k) {
 }
 
 /// The places to check in the interval between two nodes: its ends, and the exact critical points in it.
-/// (Double is far finer than the tested numbers of few bits.)
+/// (Critical points in double stand for exact ones, because the tested numbers have far fewer bits.)
 std::vector<double> places_between(const Coefficients& k, double left, double right) {
   CandidateTimes<double, 2> critical;
   solve_quadratic(critical, 3 * k[0], 2 * k[1], k[2]);
@@ -60,7 +60,7 @@ double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   return most;
 }
 
-/// The largest value of m that occurs for these coefficients, divided by its bound.
+/// The largest value of m that occurs for these coefficients, divided by the bound of m.
 double nodes_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);
@@ -114,7 +114,8 @@ TEST(ProofsSolverCubic, NodesPartFWhereASearchComesNearTheBound) {
 }
 
 TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
-  // For u = 2^-4, the full formula has no meaning, because u is too large. The leading terms are enough.
+  // For u = 2^-4, the full formula has no meaning, because u is too large. The bound that has only its
+  // leading terms holds.
   constexpr int bits = 4;
   const MpfrFloat::PrecisionScope precision(bits);
   std::vector<double> all{0};
@@ -174,8 +175,8 @@ TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
   }
 }
 
-/// The largest |F̂| at a returned time, divided by μ. The proof requires this μ in step (3), where F̂ changes
-/// its sign between neighbouring numbers.
+/// The largest |F̂| at a returned time, divided by μ. μ has the size that step (3) of the proof of
+/// solve_cubic requires, where F̂ changes its sign between neighbouring numbers.
 double residual_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));

@@ -1,5 +1,5 @@
-// Tests the claim of vertex_edge about ψ: F_0ij rises by at most the bound on the way from any time to a
-// candidate.
+// Tests the claim of vertex_edge about ψ: on the way from any time to a candidate time, F_0ij rises by at
+// most the bound on which ψ is based.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,8 @@ struct Checkpoint {
 };
 
 /// The times 0 and 1, all computed candidates of cases 2 and 4, and all times at which the exact F turns, in
-/// order. Between two of them, F is monotonic. (Double is far finer than the tested numbers of few bits.)
+/// order. Between two neighbours, F is monotonic. (Values in double stand for exact ones, because the tested
+/// numbers have far fewer bits.)
 std::vector<Checkpoint> checkpoints_of(const EdgeProblem& p, double rho) {
   std::vector<Checkpoint> checkpoints;
   const auto add = [&](double t, bool candidate) { checkpoints.push_back({t, candidate, 0}); };
@@ -147,9 +148,9 @@ TEST(ProofsSolverEdge, FRisesByWhatIsDropped) {
   }
 }
 
-// constraints.hpp: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞ for d at right angles to e. The square of the largest s · (d × e)
-// over signs s is d·d (3 e·e - (s·e)²). This square is convex in e, so checking the corners of the cube is
-// enough.
+// constraints.hpp: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞ for d at right angles to e. For a vector s of signs, the square of
+// s · (d × e) is at most d·d (3 e·e - (s·e)²). This bound is convex in e, so checking the corners of the cube
+// is enough.
 TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
   const auto corner = [](int i) {
     return Vector3<double>((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);

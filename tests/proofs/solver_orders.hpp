@@ -18,8 +18,8 @@ Number growth(const Number& u, int k) {
   return power(u + Number(1), k) - Number(1);
 }
 
-/// Errors of `solve_quadratic`, if the leading coefficient is exact or rounded once (a cubic's 3a): the
-/// relative difference of c' from c; θ; and |t' - t| if t' or t is in [0, 1].
+/// Errors of `solve_quadratic` (quadratic.hpp): the relative difference of c' from c; θ; and |t' - t| if t'
+/// or t is in [0, 1]. The leading coefficient is exact, or is rounded once, as a cubic's 3a is.
 template <class Number>
 struct QuadraticErrors {
   Number constant, factor, time;
@@ -38,7 +38,7 @@ Number cubic_evaluation(const Number& u) {
 }
 
 /// m in the proof of `solve_cubic`, for coefficients of magnitudes at most a, b and c: twice ½ |F''| |t' -
-/// t|², plus the change of c.
+/// t|², plus |c' - c|.
 template <class Number>
 Number cubic_nodes(const Number& u, const Number& a, const Number& b, const Number& c) {
   const QuadraticErrors<Number> errors(u, true);
@@ -46,8 +46,8 @@ Number cubic_nodes(const Number& u, const Number& a, const Number& b, const Numb
   return c * errors.constant + second * errors.time * errors.time;
 }
 
-/// Bounds for `vertex_edge`: of the coefficients of x_0i × x_ji, and of their errors, without the errors of
-/// the roots.
+/// `a`, `b` and `c` bound the coefficients of x_0i × x_ji in `vertex_edge`, and `error` bounds the sum of
+/// their errors. The errors of roots do not count.
 template <class Number>
 struct EdgeBounds {
   Number a, b, c, error;
@@ -61,14 +61,15 @@ EdgeBounds<Number> edge_bounds(const Number& u, int k_a, int k_b, int k_c) {
           growth(u, k_a) * Number(2) + growth(u, k_b) * Number(6) + growth(u, k_c) * Number(4)};
 }
 
-/// 2Δ, without the dropped coefficients and the error of x_ji.
+/// 2Δ (vertex_edge.hpp), without the dropped coefficients and the error of x_ji.
 template <class Number>
 Number edge_difference(const Number& u, const EdgeBounds<Number>& bounds) {
   const QuadraticErrors<Number> errors(u, false);
   return (bounds.error + bounds.c * errors.constant) * Number(6);
 }
 
-/// The bound of F's rise for a threshold S: half of r, plus the rate of F times the error of a time.
+/// The bound of F's rise (vertex_edge.hpp) for a threshold S: half of r, plus the rate of F times the error
+/// of a time.
 template <class Number>
 Number edge_rise(const Number& u, const EdgeBounds<Number>& bounds, const Number& S) {
   const QuadraticErrors<Number> errors(u, false);

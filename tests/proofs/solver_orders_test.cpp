@@ -105,7 +105,8 @@ TEST(ProofsSolverOrders, NothingElseAsksForMoreOfMu) {
   EXPECT_TRUE(holds(clearance, h));
   // Neighbouring numbers are 2u apart. The smaller |F̂| is at most half of the change of F̂.
   EXPECT_TRUE(holds(u * 72 * scale + h, cubic_residual(u)));
-  // |F̂| = |step| |slope|, with both rounded. The slope is 3a t² + 2b t + c, with an error of at most 300 u.
+  // |F̂| = |step| |slope|, where step and slope are rounded. The slope is 3a t² + 2b t + c, with an error of
+  // at most 300 u.
   EXPECT_TRUE(holds(u * (u * 300 + 72) * scale * power(u + 1, 3), cubic_residual(u)));
 }
 

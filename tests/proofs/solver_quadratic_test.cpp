@@ -1,5 +1,5 @@
-// Up to a factor near 1, the times that the quadratic solver computes are exact roots of the given polynomial
-// with another constant c' in place of c.
+// Tests that the times that the quadratic solver computes are, up to a factor near 1, exact roots of the
+// given polynomial with another constant c' in place of c.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,9 +34,9 @@ WideReal constant_of_roots(const QuadraticCoefficients& p) {
   return c * of_product * of_square;
 }
 
-/// The errors of the solver, divided by the bounds in its comment: the relative difference of c' from c, and
-/// the largest relative difference of a root of a t² + b t + c' in [0, 1] from the nearest returned time. A
-/// value above 1 refutes a bound.
+/// The errors of the solver, divided by the bounds in the comment on `solve_quadratic`: the relative
+/// difference of c' from c, and the largest relative difference of a root of a t² + b t + c' in [0, 1] from
+/// the nearest returned time. A value above 1 refutes a bound.
 struct Distances {
   double constant = 0;
   double factor = 0;

@@ -1,4 +1,4 @@
-// Rational functions of the roundoff u, and a test that one is never above another.
+// Rational functions of the roundoff u, and a test that one of two such functions is never above the other.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline FractionPolynomial product(const FractionPolynomial& a, const FractionPol
 }
 
 /// The Bernstein coefficients of a polynomial on [0, end]. On this interval, the polynomial's values lie
-/// between the smallest and the largest of them.
+/// between the smallest and the largest of these coefficients.
 inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, const Fraction& end) {
   const std::size_t degree = p.size() - 1;
   FractionPolynomial all(p.size());
@@ -42,11 +42,12 @@ inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, co
   return all;
 }
 
-/// Whether the Bernstein coefficients show that a polynomial is nowhere negative, or everywhere positive, on
-/// [0, end]. (False proves nothing.)
+/// Whether the Bernstein coefficients show that a polynomial is nowhere negative on [0, end]. (False proves
+/// nothing.)
 inline bool is_nonnegative(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b >= 0; });
 }
+/// Like is_nonnegative(), for a positive polynomial.
 inline bool is_positive(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b > 0; });
 }
@@ -75,7 +76,8 @@ class RationalFunction {
     return {product(a.numerator_, b.denominator_), product(a.denominator_, b.numerator_)};
   }
 
-  /// Whether exact arithmetic shows that a <= b on all of [0, end], and that neither has a pole there.
+  /// Whether exact arithmetic shows that a <= b on all of [0, end], and that neither function has a pole
+  /// there.
   friend bool is_at_most(const RationalFunction& a, const RationalFunction& b, const Fraction& end) {
     const FractionPolynomial left = product(a.numerator_, b.denominator_);
     const FractionPolynomial right = product(b.numerator_, a.denominator_);

@@ -58,7 +58,8 @@ struct TheoremBound {
   }
 };
 
-/// Whether the vectors of a pair count as exact, as in §4, or have the rounding errors of §5.
+/// Whether the vectors of a pair count as exact, as in §4 of the paper, or have the rounding errors of its
+/// §5.
 enum class Vectors : std::uint8_t { exact, rounded };
 
 /// The bounds of both sides of a problem. Inputs other than coordinates count as exact and at most 1.
@@ -72,7 +73,7 @@ struct TheoremBounds {
 /// Applies the theorem, with one exception: a position x + t v is within the bound of its ends, so its size
 /// is not the sum of the sizes of x and t v. With a = 1 + ε and m = k_t + k_v + 1, its error is at most
 ///   ((a^k_x - 1) + (a^m - 1)) a + ε = a^(k_x + 1) + a^(m + 1) - a - 1 <= a^(k_x + m + 1) - 1,
-/// since (a^k_x - 1)(a^m - 1) >= 0. This is the paper's k = 2 for exact vectors (§4.2).
+/// since (a^k_x - 1)(a^m - 1) >= 0. For exact vectors, the exponent is 2, as in the paper (§4.2).
 TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {
   Program program;
   const int left = program.add(problem.left);

@@ -1,4 +1,5 @@
-// A scalar that records the operations on it. A template that computes with it yields its own formula.
+// A scalar that records the operations on it. A template that computes with this scalar yields the formula of
+// the template.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,27 +42,26 @@ struct Node {
   Trace* trace = nullptr;  ///< trace of the inputs; null without inputs
 };
 
-/// A comparison that a template made: left < right, left <= right or left == right. The recorded operations
-/// after it are those for one outcome only. Therefore a proof about them must have this outcome as a
-/// hypothesis, or must not depend on it.
+/// A comparison that a template made: left < right, left <= right or left == right. The operations recorded
+/// after a comparison are those for its outcome only. Therefore a proof about these operations must have the
+/// outcome as a hypothesis, or must not depend on it.
 struct Branch {
   enum class Relation : std::uint8_t { less, at_most, equal } relation;
   std::shared_ptr<const Node> left, right;
   bool outcome;
 };
 
-/// The inputs of expressions, and the comparisons between the expressions. The trace must outlive their last
-/// comparison, and cannot be moved.
+/// The inputs of expressions, and the comparisons between the expressions. The trace must outlive the last
+/// comparison of these expressions, and cannot be moved.
 class Trace {
  public:
   Trace() = default;
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
 
-  /// Adds an exact number. Its sample decides comparisons.
+  /// Adds an exact number, whose sample decides comparisons.
   Traced input(std::string name, double sample);
 
-  /// All comparisons so far, in order.
   [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
   void record(Branch branch) { branches_.push_back(std::move(branch)); }
 

@@ -1,5 +1,5 @@
-// Inequalities that the tolerances must satisfy. If they hold, the CCD misses nothing and reports nothing
-// beyond its bound (§4).
+// The inequalities that the tolerances must satisfy. If all hold, `wang` misses nothing, and every pair that
+// it reports comes within the distance bound (§4).
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace nearmiss {
 
-/// Bounds of the rounding errors in the constraints, and the least μ and ψ, all for B = 1. `Number` is any
-/// arithmetic type, such as an interval.
+/// The bounds of rounding errors in the constraints, and the least μ and ψ, all for B = 1. `Number` is any
+/// arithmetic type, such as a type of intervals.
 template <class Number>
 struct RoundingErrors {
-  Number area;       ///< a component of N
-  Number height_vt;  ///< error of the height test, for η <= B
+  Number area;       ///< of a component of N
+  Number height_vt;  ///< of the height test, for η <= B
   Number height_ee;
-  Number weight_vt;  ///< error of comparing a weight with N·N
+  Number weight_vt;  ///< of the comparison of a weight with N·N
   Number weight_ee;
-  Number length2;    ///< VE: squared edge length
-  Number weight_ve;  ///< VE: error of comparing a weight
-  Number F;          ///< VE: F_0ij
-  Number residual;   ///< the most by which |F| exceeds μ between a root and its computed time
-  Number delta;      ///< VV: squared distance, all errors together
+  Number length2;    ///< VE: of the squared edge length
+  Number weight_ve;  ///< VE: of the comparison of a weight with the squared edge length
+  Number F;          ///< VE: of F_0ij
+  Number residual;   ///< the most by which |F| exceeds μ between a root and the time that represents it
+  Number delta;      ///< VV: of the squared distance, all errors together
   Number least_mu;   ///< the least μ with which no root is missed (Appendix B)
   Number least_psi;  ///< the least ψ with which VE misses no time (Appendix C)
 };
 
-/// The errors that the paper states (§4.2 to §4.5). Errors that the paper omits are 0.
+/// The bounds that the paper states (§4.2 to §4.5). Those of errors that the paper omits are 0.
 template <class Number>
 RoundingErrors<Number> printed_errors(const Number& eps) {
   using std::sqrt;
@@ -40,11 +40,10 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
           eps * 44, eps * 0,  eps * 0,  eps * 311, eps * 33492, e * e * 725};
 }
 
-/// The errors including everything that the paper omits, for rounding to nearest (u = ε/2): the rounding of
-/// the relative vectors themselves (§5), terms of second order in ε, and end points of edges that are within
-/// 2B but not within B. Gappa proves them for every ε <= 2^-10 (proven.hpp).
-///
-/// The errors of the solvers are in solver_errors.hpp; that file, cubic.hpp and vertex_edge.hpp derive them.
+/// The bounds of all errors, for rounding to nearest (u = ε/2) and every ε <= 2^-10. Gappa proves them
+/// (proven.hpp), except those of the solvers, which solver_errors.hpp, cubic.hpp and vertex_edge.hpp derive.
+/// They include what the paper omits: the rounding of the relative vectors themselves (§5), terms of second
+/// order in ε, and end points of edges that are within 2B but not within B.
 template <class Number>
 constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S, const Number& rho) {
   const Number u = eps / 2;
@@ -73,35 +72,37 @@ struct Constraint {
 
 inline constexpr std::size_t constraint_count = 18;
 
-/// All inequalities, for B = 1 and any E_vt, E_ee > 0. E_vt and E_ee are edge lengths in the proofs of §4.4
-/// and §4.5; the algorithm does not use them.
+/// All inequalities, for B = 1 and any E_vt, E_ee > 0. E_vt and E_ee are the edge lengths below which an edge
+/// counts as short in the proofs of §4.4 and §4.5; the algorithms do not use them.
 ///
-/// R is S/√8: F_0ij <= 0 for every vertex within R of the line of an edge e. The paper has S = 3R (§3.2),
-/// from norms of arbitrary vectors. But x_0i × e = d × e, with the distance vector d, is at right angles to
-/// e. So for every vector of signs s, s · (d × e) is at most ‖d‖ √(3 e·e - (s·e)²). The radicand is convex in
-/// e, hence largest at the corners of the cube ‖e‖∞ <= 1, where s·e is odd. This gives ‖d × e‖₁ <= √8 ‖d‖
-/// ‖e‖∞, which e = (1, 1, 1) attains.
+/// R is S/√8: then F_0ij <= 0 for every vertex within R of the line of an edge e. The paper has S = 3R
+/// (§3.2), from norms of arbitrary vectors. But x_0i × e = d × e, where d is the distance vector from the
+/// line to the vertex, is at right angles to e. So s · (d × e) <= ‖d‖ √(3 e·e - (s·e)²) for every vector s
+/// whose components are 1 or -1. The radicand is convex in e. Hence it is largest at the corners of the cube
+/// ‖e‖∞ <= 1, where s·e is odd. This gives ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞. For e = (1, 1, 1), some d attains this
+/// bound.
 ///
-/// The argument in short: r bounds the distance from the plane if the area test passes. A collision that
-/// fails a test is within R of an edge at some time, because something is small (two-event analysis, §3.3.1):
-/// the triangle (its inscribed circle) or the quadrilateral, an edge, a height, or a weight. A vertex within
-/// R of an edge is reported by VE itself, or it is within D of an end of the edge when VE's length or weight
-/// test fails.
+/// The argument in short: if the area test passes, r bounds the distance of the vertex from the triangle's
+/// plane, or of the two edges' lines. If a collision fails a test, a vertex comes within R of an edge at some
+/// time, because something is small (two-event analysis, §3.3.1): the triangle (its inscribed circle) or the
+/// quadrilateral, an edge, a height, or a weight. VE reports a vertex within R of an edge, or its length or
+/// weight test fails when the vertex is within D of an end of the edge.
 ///
-/// If a pair does not collide, its p may be as large as 2B at t = 1. The errors of its weights are then at
-/// most doubled, and so is the distance of a false positive from an edge's line.
+/// The p of a pair that does not collide may be as large as 2B at t = 1. This at most doubles the errors of
+/// the weights, and with them the distance of a false positive from the line of an edge.
 ///
-/// A false positive can arise in two ways; the paper's (2) and (3) take the min of the two distances, but
-/// should take the max. (2) fixes E at 21/4 ε^½, and (3) fixes it at 4 ε^½; in both, the rounding error of
-/// the height test then adds 4 ε^½ to η. The paper's claim that the quadrilateral's shorter edge is below √τ
-/// (§3.4.1) does not hold for edges that are nearly parallel, but its consequences do.
+/// The constraints differ from the paper's (2) and (3) in two points. A false positive can arise in two ways,
+/// and the paper takes the minimum of their distances, where the maximum is correct. The paper also fixes E
+/// at 21/4 ε^½ in (2) and at 4 ε^½ in (3); with each of these values, the rounding error of the height test
+/// adds 4 ε^½ to η. The paper's claim that the shorter edge of the quadrilateral is below √τ (§3.4.1) does
+/// not hold for edges that are nearly parallel, but the conclusions from this claim hold.
 template <class Number>
 auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number& E_ee,
                  const RoundingErrors<Number>& errors) {
   using std::sqrt;
   const auto squared = [](const Number& x) { return Number(x * x); };
   const Number root3 = sqrt(Number(3));
-  const Number N = tol.tau - errors.area;  // the least ‖N‖ that passes
+  const Number N = tol.tau - errors.area;  // the least ‖N‖ with which the area test passes
   const Number r2 = squared((tol.mu + errors.residual) / N);
   const Number R2 = squared(tol.S) / 8;
   const Number height_vt = Number(3) / 4 * squared(tol.eta + errors.height_vt / E_vt);

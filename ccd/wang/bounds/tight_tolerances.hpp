@@ -1,4 +1,4 @@
-// The smallest tolerances that the constraints of §4 allow, for any scalar.
+// The smallest tolerances that satisfy the constraints of §4 (constraints.hpp), for any scalar.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace nearmiss {
 
-/// The exponent in ε = 2^epsilon_exponent.
+/// The exponent k in ε = 2^k.
 template <class T>
 inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
 
-/// Tolerances for B = 1 as multiples of powers of e = ε^¼.
+/// The tolerances for B = 1, in units of powers of e = ε^¼.
 struct ToleranceConstants {
   double mu;           ///< in units of ε
   double tau, eta;     ///< in units of e² and e
@@ -40,8 +40,7 @@ constexpr double square_root(double x) {  // Newton's method, from above
   }
 }
 
-/// The place in [lo, hi] at which a function that first falls and then rises is smallest (golden-section
-/// search).
+/// The x in [lo, hi] with the smallest f(x), found by golden-section search. f must first fall and then rise.
 template <class Function>
 constexpr double lowest(const Function& f, double lo, double hi) {
   constexpr double golden = 0.6180339887498949;
@@ -69,9 +68,10 @@ struct EdgeTolerances {
   double psi, lambda2, D2;
 };
 
-// The smallest ψ and D² for a given S, for B = 1. As λ² grows, λ²/4 + (ψ/λ + S)² first falls and then rises,
-// since its slope grows. The other lower bound of D² falls, so the larger of the two bounds also falls and
-// then rises.
+// The smallest ψ and D² for a given S, with the λ² for which D² is smallest, for B = 1. D² has two lower
+// bounds ("VE: edge becomes short" and "VE: weight" in `constraints`). As λ² grows, the first one,
+// λ²/4 + (ψ/λ + S)², first falls and then rises, since its slope grows. The second one falls. So the larger
+// of the two first falls and then rises.
 constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
   const double psi = errors.least_psi * margin;
   const auto D2 = [&](double lambda2) {
@@ -89,8 +89,8 @@ constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, d
   return {psi, lambda2, D2(lambda2) * margin};
 }
 
-// The smallest g for which the constraint on the weight holds, with η(g) and τ(g) as in `solve_tight`: 2
-// weight <= g η (τ - error). The left side does not depend on g, and the right side grows with it.
+// The smallest g for which allows(g) is true: the constraint on the weight, 2 weight <= g η(g) (τ(g) - error)
+// in `solve_tight`. The right side grows with g, so the constraint holds for all larger g.
 template <class Allows>
 constexpr double least_size(const Allows& allows) {
   double none = 0;
@@ -105,18 +105,18 @@ constexpr double least_size(const Allows& allows) {
 
 }  // namespace detail
 
-/// Minimises D² subject to `constraints` with `full_errors`.
+/// Minimises D² subject to `constraints` with `full_errors`, for ε = 2^eps_exponent.
 ///
-/// D² depends only on R, and grows with it, so R is minimised first. Let g² = R² - r². The constraint on the
-/// short edge allows E up to 2g. The constraint on the height allows η up to 2g/√3 - error/E, and η is at
-/// most B. The constraint on the quadrilateral's area allows τ up to 4g²/√3 - error (the constraint on the
-/// triangle's area allows a larger τ). E, η and τ take the largest values allowed, because larger values make
-/// g0 and r(g), below, smaller. The constraint on the weight requires g η (τ - error) >= 2 weight, which
-/// holds for g above some g0, and R² = g² + r(g)² falls and then rises. S, ρ = ε and `edge_tolerances`
-/// follow.
+/// The smallest D² depends only on R and grows with R, so R is minimised first. Let g² = R² - r². The
+/// constraint on the short edge allows E up to 2g. The constraint on the height allows η up to
+/// 2g/√3 - error/E, and η is at most B. The constraint on the quadrilateral's area allows τ up to
+/// 4g²/√3 - error (the constraint on the triangle's area allows a larger τ). E, η and τ get the largest
+/// allowed values, because these give the smallest r(g) and the smallest g0: the constraint on the weight, g
+/// η (τ - error) >= 2 weight, holds for all g above some g0. As g grows from g0, R² = g² + r(g)² first falls
+/// and then rises, and its minimum gives R. R gives S, and S gives the `edge_tolerances`, with ρ = ε.
 ///
-/// Computing a value takes a few roundings, with a relative error below 16 ε in total. R, ψ, D² and μ are
-/// increased by this relative error and by 2^-30.
+/// The operations that compute a tolerance have a relative error below 16 ε together. R, ψ, D² and μ are
+/// increased by 16 ε + 2^-30 times themselves.
 constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));
@@ -154,13 +154,13 @@ constexpr ToleranceConstants solve_tight(int eps_exponent) {
 template <class T>
 inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_exponent<T>);
 
-/// The constants of the paper's closed forms, for ε = 2^eps_exponent.
+/// The tolerances of the paper's closed forms in the same units, for ε = 2^eps_exponent.
 constexpr ToleranceConstants closed_forms(int eps_exponent) {
   const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
   return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
 }
 
-/// The tolerances for a bound B from their constants.
+/// The tolerances for a bound B, from their values for B = 1.
 template <class T>
 Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& B) {
   using std::sqrt;
@@ -182,17 +182,17 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
   return tol;
 }
 
-/// Tolerances that are failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for
-/// queries whose coordinates the scalar represents; a narrower scalar rounds them first. The distance bound
-/// is the smallest that the constraints give: 11.9 B e for double and finer, 12.1 B e for float.
+/// The tolerances with the smallest distance bound: 11.9 B ε^¼ for double and wider scalars, 12.1 B ε^¼ for
+/// float. They are failure-proof for every scalar of 11 to 256 bits that rounds to nearest, for the
+/// coordinates as the scalar represents them: a narrow scalar rounds them first.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
-/// The tolerances for a vertex within R of an edge: S = √8 R, ρ = ε, the least ψ, and a λ² for which D is
-/// about smallest. λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ for S = 0, and at λ³ = 4Sψ for large S. All other
-/// tolerances are those of `tol`, for B.
+/// The tolerances for the question whether a vertex comes within R of an edge. They are `tol`, the tolerances
+/// for B, except for S = √8 R, ρ = ε, the least ψ, and a λ² for which D² is nearly the smallest. For S = 0,
+/// λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ; for large S, it is smallest at λ³ = 4Sψ.
 template <class T>
 Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R) {
   using std::max;
@@ -205,7 +205,7 @@ Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R
   const RoundingErrors<T> errors = full_errors(eps, S, eps);
   const T psi = errors.least_psi * margin;
   const T cubes = 16 * S * S * psi * psi;
-  const T root = static_cast<T>(std::cbrt(static_cast<double>(cubes)));  // any λ² will do
+  const T root = static_cast<T>(std::cbrt(static_cast<double>(cubes)));  // need not be accurate
   const T lambda2 = max(T(2 * psi + root), T(2 * errors.length2));
   const T longer2 = lambda2 + errors.length2;
   const T shorter2 = lambda2 - errors.length2;
@@ -221,7 +221,8 @@ Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R
   return tol;
 }
 
-/// The rule for tolerances that gives `tight_tolerances`, and the paper's tolerances for two vertices.
+/// The rule that gives `tight_tolerances` and `tight_tolerances_of_edge`, but the paper's tolerances for two
+/// vertices.
 struct TightTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {

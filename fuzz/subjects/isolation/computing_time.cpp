@@ -41,7 +41,6 @@ void add_children(pid_t process, std::vector<pid_t>& found) {
   }
 }
 
-/// A process and all its descendants.
 std::vector<pid_t> processes_of_tree(pid_t root) {
   constexpr std::size_t most = 1024;  // because processes may start faster than this loop finds them
   std::vector<pid_t> processes{root};

@@ -21,14 +21,14 @@ struct ComputingTime {
   [[nodiscard]] Duration sum() const { return running + ended; }
 };
 
-/// The length of a clock tick, by which a sum of `ended` may be too small.
+/// The length of a clock tick, to which ComputingTime::ended is accurate.
 Duration clock_tick();
 
-/// The computing time of a process and all its descendants. Descendants are found only if the system has the
-/// file /proc/PID/task/TID/children (proc(5)), as the kernels of distributions do.
+/// The computing time of a process and all its descendants. Descendants are found only if the kernel has the
+/// files /proc/PID/task/TID/children (proc(5)), as the kernels of distributions have.
 ComputingTime computing_time_of_tree(pid_t root);
 
-/// The largest Memory::data, in bytes, of a process and its descendants. Descendants are found as in
+/// The largest Memory::data, in bytes, among a process and its descendants. Descendants are found as in
 /// computing_time_of_tree().
 std::uint64_t largest_data_of_tree(pid_t root);
 

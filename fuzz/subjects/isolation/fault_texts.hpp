@@ -14,7 +14,7 @@ namespace nearmiss {
 /// fit into a verdict. Many threads may use it at once.
 class FaultTexts {
  public:
-  /// The number of a text. Texts beyond the first thousand share the last number.
+  /// The number of a text. Texts beyond the first 999 share the last number.
   std::int32_t number(const std::string& text) {
     const std::lock_guard lock(mutex_);
     const auto place =

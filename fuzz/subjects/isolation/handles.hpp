@@ -15,12 +15,12 @@
 
 namespace nearmiss::isolation {
 
-/// Throws NoWorker with the system's reason unless `fine`.
+/// Throws NoWorker, with `what` and the system's reason (errno), unless `fine`.
 inline void check(bool fine, const char* what) {
   if (!fine) throw NoWorker(fmt::format("no worker process: {}: {}", what, std::strerror(errno)));
 }
 
-/// Closes a file descriptor.
+/// Owns a file descriptor, and closes it.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -42,8 +42,8 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Memory that a process can share with another process. No process can change its size. The system provides
-/// memory only for the parts that are used.
+/// Memory that a process can share with another process. No process can change the size of this memory. The
+/// system provides memory only for the parts that are used.
 class SharedMemory {
  public:
   SharedMemory() = default;

@@ -28,13 +28,12 @@ using isolation::Request;
 using isolation::WorkerFailure;
 using isolation::WorkerProcess;
 
-/// The name of the same plug-in with one of its detectors chosen.
+/// The name of a plug-in, with the detector `subject` chosen.
 std::string with_subject(const std::string& name, const std::string& subject) {
   const std::size_t path = PluginName::parse(name).path.size();
   return name.substr(0, path) + ":" + subject + name.substr(path);
 }
 
-/// Whether a verdict with this fault has a text.
 bool has_text(Fault fault) { return fault == Fault::exception || fault == Fault::load; }
 
 class IsolatedPlugin final : public DescribedSubject {
@@ -124,7 +123,7 @@ class IsolatedPlugin final : public DescribedSubject {
     std::size_t first;            ///< index of the call's first query among all queries
     std::uint32_t count;          ///< number of queries that were answered
     const std::optional<WorkerFailure>& failure;
-    bool is_whole;  ///< whether these are all queries of the call
+    bool is_whole;  ///< whether the worker answered all queries of the call
   };
 
   /// Asks a question about one query. given(worker) reads the answer from the worker.
@@ -153,7 +152,7 @@ class IsolatedPlugin final : public DescribedSubject {
     });
   }
 
-  /// The code of a failure in a verdict. Keeps what the process wrote.
+  /// The code of a failure in a verdict. Also stores what the process wrote, in errors_.
   std::int32_t code_of(const WorkerFailure& failure) const {
     const std::int32_t code = has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
     if (failure.errors.empty()) return code;
@@ -166,8 +165,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch: the first queries of one kind, at most as many as a worker gets at once. The
-  /// plug-in can decide either all queries of the batch or none.
+  /// The size of the next batch: the number of first queries that have the same kind, and of which the
+  /// plug-in can decide either all or none, but at most as many as a worker gets at once.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -177,7 +176,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return count;
   }
 
-  /// Makes workers perform the request for all queries, batch by batch, and passes on what each has done.
+  /// Makes workers perform the request for all queries, batch by batch. Passes the result of each call to
+  /// take_done().
   template <class Take>
   void perform(Request request, std::span<const Query> queries, const Take& take_done) const {
     in_parts(queries.size(), [&](std::size_t first, std::size_t last) {
@@ -198,12 +198,12 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
   /// Makes a worker perform the request for one batch. If a worker cannot be used any more, a new worker
-  /// replaces it and continues after the query that failed. If there are several suspects, they are asked
+  /// replaces it and continues after the query that failed. If a failure has several suspects, they are asked
   /// again to find the query that is to blame: first in parts, then a failing part in smaller parts, and at
   /// last query by query. If a part fails, but none of its own parts fails, the last query of the part is to
-  /// blame. For a failure that depends on earlier queries, such as a crash at every 1000th query, is a fault,
-  /// too. (If the part was only late, no query is to blame, because all queries together may take that long.)
-  /// `late` counts the queries over the time limit.
+  /// blame. A failure that depends on earlier queries, such as a crash at every 1000th query, is a fault,
+  /// too. (If the part was only late, no query is to blame, because all its queries together may take that
+  /// long.) `late` counts the queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -257,14 +257,13 @@ class IsolatedPlugin final : public DescribedSubject {
     std::optional<WorkerFailure> failure;  ///< set until a query is blamed for it
   };
 
-  /// The size of the parts in which this number of queries is asked again.
+  /// The size of the parts in which `size` queries are asked again.
   static std::uint32_t part_of(std::uint32_t size) {
     constexpr std::uint32_t few = 4096;
     constexpr std::uint32_t parts = 64;
     return size <= few ? 1 : size / parts;
   }
 
-  /// Adapts the number of queries in later calls.
   void adapt(std::uint32_t count, const WorkerProcess& worker,
              const std::optional<WorkerFailure>& failure) const {
     constexpr std::uint32_t fewer = 8;
@@ -308,7 +307,8 @@ class IsolatedPlugin final : public DescribedSubject {
     }
   }
 
-  /// Starts a worker, as soon as the system has room for one. Throws NoWorker if that takes too long.
+  /// Starts a worker, as soon as the system has room for one. Throws NoWorker if that takes longer than ten
+  /// seconds.
   std::unique_ptr<WorkerProcess> new_worker() const {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds patience(10);
@@ -341,8 +341,9 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable std::atomic<int> failed_starts_ = 0;  // number of consecutive failed starts
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // at the last failed start
-  /// The text that the process wrote when this fault with this code last happened to a thread. The thread
-  /// reads its entry right after the fault, so the text belongs to its own query.
+  /// By thread, fault and fault code: the text that the process wrote when this fault last happened to a
+  /// query of this thread. The thread reads the text right after the fault, so the text belongs to that
+  /// query.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

@@ -12,27 +12,28 @@
 
 namespace nearmiss {
 
-/// The plug-in of a name (ccd/subjects/plugin.hpp), with one worker process for each thread that asks at the
-/// same time. A failure becomes the verdict's fault, and the next query gets a new process, except after an
-/// exception. The plug-in's output is discarded. Throws Error if the plug-in cannot be loaded, or has several
-/// detectors and the name chooses none.
+/// The plug-in with this name (ccd/subjects/plugin.hpp), with one worker process for each thread that asks at
+/// the same time. If the plug-in fails, the verdict has a fault, and the next query gets a new process,
+/// except after an exception. What the plug-in writes to standard output is discarded. Throws Error if the
+/// plug-in cannot be loaded, or has several detectors and the name chooses none.
 ///
-/// All answers come from the same bytes: if a file of the plug-in is changed, calls throw
+/// All answers come from the same code: if a file of the plug-in is changed, calls throw
 /// isolation::PluginChanged, and the answers of the current call are not used. If the system starts no worker
 /// for ten seconds, calls throw isolation::NoWorker.
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 
-/// Like make_isolated_plugin, but makes all detectors of a shared object if the name chooses none.
+/// Like make_isolated_plugin, but makes a subject of each detector of a shared object if the name chooses
+/// none.
 std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
                                                             const isolation::PluginLimits& limits = {});
 
-/// Identifies the code of a plug-in.
 struct PluginIdentity {
-  std::string path;      ///< path or command with options, as given, and the detector if the file has several
+  std::string path;      ///< path or command with options, as given; with the detector's name if the file has
+                         ///< several
   std::string version;   ///< the version that the plug-in states; "" if it states none
-  std::string sha256;    ///< of the file, in hexadecimal
-  std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none
+  std::string sha256;    ///< PluginCode::sha256()
+  std::string build_id;  ///< PluginCode::build_id()
 };
 
 /// The identity of a subject's code, if make_isolated_plugin made the subject.

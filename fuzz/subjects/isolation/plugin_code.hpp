@@ -1,4 +1,4 @@
-// The code of a plug-in: identifies its bytes, and checks that they stay the same.
+// Identifies the code of a plug-in by its bytes, and checks that these bytes stay the same.
 #pragma once
 
 #include <memory>
@@ -25,12 +25,11 @@ class PluginCode {
 
   /// The plug-in's name on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// The SHA-256 digest of the file, in hexadecimal. For several files, the digest of the files' digests.
+  /// The SHA-256 digest of a shared object, in hexadecimal. For a command, the digest of its files' digests.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
   /// The GNU build id of a shared object, in hexadecimal; "" if it has none.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
-  /// Calls PluginFile::expect_unchanged for each file.
   void expect_unchanged(const Stop& stop) const;
 
  private:

@@ -17,7 +17,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The usual relocations of x86-64 and AArch64 code cannot address more bytes than this.
+/// The largest plug-in: the usual relocations of x86-64 and AArch64 code cannot address more bytes.
 constexpr off_t most_bytes = off_t{1} << 31;
 
 bool is_same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
@@ -27,7 +27,7 @@ std::string_view part(std::string_view bytes, std::size_t offset, std::size_t si
   return offset > bytes.size() ? std::string_view() : bytes.substr(offset, size);
 }
 
-/// The structure at an offset; all zeros if the file ends within it.
+/// The structure at an offset; all zeros if the file ends within the structure.
 template <class Structure>
 Structure at(std::string_view bytes, std::size_t offset) {
   Structure structure{};
@@ -36,7 +36,7 @@ Structure at(std::string_view bytes, std::size_t offset) {
   return structure;
 }
 
-/// The build id among the notes of a segment.
+/// The build id among the notes of a segment; "" if there is none.
 std::string build_id_in(std::string_view notes) {
   const auto aligned = [](std::size_t size) { return (size + 3) / 4 * 4; };
   while (notes.size() >= sizeof(ElfW(Nhdr))) {

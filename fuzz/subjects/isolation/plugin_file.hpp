@@ -1,4 +1,4 @@
-// The file of a plug-in: identifies its bytes, and checks that they stay the same.
+// Identifies a file of a plug-in by its bytes, and checks that these bytes stay the same.
 #pragma once
 
 #include <sys/stat.h>
@@ -14,13 +14,13 @@
 
 namespace nearmiss::isolation {
 
-/// Thrown if a plug-in's file was changed while its answers were collected.
+/// Thrown if a plug-in's file was changed while the plug-in's answers were collected.
 class PluginChanged : public TrialError {
  public:
   using TrialError::TrialError;
 };
 
-/// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not
+/// A file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not
 /// included. Many threads may use a PluginFile at once.
 class PluginFile {
  public:
@@ -34,8 +34,8 @@ class PluginFile {
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
   /// Throws PluginChanged unless the path still leads to a file with the same bytes. Reads the file again
-  /// only if its stamp has changed or was recent; otherwise, the check takes about a microsecond. Throws
-  /// Stopped if `stop` is due meanwhile.
+  /// only if its stamp has changed, or was recent at the last reading; otherwise, the check takes about a
+  /// microsecond. Throws Stopped if `stop` is due during a reading.
   void expect_unchanged(const Stop& stop) const;
 
  private:
@@ -48,12 +48,12 @@ class PluginFile {
 
     bool operator==(const Stamp& other) const;
   };
-  /// The state of the file at one reading of its bytes.
+  /// The state of the file when its bytes were read.
   struct Snapshot {
     Stamp stamp;                                       ///< of the file, taken before it was read
     std::chrono::steady_clock::time_point first_seen;  ///< when the stamp was seen first
     /// Whether the file could be written again without a change of its stamp, because the file system's clock
-    /// may not have ticked since the stamp.
+    /// may not have ticked since the times in the stamp.
     bool is_recent;
   };
 

@@ -16,7 +16,7 @@ struct Memory {
   std::uint64_t data = 0;       ///< private writable memory without the stack
 };
 
-/// The text of a file about a process in /proc. Empty if the process has ended, also while the file was read.
+/// The text of a file about a process in /proc; "" if the process ended before the whole file was read.
 inline std::string text_about_process(const std::string& file) {
   std::ifstream in(file);
   std::string text;

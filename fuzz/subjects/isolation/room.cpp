@@ -24,7 +24,7 @@ std::optional<std::uint64_t> number_in(const std::filesystem::path& file, const 
   return in >> number ? std::optional(number) : std::nullopt;
 }
 
-/// The memory that a control group has left. Cached pages of files that are not in use count as free.
+/// The memory that a control group has left. Inactive cached pages of files count as free.
 std::uint64_t left_in(const std::filesystem::path& group) {
   const auto most = number_in(group / "memory.max");
   const auto used = number_in(group / "memory.current");

@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 /// (cgroups(7)) of the process has less. Reads files below `root`.
 std::uint64_t memory_left(const std::filesystem::path& root = "/");
 
-/// Throws a TrialError unless this many bytes are left. The message says that `what` needs them.
+/// Throws a TrialError unless this many bytes are left. The message says that `what` needs these bytes.
 void expect_memory(const std::string& what, std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

@@ -11,8 +11,8 @@
 namespace nearmiss::isolation {
 
 /// File descriptors with which a worker starts.
-inline constexpr int reply_socket = 3;   ///< a `Call` requests something; its number is the reply
-inline constexpr int status_socket = 4;  ///< a `Status` for each change
+inline constexpr int reply_socket = 3;   ///< nearmiss sends a `Call`; the worker replies with its number
+inline constexpr int status_socket = 4;  ///< the worker sends a `Status`
 inline constexpr int answers_memory = 5;
 
 /// The number of queries for which a worker always has memory. Some detectors want larger batches.
@@ -21,10 +21,10 @@ inline constexpr std::size_t least_capacity = 2048;
 /// The reply to a call if the plug-in breaks the protocol, so that its answers cannot be used.
 inline constexpr std::uint64_t no_reply = ~std::uint64_t{0};
 
-/// What a worker does with the queries of a batch.
+/// What nearmiss asks a worker to do.
 enum class Request : std::uint8_t {
-  load,   ///< loads the plug-in; comes first
-  share,  ///< maps the memory of batches (BatchMemory), whose files come with the call; comes second
+  load,   ///< loads the plug-in; the first request
+  share,  ///< the second request: maps the memory of batches (BatchMemory), whose files come with the call
   decide,
   decide_timed,  ///< decides, and measures the time of all queries together
   time_each,     ///< measures the time of each query
@@ -42,21 +42,21 @@ struct Call {
   std::uint32_t queries = 0;  ///< with `share`, the most queries that a batch may have
 };
 
-/// A message about the plug-in's process. The first one comes from that process before it loads the plug-in,
-/// and its credentials (unix(7)) name the process. The second message comes from the supervisor when the
-/// process has ended.
+/// A message about the plug-in's process. The first message comes from that process before it loads the
+/// plug-in; the credentials of the message (unix(7)) name the process. The second message comes from the
+/// supervisor when the process has ended.
 struct Status {
   std::int32_t code = 0;             ///< si_code when the process has ended
   std::int32_t status = 0;           ///< si_status
   std::int32_t is_in_namespace = 0;  ///< in the first message: 1 if the process has its own PID namespace
-  /// In the second message: the end of what the process wrote to standard error, up to the first zero.
+  /// In the second message: the end of what the process wrote to standard error. The text ends at the first
+  /// zero byte.
   std::array<char, 2048> errors{};
 };
 
 /// The layout of the questions and answers of a batch of n queries in two blocks of shared memory. The layout
-/// has no gaps, so a small batch uses only the start of blocks that have room for a large one. nearmiss
-/// writes the questions, which the worker can only read. The worker writes the answers; the plug-in can write
-/// to them, too.
+/// has no gaps, so a small batch uses only the start of each block. nearmiss writes the questions, which the
+/// worker can only read. The worker writes the answers; the plug-in can write to their block, too.
 struct BatchMemory {
   double* questions;
   std::byte* answers;
@@ -71,11 +71,11 @@ struct BatchMemory {
 
   /// For each query, the number of the call that answered it.
   [[nodiscard]] std::uint64_t* calls() const { return at<std::uint64_t>(0); }
-  /// The times that were measured by time_each.
+  /// The times that Request::time_each measured.
   [[nodiscard]] std::uint64_t* nanoseconds() const { return at<std::uint64_t>(1); }
-  /// The times of impact, or the bounds.
+  /// The times of impact, bounds, distances or clearances.
   [[nodiscard]] double* numbers() const { return at<double>(2); }
-  /// The plug-in's return values.
+  /// The plug-in's decisions, as in nearmiss_subject.h.
   [[nodiscard]] int* values() const { return at<int>(5); }
 
   /// Like calls(), but for the empty detector, whose answers must not be mistaken for those of the plug-in.
@@ -105,17 +105,17 @@ struct PluginDescription {
   std::uint64_t batch = 0;
 };
 
-/// Memory that the worker writes. The plug-in, which runs in the same process, can write anything here.
+/// Memory that the worker writes. The plug-in, which runs in the worker's process, can write anything to it.
 struct SharedAnswers {
-  std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
+  std::atomic<std::uint32_t> current{0};         ///< the query that is asked, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
   std::array<double, 12> more{};                 ///< weights of the closest points, or the filtered step
   std::uint64_t nanoseconds = 0;                 ///< measured by decide_timed
   std::uint64_t kernel_nanoseconds = 0;          ///< as the plug-in states; 0 if it does not
   std::array<char, 256> exception{};             ///< what() of an exception that the plug-in did not catch
-  std::atomic<std::uint64_t> threw{0};  ///< the last call that an exception ended, at the query `current`
-  // Written after loading, before any request:
+  std::atomic<std::uint64_t> threw{0};           ///< the number of the last call that an exception ended
+  // Written when the plug-in has been loaded:
   PluginDescription about;
   std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can be used
 };

@@ -27,14 +27,14 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 /// Starts a program, and gives it some descriptors under given numbers. The program gets a session of its
-/// own, which no terminal interrupts, and the default reaction to every signal.
+/// own, so that no terminal interrupts it, and the default reaction to every signal.
 class Spawn {
  public:
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
-    // If our parent blocks or ignores a signal, the plug-in would inherit this setting. It might then behave
-    // differently, or end in a way that hides the cause.
+    // If the parent of nearmiss blocks or ignores a signal, the plug-in would inherit this setting. The
+    // plug-in might then behave differently, or end in a way that hides the cause.
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);
@@ -51,8 +51,8 @@ class Spawn {
   }
 
   void pass(int descriptor, int number) {
-    // The copies get larger numbers than any number that the program's descriptors will have. So no copy
-    // overwrites a descriptor that is still needed.
+    // The copies get larger numbers than the program's descriptors will have, so that dup2(2) overwrites no
+    // copy that is still needed.
     constexpr int above = 16;
     passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
     check(passed_.back().number() >= 0, "descriptor");
@@ -102,8 +102,7 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files, c
   const std::string program = path_beside("nearmiss-worker");
   arguments.insert(arguments.begin(), {"nearmiss-worker", NEARMISS_WORKER_CODE});
   {
-    Spawn spawn;  // owns copies of the descriptors, and closes them at the end: only those of the worker may
-                  // stay open
+    Spawn spawn;  // closes its copies of the descriptors at the end: only the worker may keep them open
     spawn.pass(files.replies, reply_socket);
     spawn.pass(status.theirs.number(), status_socket);
     spawn.pass(files.answers, answers_memory);
@@ -140,10 +139,10 @@ bool Supervisor::learns_process(const Stop& stop) {
   if (recvmsg(status_.number(), &message, MSG_DONTWAIT) != sizeof first) return false;
   const cmsghdr* const attached = CMSG_FIRSTHDR(&message);
   if (attached == nullptr || attached->cmsg_type != SCM_CREDENTIALS) return false;
-  ucred sender{};  // has the number of the process in this process's namespace
+  ucred sender{};  // has the plug-in's process id in the namespace of nearmiss
   std::memcpy(&sender, CMSG_DATA(attached), sizeof sender);
   process_ = sender.pid;
-  // Without this call, a plug-in that has no namespace could write to the memory of nearmiss through /proc.
+  // Without this call, a plug-in without a PID namespace could write to the memory of nearmiss through /proc.
   if (first.is_in_namespace == 0) prctl(PR_SET_DUMPABLE, 0);
   return process_ > 0;
 }
@@ -155,7 +154,7 @@ Supervisor::~Supervisor() {
   constexpr int tries = 2000;
   for (int i = 0; i < tries; ++i) {
     if (waitpid(worker_, nullptr, WNOHANG) != 0) return;
-    kill(worker_, SIGCONT);  // a plug-in without a namespace may have stopped it
+    kill(worker_, SIGCONT);  // a plug-in without a namespace may have stopped the worker
     poll(nullptr, 0, 1);
   }
   kill(worker_, SIGKILL);

@@ -1,4 +1,4 @@
-// nearmiss's side of the supervisor and the guard of a plug-in's process.
+// Starts and ends the supervisor and the guard of a plug-in's process.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,6 @@
 
 namespace nearmiss::isolation {
 
-/// Two connected sockets.
 struct SocketPair {
   Descriptor ours, theirs;
 
@@ -20,10 +19,11 @@ struct SocketPair {
   SocketPair();
 };
 
-/// Waits, at most this time, until something can be read. A signal to nearmiss does not end the wait.
+/// Waits until something can be read from a file, at most for this time. Returns whether it can be read. A
+/// signal to nearmiss does not end the wait.
 bool is_ready(int file, std::chrono::milliseconds time);
 
-/// Starts nearmiss-worker, and ends it with all processes that it started.
+/// Starts nearmiss-worker, and ends it together with all processes that it started.
 class Supervisor {
  public:
   /// Descriptors that the worker gets.
@@ -39,7 +39,7 @@ class Supervisor {
   /// Starts the worker. Returns when the plug-in's process exists and waits for a request to load the
   /// plug-in. Throws NoWorker if the system starts no worker, and Stopped if `stop` is due meanwhile.
   void start(std::vector<std::string> arguments, const Files& files, const Stop& stop);
-  /// Begins to end all processes. The destructor waits until they have ended.
+  /// Begins to end all processes of the worker. The destructor waits until they have ended.
   void dismiss() { status_.close(); }
 
   /// The plug-in's process.
@@ -50,9 +50,9 @@ class Supervisor {
   [[nodiscard]] int socket() const { return status_.number(); }
 
  private:
-  /// Receives the first message, which names the plug-in's process. Returns false if no message comes.
+  /// Receives the first `Status`, which names the plug-in's process. Returns false if none comes.
   [[nodiscard]] bool learns_process(const Stop& stop);
-  /// Waits for the first message. Returns false if no message comes.
+  /// Waits for the first `Status`. Returns false if none comes.
   [[nodiscard]] bool hears_from_worker(const Stop& stop) const;
 
   Descriptor status_;

@@ -1,4 +1,4 @@
-// Errors that end a plug-in's trial without being its fault.
+// Errors that end a plug-in's trial, but are not the plug-in's fault.
 #pragma once
 
 #include "ccd/query/error.hpp"

@@ -27,14 +27,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Text that the worker wrote.
+/// A text that the worker wrote, made printable.
 template <std::size_t n>
 std::string text(const std::array<char, n>& written) {
   return printable(std::string_view(written.data(), strnlen(written.data(), n)));
 }
 
-/// Lines that were written to standard error. An address in memory at the end of a line, "[0x7f0012345678]",
-/// is removed, because it differs from process to process.
+/// The printable lines that the plug-in's process wrote to standard error. An address in memory at the end of
+/// a line, "[0x7f0012345678]", is removed, because it differs from process to process.
 std::string lines_of(const Status& ended) {
   std::istringstream written(
       std::string(ended.errors.data(), strnlen(ended.errors.data(), ended.errors.size())));
@@ -51,17 +51,15 @@ std::string lines_of(const Status& ended) {
 // worker receives the call, asks the empty subject twice, and replies. In 1,500 calls on two busy cores, the
 // median was 20 microseconds, and the longest time was 1,500 microseconds.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
-constexpr double most_asked_twice = 2;  // the worker may ask about queries twice: to warm up, and to measure
-                                        // the time
+constexpr double most_asked_twice = 2;  // once to warm up, and once to measure the time
 
 constexpr std::uint64_t mebibyte = 1 << 20;
 
-/// The name of a batch in messages.
 std::string name_of_batch(const DetectorInfo& info, std::size_t queries) {
   return fmt::format("{}: a batch of {} queries", info.name, queries);
 }
 
-/// Throws Error if `fault` names a fault of a description.
+/// Throws Error if the description of a plug-in has a fault; "" is no fault.
 void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
@@ -131,7 +129,7 @@ WorkerProcess::Elapsed WorkerProcess::Elapsed::with_waiting(Duration computing) 
   return {computing, patience * computing};
 }
 
-/// Measures the times that have passed since its construction.
+/// Measures the times that have passed since this object was made.
 class WorkerProcess::Watch {
  public:
   explicit Watch(const WorkerProcess& worker) : worker_(worker) {}
@@ -160,7 +158,8 @@ void WorkerProcess::look_at_others() {
   const Duration before = others_.sum();
   others_ = computing_time_of_tree(supervisor_.worker());
   others_.running -= own_computing();
-  constexpr Duration of_supervisor = std::chrono::milliseconds(1);  // much more than it needs in a call
+  constexpr Duration of_supervisor = std::chrono::milliseconds(1);  // more than the supervisor needs in a
+                                                                    // call
   others_compute_ |= others_.sum() - before > of_supervisor;
 }
 
@@ -169,7 +168,7 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged(*limits_.stop);  // the file may have changed, which would be the reason
+    file.expect_unchanged(*limits_.stop);  // if the file was changed, that is the reason
     throw;
   }
   file.expect_unchanged(*limits_.stop);  // otherwise, the worker might have loaded other bytes
@@ -198,8 +197,8 @@ void WorkerProcess::start(const std::string& plugin) {
 std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervisor_.worker()); }
 
 void WorkerProcess::load(const std::string& plugin) {
-  // This process checks the memory, because the system's limit does not count data that is mapped in place of
-  // something else, as static data is. The worker itself may also need a little more memory than it has now.
+  // This process checks the memory, because the system's limit does not count data that is mapped over
+  // another mapping, as static data is. The worker itself may also need a little more memory than it has now.
   constexpr std::uint64_t of_worker = 1 << 20;
   most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
@@ -329,7 +328,7 @@ WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query,
 WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
   constexpr Duration longest_turn = milliseconds(100);
-  constexpr int most_looking = 10;  // at most a tenth of the time: there may be hundreds of processes
+  constexpr int most_looking = 10;  // looking takes at most a tenth of the time
   constexpr std::uint64_t calls_between_looks = 16;
   const bool looks =
       others_compute_ || (call.number + 1) % calls_between_looks == 0;  // false while the plug-in is loaded
@@ -346,8 +345,8 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
     limits_.stop->check(Stop::grace);
     const auto now = steady_clock::now();
-    // If nearmiss did not run for a longer time, it was suspended, and the plug-in may have been suspended,
-    // too.
+    // If nearmiss did not run for longer than longest_turn, it was suspended, and the plug-in may have been
+    // suspended, too.
     if (!spoke) suspended_ += std::max(Duration{}, Duration(now - turn) - longest_turn);
     turn = now;
     if (spoke ? looks : now >= next_look) {
@@ -412,7 +411,7 @@ std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) 
 bool WorkerProcess::ends_within(milliseconds time) {
   if (!is_ready(supervisor_.socket(), time)) return false;
   Status told{};
-  // Without a message, the supervisor has ended, too.
+  // If there is no message, the supervisor has ended, too.
   if (recv(supervisor_.socket(), &told, sizeof told, MSG_DONTWAIT) == sizeof told) ended_ = told;
   return true;
 }

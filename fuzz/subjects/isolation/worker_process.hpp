@@ -1,4 +1,4 @@
-// nearmiss's side of one worker process. It trusts nothing that the worker writes.
+// Starts and asks a worker process. Trusts nothing that the worker writes.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,17 @@
 
 namespace nearmiss::isolation {
 
-/// The limits of a plug-in.
 struct PluginLimits {
-  /// The limit for a query, on the sum of the computing times of all threads and processes of the plug-in.
-  /// The wall-clock time may be ten times as long.
+  /// The limit for a query on the computing time of all threads and processes of the plug-in together. The
+  /// wall-clock time may be ten times as long.
   Duration time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that loading may take
-  Duration leaving{0.1};                         ///< the time that closing may take
-  /// After this number of queries over the time limit, the rest of a batch is not asked; 0 is no limit.
+  Duration leaving{0.1};                         ///< the time that closing the detector may take
+  /// The number of queries that may exceed the time limit before the other queries of the same call are not
+  /// asked; 0 is no limit.
   std::uint64_t most_late = 0;
-  const Stop* stop = &Stop::never();  ///< when it is due, all waiting ends with Stopped
+  const Stop* stop = &Stop::never();  ///< when this stop is due, all waiting ends with Stopped
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
   bool own_namespace = true;
 };
@@ -46,7 +46,7 @@ std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, con
 
 /// A request about several queries may take this many times the limit of one query.
 inline constexpr double call_limit = 10;
-/// A detector's function may take this many times the limit of one query to decide several queries at once.
+/// A detector may take this many times the limit of one query to decide `queries` queries at once.
 constexpr double limit_of_batch(std::size_t queries) {
   constexpr double of_each = 1e-3;
   return std::min(call_limit, 1 + of_each * static_cast<double>(queries - 1));
@@ -60,13 +60,13 @@ struct WorkerFailure {
   std::string text = {};    ///< for an exception: its message; for a failure to load: the reason
   std::string errors = {};  ///< if the process has ended: the end of its output to standard error
   /// 0 if `query` caused the failure. Otherwise, the number of queries, from `query` on, that were asked
-  /// together; any of them may have caused it.
+  /// together; any of these queries may have caused the failure.
   std::uint32_t suspects = 0;
   bool goes_on = false;  ///< the worker can be used for other queries
 };
 
-/// Checks a worker's description of its plug-in, and returns it with printable texts. `options` are those
-/// that the plug-in was given. Throws Error if no detector can have such a description.
+/// Checks a worker's description of its plug-in, and returns it with printable texts. `options` has the
+/// options that the plug-in was given. Throws Error if no detector can have such a description.
 DetectorInfo info_of(const PluginDescription& about, const std::string& options);
 /// The names of all detectors in the shared object. Throws Error for an invalid name, or too many names.
 std::vector<std::string> names_of(const PluginDescription& about);
@@ -82,30 +82,30 @@ class WorkerProcess {
   ~WorkerProcess();
 
   /// Begins to end the worker; the destructor waits for the end. To end several workers at the same time,
-  /// call this for all of them first. A worker that waits for a call closes its detector and exits by itself,
-  /// if it can do so in time.
+  /// call dismiss() for all of them before their destructors. A worker that waits for a call closes its
+  /// detector and exits by itself, if it can do so in time.
   void dismiss();
 
   /// The plug-in's description of itself; all text is printable.
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
-  /// The names of all detectors in a shared object.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
-  /// Makes the worker perform a request for a batch of queries of one kind, at most capacity_for(info()).
-  /// Returns the failure of a query; nothing if all succeeded. Throws Stopped if the stop is due, and
-  /// TrialError if there is no memory for the batch.
+  /// Makes the worker perform a request for a batch of at most capacity_for(info()) queries of one kind.
+  /// Returns the first failure; nothing if there is none. Throws Stopped if the stop is due, and TrialError
+  /// if there is no memory for the batch.
   std::optional<WorkerFailure> perform(Request request, std::span<const Query> queries);
 
-  /// The plug-in's return value for a query of the batch, and the time of impact or the bound.
+  /// The plug-in's decision on query i of the batch, as in nearmiss_subject.h.
   [[nodiscard]] int value(std::uint32_t i) const { return batch_.values()[i]; }
+  /// The time of impact, bound, distance or clearance that the plug-in gave for query i of the batch.
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
   /// Further numbers of the answer to a question about one query: weights, or positions.
   [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
-  /// Times in ns that the worker measured in the last call: of the whole call, or of query i. A time that is
-  /// longer than nearmiss's own time for the call is replaced by the latter. The time of the whole call is
-  /// also raised to at least half of the computing time of all threads and processes of the plug-in, less the
-  /// part that the worker itself may compute. It is half because the plug-in may have decided each query
-  /// twice. The first call has no such lower limit.
+  /// The time in ns that the worker measured in the last call: of the whole call, or of query i. Each time is
+  /// limited to nearmiss's own time for the call. The time of the whole call is also raised to at least half
+  /// of the computing time of all threads and processes of the plug-in, less the part that the worker itself
+  /// may compute. The factor is one half because the plug-in may have decided each query twice. The first
+  /// call has no lower limit.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});
@@ -136,16 +136,14 @@ class WorkerProcess {
 
   void start(const std::string& plugin);
   void load(const std::string& plugin);
-  /// Shares the memory of batches.
   void share();
   /// Reserves memory for a batch of this size. Throws TrialError if the system has too little.
   void reserve(std::size_t queries);
   /// Writes a batch to the shared memory.
   void give(std::span<const Query> queries);
-  /// The computing time of the plug-in's process.
   [[nodiscard]] Duration own_computing() const;
   /// Updates others_ and others_compute_. This takes longer than a call of a fast plug-in. So it is done in
-  /// each call only if the plug-in has processes that compute, and seldom otherwise.
+  /// each call only if the plug-in has started processes that compute, and in every 16th call otherwise.
   void look_at_others();
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
@@ -174,12 +172,12 @@ class WorkerProcess {
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
   std::uint64_t most_data_ = 0;  ///< limit of data() while the plug-in is loaded, if memory is limited
-  bool is_waiting_ = false;      ///< for a call
+  bool is_waiting_ = false;      ///< whether the worker waits for a call
   std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set by dismiss()
   Elapsed elapsed_;                                                 ///< of the last call
   ComputingTime others_;         ///< of all processes of the worker except the plug-in's
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
-  Duration suspended_{};         ///< during all calls so far
+  Duration suspended_{};         ///< the time for which nearmiss was suspended during all calls so far
   Duration least_{};             ///< the least possible time of the last call
   DetectorInfo info_;
   std::vector<std::string> names_;

@@ -7,8 +7,8 @@ namespace nearmiss::ladder {
 
 namespace {
 
-/// Within a scope, MPFR numbers of this thread have as many bits as ε implies, and the processor's arithmetic
-/// is plain, for conversions from and to double.
+/// While an object of this type exists, MPFR numbers of this thread have 1 - epsilon_exponent bits, and the
+/// processor's arithmetic is plain, for conversions from and to double.
 struct MpfrArithmetic {
   explicit MpfrArithmetic(int epsilon_exponent) : precision(1 - epsilon_exponent) {}
   PlainArithmetic guard;

@@ -11,14 +11,14 @@
 namespace nearmiss {
 
 /// An unevaluated sum of two doubles. Let u = 2^-53. Unless a number comes near the ends of the range of
-/// double, the relative errors are
-///   sum, difference  3u² + 13u³  (Algorithm 6 of Joldes, Muller and Popescu, "Tight and rigorous error
-///   product          5u²          bounds for basic building blocks of double-word arithmetic", ACM TOMS 44,
-///                                 2017; Algorithm 10 there)
-///   quotient, root   at most 16u² in tests against rational numbers; no proof is published
-/// so ε = 16u² = 2^-102. Debian's libqd is built with another sum, whose relative error is unbounded for
-/// operands of opposite signs. That sum would violate the paper's model of arithmetic, so this class calls
-/// libqd's accurate sum and quotient by name.
+/// double, the relative errors of the operations are at most
+///   sum, difference  3u² + 13u³  (Algorithm 6 of the paper below)
+///   product          5u²         (Algorithm 10 of the paper below)
+///   quotient, root   16u²        (in tests against rational numbers; no proof is published)
+/// so ε = 16u² = 2^-102. The paper is Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
+/// building blocks of double-word arithmetic", ACM TOMS 44, 2017. Debian's libqd is built with another sum,
+/// whose relative error is unbounded for operands of opposite signs. That sum would violate the model of
+/// arithmetic in Wang's paper, so this class calls libqd's accurate sum and quotient by name.
 class DoubleDouble {
  public:
   DoubleDouble(double value = 0) : value_(value) {}

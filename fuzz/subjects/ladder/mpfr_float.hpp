@@ -1,4 +1,4 @@
-// MPFR numbers of any precision, as a scalar for the templates of ccd/.
+// MPFR numbers with a number of bits that is set at run time, as a scalar for the templates of ccd/.
 #pragma once
 
 #include <mpfr.h>
@@ -10,15 +10,15 @@
 
 namespace nearmiss {
 
-/// A number without heap memory. The thread's PrecisionScope sets the number of its bits. Every operation,
-/// including the square root, rounds to nearest, so its relative error is at most u = 2^-bits = ε/2. The
-/// algorithms of ccd/ never reach the limits of MPFR's exponents.
+/// A number of at most `most` bits, without heap memory. The thread's PrecisionScope sets the number of bits.
+/// Every operation, including the square root, rounds to nearest, so its relative error is at most u =
+/// 2^-bits = ε/2. The algorithms of ccd/ never reach the limits of MPFR's exponents.
 class MpfrFloat {
  public:
   static constexpr int most = 256;
 
-  /// Sets the number of bits of this thread's numbers within a scope. Numbers may exist only within such a
-  /// scope.
+  /// While a PrecisionScope exists, this thread's numbers have `bits` bits. Numbers may exist only while a
+  /// PrecisionScope exists.
   class PrecisionScope {
    public:
     explicit PrecisionScope(int bits) : before_(precision_) { precision_ = bits; }

@@ -1,4 +1,4 @@
-// The scalars over which the subjects of ccd/ can compute: subjects "NAME:SCALAR".
+// The scalars in which basic, wang and wang-tight can compute, as subjects "NAME:SCALAR".
 #pragma once
 
 #include <memory>
@@ -26,8 +26,8 @@ struct Scalar {
 /// The scalar with this number of bits, such as "p40".
 Scalar bits_scalar(int bits);
 
-/// The scalar "dd-normals": double, with double-double for normals and weights. It is not among the scalars
-/// that are ordered by precision (named_scalars), because its ε is that of double.
+/// The scalar "dd-normals": double, with double-double for normals and weights. named_scalars(), which is
+/// ordered by precision, omits it, because its ε is that of double.
 Scalar double_with_wide_normals();
 
 }  // namespace ladder

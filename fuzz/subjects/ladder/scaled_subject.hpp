@@ -1,5 +1,5 @@
-// The subjects of ccd/ over any scalar. Only the files that define scalars include this header, because its
-// templates are slow to compile.
+// basic, wang and wang-tight over any scalar. Only the files that define scalars include this header, because
+// its templates are slow to compile.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace nearmiss::ladder {
 
-/// The paper's tolerances, or the smallest valid ones.
+/// The paper's tolerances, or, if `smallest` is set, the smallest valid ones.
 struct EitherTolerances {
   std::optional<ToleranceConstants> smallest;
 
@@ -41,15 +41,16 @@ struct EitherTolerances {
   }
 };
 
-/// Makes the processor's arithmetic plain within a scope, for scalars that the processor computes itself.
+/// Makes the processor's arithmetic plain while an object exists, for scalars that the processor computes
+/// itself.
 struct MachineArithmetic {
   explicit MachineArithmetic(int /*epsilon_exponent*/) {}
   PlainArithmetic guard;
 };
 
-/// basic, wang or wang-tight with all arithmetic in T. Each call constructs an Arithmetic(exponent of ε) as
-/// its scope. If T has fewer digits than a double, the subject rounds coordinates to T, and decides the
-/// rounded query. wang and wang-tight compute normals and weights in Wide.
+/// basic, wang or wang-tight with all arithmetic in T. Each call constructs an Arithmetic(exponent of ε),
+/// which sets the arithmetic until the call returns. If T has fewer digits than a double, the subject rounds
+/// coordinates to T, and decides the rounded query. Normals and weights are computed in Wide.
 template <class T, class Arithmetic, class Wide>
 class Scaled final : public Subject {
  public:
@@ -82,8 +83,8 @@ class Scaled final : public Subject {
           within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
       return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
     }
-    // Rounded up, with a margin because T may have few digits: the computed B is at most B* (1 + 40ε), where
-    // B* is exact.
+    // Rounded up. The margin `slack` covers the B that the subject computes in T, which may have few digits:
+    // it is at most B* (1 + 40ε), where B* is the exact B.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -147,8 +148,8 @@ class Scaled final : public Subject {
   }
 
   /// The query with coordinates and separation rounded to T. For float, whose range is smaller than that of
-  /// double, they are first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes the next
-  /// smaller number of T.
+  /// double, these numbers are first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes
+  /// the next smaller number of T.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;

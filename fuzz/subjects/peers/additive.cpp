@@ -1,7 +1,7 @@
 // Additive CCD (Li, Kaufman and Jiang, "Codimensional incremental potential contact", 2021) as implemented in
-// ipc-toolkit. Its authors say there that rounding errors can make it miss collisions.
-// From github.com/ipc-sim/ipc-toolkit, b40e9c07. Licence: MIT.
-// Question: contact, or a separation; the time is a lower bound. Contract: none.
+// ipc-toolkit. The authors of ipc-toolkit say that rounding errors can make this CCD miss collisions.
+// Source: github.com/ipc-sim/ipc-toolkit, b40e9c07. Licence: MIT.
+// Question: contact, or a separation; the time of impact is a lower bound. Contract: none.
 // $IPC_TOOLKIT is the folder in which ipc-toolkit is installed:
 //
 //   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/additive.cpp --

@@ -2,12 +2,12 @@
 // later versions), collision_test() in src/collision.cpp. It solves the cubic numerically, and accepts a root
 // at which the primitives are closer than 1e-6. This adapter passes nodes with two positions, as
 // find_face_impacts() does.
-// From github.com/zhou13/arcsim, 28960d2. Licence: research, no fee.
-// Question: contact; the time is an estimate.
+// Source: github.com/zhou13/arcsim, 28960d2. Licence: research, no fee.
+// Question: contact; the time of impact is an estimate.
 // Contract: apart at t = 0. ARCSim starts each step from positions without collisions, and collision_test()
 // leaves out pairs that are nearly coplanar at t = 0 ("initially coplanar").
 // $ARCSIM is the repository. This adapter includes ARCSim's source file, because only that file has the type
-// Impact. The linker drops most of its code:
+// Impact. The linker drops most of that file's code:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/arcsim.cpp -- -fopenmp -ffunction-sections
 //       -fdata-sections -Wl,--gc-sections -fvisibility=hidden -I$ARCSIM/src

@@ -1,6 +1,6 @@
 // Bernstein sign classification (Tang, Tong, Wang and Manocha, "Fast and exact continuous collision detection
 // with Bernstein sign classification", 2014), with the arithmetic of root parity.
-// From github.com/Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, 8db61b2c.
+// Source: github.com/Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, 8db61b2c.
 // Licence: research, no fee (LICENSE.BSC.txt).
 // Question: contact. Contract: none. If the cubic has an inflection point in the time step, the code throws
 // an exception, so the query has no answer. The authors say that they do not handle this case exactly.
@@ -20,7 +20,7 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// The triangle comes first, and the vertex last.
+/// Passes the triangle first and the vertex last, as this code expects.
 Answer vertex_triangle(const Question& q) {
   return Answer::of(bsc::Intersect_VF_robust(q.start(1), q.start(2), q.start(3), q.start(0), q.end(1),
                                              q.end(2), q.end(3), q.end(0)));

@@ -1,5 +1,6 @@
-// Bullet: the continuous collision detection of its soft bodies, which only tests vertices against triangles.
-// Compiled twice: with Bullet in single precision, and in double precision (BT_USE_DOUBLE_PRECISION).
+// The continuous collision detection of Bullet's soft bodies, which only tests vertices against triangles.
+// This adapter is compiled twice: with Bullet in single precision, and in double precision
+// (BT_USE_DOUBLE_PRECISION).
 // Built with Debian's libbullet-dev 3.24. Licence: zlib.
 // Question: contact. Contract: none.
 //
@@ -18,8 +19,8 @@ constexpr btScalar dt = 1;  // our unit of time is the time step
 /// The normal of a triangle, not normalised.
 btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }
 
-/// Fills a vertex and a face as Bullet's world does before it calls bernsteinCCD. Bullet predicts the end of
-/// the time step from velocities, so it sees the end of our step with the rounding error of a subtraction.
+/// Fills a vertex and a face as Bullet's world does, and calls bernsteinCCD. Bullet computes the positions at
+/// the end of the time step from velocities, so it sees our positions at t = 1 with rounding errors.
 Answer decide(const Question& q) {
   std::array<btSoftBody::Node, 4> nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -1,12 +1,12 @@
 // Additive CCD in the code of its authors (Li, Kaufman and Jiang, "Codimensional incremental potential
-// contact", 2021), Library/Math/Distance/CCD.h, which other solvers have copied. This adapter calls it as
-// Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h does: first asks whether the boxes of the two
-// motions come within the thickness, then calls the CCD with eta = 0.1. The largest step that the CCD allows
-// is the time.
-// From github.com/ipc-sim/Codim-IPC, 9c6cbe3. Licence: Apache 2.0.
-// Question: contact, or a separation, which the code calls thickness. The time is a lower bound. The code
-// takes displacements, which are rounded; the solver computes the ends from them. The option eta is the share
-// of the distance that remains.
+// contact", 2021), Library/Math/Distance/CCD.h, which other solvers have copied. This adapter does what
+// Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h does: it first asks whether the boxes of the two
+// motions come within the thickness, and then calls the CCD with eta = 0.1. The time is the largest step that
+// the CCD allows.
+// Source: github.com/ipc-sim/Codim-IPC, 9c6cbe3. Licence: Apache 2.0.
+// Question: contact, or a separation, which the code calls thickness. The time of impact is a lower bound.
+// The code takes displacements, which this adapter computes with rounding errors. The option eta is the share
+// of the distance at t = 0 that remains at the given time.
 // Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, and the
 // code divides by the distance.
 // $CODIM_IPC is the repository, whose headers contain the whole code, and include pybind11:
@@ -32,10 +32,11 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"eta", &Settings::eta, 1e-3, 0.999}}};
 
-/// A vertex, for templates that deduce the type of its coordinates.
+/// Converts a vertex to this type, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Tests whether the boxes meet. If they meet, tests whether the n vertices collide.
+/// Makes a function that tests whether the boxes of the primitives meet, and, if they do, whether the
+/// primitives, with n vertices together, collide.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

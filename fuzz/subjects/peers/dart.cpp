@@ -1,10 +1,10 @@
-// DART's additive CCD of deformables, dart/collision/native/narrow_phase/PrimitiveCcd.cpp. This adapter calls
-// it as DART's deformable solver does (makeSurfaceContactCcdOptions()), with a separation of 1e-4, a
+// DART's additive CCD for deformables, dart/collision/native/narrow_phase/PrimitiveCcd.cpp. This adapter
+// calls it as DART's deformable solver does (makeSurfaceContactCcdOptions()), with a separation of 1e-4, a
 // tolerance of 1e-6 and 128 iterations. If the iterations run out, the answer is "indeterminate", which DART
-// treats as unsafe; here it becomes "cannot tell".
-// From github.com/dartsim/dart, bb9413c7. Licence: BSD.
-// Question: a separation, by default 1e-4 if asked for contact; the time is a lower bound. Contract: none.
-// Primitives within the separation at t = 0 collide at time 0.
+// treats as unsafe; here, the answer becomes "cannot tell".
+// Source: github.com/dartsim/dart, bb9413c7. Licence: BSD.
+// Question: a separation, by default 1e-4 if asked for contact; the time of impact is a lower bound.
+// Contract: none. Primitives within the separation at t = 0 collide at time 0.
 // $DART is the repository, built in $DART/build:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/dart.cpp -- -std=c++20 -I$DART -I$DART/build

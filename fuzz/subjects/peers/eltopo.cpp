@@ -1,15 +1,16 @@
-// El Topo's CCD, common/ccd_wrapper.h, in one of its two versions: `eltopo` solves the cubic numerically,
-// which is its default (Brochu and Bridson, "Robust topological operations for dynamic explicit surfaces",
-// 2009); `eltopo-root-parity` is root parity (Brochu, Edwards and Bridson, 2012), if common/ccd_defs.h
-// defines USE_ROOT_PARITY_CCD instead. This adapter calls El Topo as eltopo3d/collisionpipeline.cpp does:
-// indices ascend, and the function also finds the place of contact. El Topo gives no time.
-// From github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
+// El Topo's CCD, common/ccd_wrapper.h, in one of its two versions. `eltopo`, the default, solves the cubic
+// numerically (Brochu and Bridson, "Robust topological operations for dynamic explicit surfaces", 2009).
+// `eltopo-root-parity` computes root parity (Brochu, Edwards and Bridson, 2012); for this version,
+// common/ccd_defs.h defines USE_ROOT_PARITY_CCD. This adapter calls El Topo as eltopo3d/collisionpipeline.cpp
+// does: indices ascend, and the function also finds the place of contact. El Topo gives no time.
+// Source: github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
 // Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
 // Contract: the primitives are apart at t = 0, because El Topo starts from a surface without intersections,
-// and keeps it free of them. For root parity, F also has at most one root.
-// $ELTOPO is the repository, with its code compiled into libeltopo.a. Root parity rounds upwards, which the
-// compiler must know (g++ needs -frounding-math). The command for that version also has -o
-// build/release/peers/eltopo-root-parity.so:
+// and lets none arise. For `eltopo-root-parity`, the volume F of the four vertices also has at most one root,
+// a simple one.
+// $ELTOPO is the repository, with its code compiled into libeltopo.a. The code for root parity rounds
+// upwards, which the compiler must know (g++ needs -frounding-math). The command for `eltopo-root-parity`
+// also has -o build/release/peers/eltopo-root-parity.so:
 //
 //   tools/subject fuzz/subjects/peers/eltopo.cpp -- -I$ELTOPO/common $ELTOPO/libeltopo.a
 #include <ccd_defs.h>
@@ -31,7 +32,7 @@ constexpr bool is_root_parity = false;
 #endif
 
 Answer decide(const Question& q) {
-  if (is_root_parity) std::srand(1);  // its rays are random, but an answer must depend only on the query
+  if (is_root_parity) std::srand(1);  // the rays are random, but an answer must depend only on the query
   double a = 0, b = 0, c = 0, normal_displacement = 0;
   Vec3d normal(0.0, 0.0, 0.0);
   const auto test = [&](auto ask, auto&... weights) {

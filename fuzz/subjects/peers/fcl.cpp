@@ -1,7 +1,7 @@
-// FCL, the Flexible Collision Library: the continuous collision detection of its deformable meshes, with each
-// of its two solvers.
+// FCL, the Flexible Collision Library: its continuous collision detection for deformable meshes, with each of
+// FCL's two solvers.
 // Built with Debian's libfcl-dev 0.7.0. Licence: BSD.
-// Question: contact; the time is the root that the solver happens to find first. Contract: none.
+// Question: contact; the time of impact is the root that the solver happens to find first. Contract: none.
 //
 //   tools/subject --pkg-config fcl fuzz/subjects/peers/fcl.cpp -- -std=c++17
 #include <fcl/config.h>

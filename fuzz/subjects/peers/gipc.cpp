@@ -1,12 +1,13 @@
 // GIPC's additive CCD (Huang and others, "GIPC: fast and stable Gauss-Newton optimization of IPC barrier
 // energy", 2024), GPU_IPC/ACCD.cu. It is CUDA code, here compiled for the host. On a GPU, the compiler fuses
 // multiplications with additions, which may change the last bits. This adapter calls the code as
-// _reduct_min_selfTimeStep_to_double() in GIPC.cu does, with eta = 0.2 and thickness 0. The code answers how
-// far the step may go; an answer below 1 counts as a collision not before that time. After 50,000 iterations,
-// the code answers with the time that it has reached.
-// From github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
-// Question: contact; the time is a lower bound. The code takes displacements, which are rounded; the solver
-// computes the ends from them. The option eta is the share of the distance that remains.
+// _reduct_min_selfTimeStep_to_double() in GIPC.cu does, with eta = 0.2 and thickness 0. The code answers with
+// a time until which the step is safe. A time below 1 counts as a collision. After 50,000 iterations, the
+// code answers with the time that it has reached.
+// Source: github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
+// Question: contact; the time of impact is a lower bound. The code takes displacements, which this adapter
+// computes with rounding errors. The option eta is the share of the distance at t = 0 that remains at the
+// given time.
 // Contract: apart at t = 0. The solver ensures this, and the code divides by the distance.
 // $GPU_IPC is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //

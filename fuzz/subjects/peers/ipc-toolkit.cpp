@@ -1,5 +1,5 @@
-// Two CCDs of ipc-toolkit, as its candidates ask them (src/ipc/candidates/). d0 is the distance at t = 0,
-// less the separation:
+// Two CCDs of ipc-toolkit, as its candidates ask them (src/ipc/candidates/). Below, d0 is the distance at t =
+// 0, less the separation:
 //
 //   ipc-tight-inclusion  TightInclusionCCD, its default: Tight-Inclusion with a minimum distance of
 //                        min(0.2 d0, 1e-4)
@@ -9,10 +9,10 @@
 // If the time is below 1e-6, both CCDs start again, with only the separation as the minimum distance, and
 // answer with 0.8 of the time that they then find. The minimum distance makes room for the barrier; by
 // design, it turns some near misses into collisions.
-// From github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD from github.com/evouga/collisiondetection,
+// Source: github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD from github.com/evouga/collisiondetection,
 // e5fe5c9. Licence: MIT; CTCD states none.
-// Question: contact, or a separation; the time is a lower bound. Contract: none. Primitives that touch at t =
-// 0 collide at time 0 (check_initial_distance.hpp).
+// Question: contact, or a separation; the time of impact is a lower bound. Contract: none. Primitives that
+// touch at t = 0 collide at time 0 (check_initial_distance.hpp).
 // $IPC_TOOLKIT is the folder in which ipc-toolkit is installed. Without IPC_TOOLKIT_WITH_INEXACT_CCD,
 // ipc-inexact and evouga_ccd are left out:
 //

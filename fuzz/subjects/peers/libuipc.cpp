@@ -1,14 +1,15 @@
 // libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h. It is CUDA code for both device and host,
 // here compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may change
-// the last bits. This adapter calls the code as filter_toi() in lbvh_simplex_trajectory_filter.cu does: first
-// asks whether the boxes of the two motions come within d_hat + thickness, then calls the CCD with eta = 0.1
+// the last bits. This adapter does what filter_toi() in lbvh_simplex_trajectory_filter.cu does: it first asks
+// whether the boxes of the two motions come within d_hat + thickness, and then calls the CCD with eta = 0.1
 // and at most 1000 iterations. If the iterations run out, the CCD reports a collision at the time that it has
-// reached. It looks for contact until t = 1.1; a time after 1 does not shorten the step, and counts as no
-// collision.
-// From github.com/spiriMirror/libuipc, 619a5412, with github.com/MuGdxy/muda, 6c752f9c. Licence: Apache 2.0.
-// Question: contact, or a separation, which libuipc calls thickness. The time that it gives is a lower bound.
-// The code takes displacements, which are rounded. The option d-hat is the margin of the boxes; its default,
-// 0.01, is libuipc's.
+// reached. The CCD looks for contact until t = 1.1; a time after 1 does not shorten the step, and counts as
+// no collision.
+// Source: github.com/spiriMirror/libuipc, 619a5412, with github.com/MuGdxy/muda, 6c752f9c. Licence: Apache
+// 2.0.
+// Question: contact, or a separation, which libuipc calls thickness. The time of impact is a lower bound. The
+// code takes displacements, which this adapter computes with rounding errors. The option d-hat is the margin
+// of the boxes; its default, 0.01, is libuipc's.
 // Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, and the
 // code divides by the distance.
 // $LIBUIPC and $MUDA are the repositories, and $CUDA is the folder of CUDA's headers. No GPU is needed:
@@ -37,10 +38,11 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"d-hat", &Settings::d_hat, 0, 1e300}}};
 
-/// A vertex, for templates that deduce the type of its coordinates.
+/// Converts a vertex to this type, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Tests whether the boxes meet. If they meet, tests whether the n vertices collide.
+/// Makes a function that tests whether the boxes of the primitives meet, and, if they do, whether the
+/// primitives, with n vertices together, collide.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

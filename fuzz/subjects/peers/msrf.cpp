@@ -4,8 +4,9 @@
 // / 10. With h = 0, this leaves no room for rounding, and the root finder finds hardly any collision. So this
 // adapter always passes a separation h > 0. The root finder does not notice if the distance is already below
 // h at t = 0.
-// From github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence: MIT.
-// Question: a separation, 1e-8 if asked for contact; the time is an estimate.
+// Source: github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence:
+// MIT.
+// Question: a separation, 1e-8 if asked for contact; the time of impact is an estimate.
 // Contract: more than 1e-8 apart at t = 0.
 // $MSRF is the repository, with its code compiled into libmsrf.a:
 //

@@ -2,11 +2,11 @@
 // src/engine/engine_collision_continuous.c. It answers with alpha, the part of the step that may be taken:
 // the whole step, or less, so that no gap shrinks by more than 80 %. It promises that the advanced
 // configuration has no intersection. Therefore alpha < 1 counts as a collision not before alpha; a false
-// positive says only that a gap shrinks by 80 %. As in MuJoCo's own test, the adapter passes one pair of a
-// flex vertex and a flex triangle, or of two flex edges, and all vertices are free.
-// From github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
-// Question: contact; the time is a lower bound. With same-flex=1, both primitives belong to one flex, and
-// their mean motion does not count.
+// positive says only that a gap shrinks by more than 80 %. As in MuJoCo's own test, the adapter passes one
+// pair of a flex vertex and a flex triangle, or of two flex edges, and all vertices are free.
+// Source: github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
+// Question: contact; the time of impact is a lower bound. With same-flex=1, both primitives belong to one
+// flex, and their mean motion does not count.
 // Contract: apart at t = 0. mjc_advance() leaves out pairs whose gap is 0 ("the contact solver owns it"), and
 // its header promises a positive gap at rest.
 // $MUJOCO is the repository, with src/engine/engine_{collision_continuous,util_blas,util_errmem}.c compiled
@@ -48,7 +48,7 @@ Answer decide(const Settings& set, const Question& q) {
   return Answer::of(!(alpha >= 1), alpha);
 }
 
-/// The gap of the pair; without radii, the distance. The advancement is only as right as this gap.
+/// The gap of the pair, which is the distance, since the radii are 0. mjc_advance() relies on this gap.
 double gap(mjcFlexPairType type, const double* a, const double* b, const double* c, const double* d) {
   const mjcFlexPair pair{type, {0, 1, 2, 3}, -1};
   std::array<mjtNum, 12> x;

@@ -1,17 +1,17 @@
 // The additive CCD of ZOZO's contact solver, src/cpp/contact/accd.hpp. It is CUDA code in single precision,
 // here compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may change
 // the last bits. This adapter calls the code as contact.cu does, with the time step extended to t = 1.25
-// (line-search-max-t). A time below 1.25 is a collision, and cuts the step to 0.8 of that time (line_search()
-// divides by 1.25); this is the time that the adapter passes on. By design, contact between t = 1 and t =
-// 1.25 is a collision, and so is a pair that comes within a hundredth of the contact gap, where the solver
-// parks pairs.
-// From github.com/st-tech/ppf-contact-solver, f23b356. Licence: Apache 2.0.
-// Question: contact, or a separation, which the code calls contact offset. The time is a lower bound. The
-// options have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25
+// (line-search-max-t). A time below 1.25 is a collision. The solver then cuts the step to 0.8 of that time
+// (line_search() divides by 1.25); the adapter passes on this shorter time. By design, contact between t = 1
+// and t = 1.25 is a collision, and so is an approach to a hundredth of the contact gap, the distance at which
+// the solver stops pairs.
+// Source: github.com/st-tech/ppf-contact-solver, f23b356. Licence: Apache 2.0.
+// Question: contact, or a separation, which the code calls contact offset. The time of impact is a lower
+// bound. The options have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25
 // (line-search-max-t).
 // Contract: farther apart at t = 0 than the separation, and farther than 5e-6. From a closer start, the
 // solver stops with the error OverlappingStart, and accd.hpp argues that the solver keeps a clearance of half
-// the distance at which it parks pairs. No edge or path is longer than 10, because the margin for rounding is
+// the distance at which it stops pairs. No edge or path is longer than 10, because the margin for rounding is
 // given for "a scene of radius 10". (With a separation, the primitives would have to be farther apart than
 // the separation plus 5e-6, which a contract cannot say.)
 // $PPF is the repository, whose header contains the whole code, and $CUDA is the folder of CUDA's headers. No
@@ -33,7 +33,7 @@ using std::min;
 
 #include "ccd/nearmiss_functions.hpp"
 
-namespace accd {  // defined in contact.cu: notes about the first pair that overlaps at the start
+namespace accd {  // contact.cu defines these notes about the first pair that overlaps at the start
 unsigned g_ccd_overlap = 0, g_ccd_overlap_v0 = 0, g_ccd_overlap_v1 = 0, g_ccd_overlap_kind = 0;
 float g_ccd_overlap_d2 = 0, g_ccd_overlap_offset = 0;
 }  // namespace accd

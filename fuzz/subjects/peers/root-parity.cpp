@@ -1,6 +1,6 @@
 // Root parity (Brochu, Edwards, Bridson, "Efficient geometrically exact continuous collision detection",
 // 2012).
-// From github.com/bohanwang/libpgo, third-party/CCD/ExactCCD, 88dfe845. Licence: public domain.
+// Source: github.com/bohanwang/libpgo, third-party/CCD/ExactCCD, 88dfe845. Licence: public domain.
 // Question: whether the number of contacts is odd, counted with multiplicity: a double root counts twice.
 // Contract: at most one root, and no double root, because the answer then says whether there is contact.
 // $ROOT_PARITY is the folder ExactCCD, with its code compiled into librootparity.a. The interval arithmetic

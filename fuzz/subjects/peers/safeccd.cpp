@@ -1,7 +1,7 @@
 // The code that Wang published with his 2014 paper "Defending continuous collision detection against errors",
 // called through the wrapper in libpgo, which computes a bound B for each pair.
-// From github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
-// Question: contact; the time is an estimate.
+// Source: github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
+// Question: contact; the time of impact is an estimate.
 // Contract: apart at t = 0, and a range of sizes (below).
 // $SAFECCD is the folder SafeCCD, with its code compiled into libsafeccd.a:
 //
@@ -33,8 +33,8 @@ Answer decide(const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// 41 B ε^¼ with ε^¼ = 2^-13, as the paper claims. This is also half of `gap` in the code, which says that
-/// `gap` is twice the largest distance of a false positive.
+/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. It is also half of `gap` in the code, which
+/// says that `gap` is twice the largest distance of a false positive.
 double distance_bound(void* /*state*/, int kind, const double* x) {
   const Question q{kind, x, 0};
   return 41 * 0x1p-13 *

@@ -1,20 +1,20 @@
 // Scalable-CCD (Belgrod, Wang, Ferguson, Zhao, Attene, Panozzo and Schneider, "Time of impact dataset for
 // continuous collision detection and a scalable conservative algorithm", 2023), Tight-Inclusion for a GPU, in
-// one of its two versions: `scalable-ccd` computes in double, its default; `scalable-ccd-float` in float,
-// without SCALABLE_CCD_USE_DOUBLE. Its kernels are compiled for the host, and run in one thread. On a GPU,
-// they are compiled with --use_fast_math, which may change the last bits, and test the domains of one level
-// at the same time. When a domain compares the number of tested domains with the limit of iterations, it
-// depends on the GPU how many domains of its own level it counts; here it counts none, so that the limit
-// drops as few domains as possible. This adapter does what partial_ipc_ccd_strategy() in
-// cuda/ipc_ccd_strategy.cu does. If the time is below 1e-6, that function asks again, without a separation
-// and without a limit on iterations, and answers with 0.8 of the time. If the iterations run out, the kernel
-// drops the remaining domains, and the answer is no collision unless a collision was found before. If the
-// queue exceeds 2^24 domains, the answer here is "cannot tell"; the original enlarges its queue and asks
-// again, until the GPU's memory is full.
-// From github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
-// Question: contact, or a separation, which the code calls min_distance. The time is a lower bound. The
-// options have the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7 (-1: no
-// limit).
+// one of its two versions: `scalable-ccd`, the default, computes in double, and `scalable-ccd-float` in
+// float, without SCALABLE_CCD_USE_DOUBLE. Here, its kernels are compiled for the host, and run in one thread.
+// On a GPU, they are compiled with --use_fast_math, which may change the last bits, and test the domains of
+// one level at the same time. For each domain, the kernel compares the number of domains tested before with
+// the limit on iterations. On a GPU, it is a matter of chance how many domains of the same level this number
+// includes; here it includes none, so that the limit drops as few domains as possible. This adapter does what
+// partial_ipc_ccd_strategy() in cuda/ipc_ccd_strategy.cu does. If the time is below 1e-6, that function asks
+// again, without a separation and without a limit on iterations, and answers with 0.8 of the new time. If the
+// iterations run out, the kernel drops the remaining domains, and the answer is no collision unless a
+// collision was found before. If the queue exceeds 2^24 domains, this adapter answers "cannot tell"; the
+// original enlarges its queue and asks again, until the GPU's memory is full.
+// Source: github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
+// Question: contact, or a separation, which the code calls min_distance. The time of impact is a lower bound.
+// The options have the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7
+// (-1: no limit).
 // Contract: none.
 // $SCALABLE_CCD is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed.
 // $EXCERPT is a folder with two files that you make: root_finder_kernels.cuh is an excerpt of
@@ -38,7 +38,7 @@
 
 #include <scalable_ccd/cuda/scalar.cuh>
 
-// Replacements for what CUDA provides on a GPU. Here kernels run one after another, in one thread.
+// Replacements for what CUDA provides on a GPU. Here, the threads of a kernel run one after another.
 namespace host {
 uint3 thread{0, 0, 0};
 constexpr uint3 block{0, 0, 0};

@@ -1,7 +1,7 @@
 // Bernstein sign classification with a tight bound on rounding errors (Wang, Tang, Tong and Manocha,
 // "TightCCD: efficient and robust continuous collision detection using tight error bounds", 2015). If a sign
-// is uncertain, it reports a collision in most cases.
-// From github.com/Continuous-Collision-Detection/TightCCD, src, 366384ba. All rights reserved.
+// is uncertain, the code reports a collision in most cases.
+// Source: github.com/Continuous-Collision-Detection/TightCCD, src, 366384ba. All rights reserved.
 // Question: contact. Contract: none.
 // $TIGHT_CCD is the repository; its header contains the whole code:
 //
@@ -17,7 +17,7 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// The triangle comes first, and the vertex last.
+/// Passes the triangle first and the vertex last, as this code expects.
 Answer vertex_triangle(const Question& q) {
   return Answer::of(bsc_tightbound::Intersect_VF_robust(q.start(1), q.start(2), q.start(3), q.start(0),
                                                         q.end(1), q.end(2), q.end(3), q.end(0)));

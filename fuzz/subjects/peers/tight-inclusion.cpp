@@ -1,8 +1,8 @@
 // Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene and Panozzo, "A large-scale benchmark and an
 // inclusion-based algorithm for continuous collision detection", 2021).
-// From github.com/Continuous-Collision-Detection/Tight-Inclusion, ca9a8c24. Licence: MIT.
-// Question: contact, or a separation. The time is a lower bound. If the iterations run out, the answer is
-// "cannot tell". Contract: none.
+// Source: github.com/Continuous-Collision-Detection/Tight-Inclusion, ca9a8c24. Licence: MIT.
+// Question: contact, or a separation. The time of impact is a lower bound. If the iterations run out, the
+// answer is "cannot tell". Contract: none.
 // $TIGHT_INCLUSION is the folder in which Tight-Inclusion is installed:
 //
 //   tools/subject --pkg-config 'eigen3 spdlog' fuzz/subjects/peers/tight-inclusion.cpp --
@@ -33,7 +33,8 @@ Answer decide(const Settings& set, const Question& q) {
     return test(v..., of_query, q.separation, toi, set.tolerance, 1, static_cast<long>(set.iterations),
                 reached, ticcd::DEFAULT_NO_ZERO_TOI, ticcd::CCDRootFindingMethod::BREADTH_FIRST_SEARCH);
   });
-  // If the CCD runs out of iterations before it reaches the tolerance, it returns `true` without knowing.
+  // If the CCD runs out of iterations before it reaches the tolerance, it returns `true` without knowing the
+  // answer.
   if (collides && reached > set.tolerance) return {NEARMISS_UNKNOWN, toi};
   return Answer::of(collides, toi);
 }

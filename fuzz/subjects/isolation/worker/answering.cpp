@@ -72,15 +72,15 @@ void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags =
-      SA_ONSTACK | SA_NODEFER;  // the stack may have overflowed; a second crash must end this process
+      SA_ONSTACK | SA_NODEFER;  // the stack may have overflowed, and a second crash must end this process
   sigaction(signal, &action, nullptr);
 }
 
-/// Writes the functions that led to a crash to standard error, the innermost first, except the functions of
-/// this program. Ends the process by the signal of the crash, even if the stack cannot be read in time.
+/// Writes the functions on the stack to standard error, the innermost first, without the functions of this
+/// program. Ends the process by the signal of the crash, even if the stack cannot be read in time.
 extern "C" void write_stack_and_end(int signal) {
   constexpr itimerval patience{{}, {0, 20'000}};
-  constexpr int of_handler = 2;  // functions
+  constexpr int of_handler = 2;  // the innermost functions, which handle the signal
   static std::array<void*, 48> functions;
   if (crash == 0) {
     crash = signal;
@@ -96,7 +96,7 @@ extern "C" void write_stack_and_end(int signal) {
   raise(crash);
 }
 
-/// Sets how this process ends, before the plug-in is loaded.
+/// Sets how this process ends after a crash or an exception. Called before the plug-in is loaded.
 void prepare_for_faults(bool writes_stack) {
   constexpr std::size_t bytes = 1 << 16;
   static std::array<char, bytes> stack;
@@ -133,14 +133,14 @@ const double* coordinates(const Detector& detector, Kind kind, std::uint32_t fir
   return part.data();
 }
 
-/// Where a detector writes its answers.
 struct Answers {
   std::uint64_t* calls;
   double* numbers;
   int* values;
 };
 
-/// Asks detectors about batches, which are laid out for the plug-in's detector.
+/// Asks the plug-in's detector, or the empty one, about a batch, which is laid out for the plug-in's
+/// detector.
 class Asking {
  public:
   Asking(const Detector& plugin, const Call& call)
@@ -267,10 +267,11 @@ void reply(std::uint64_t number) {
   }
 }
 
-/// The descriptors that come with a call: for the memory of the questions, and of the answers.
+/// The descriptors that come with Request::share: of the memory of the questions, and of the answers.
 using Files = std::array<int, 2>;
 
-/// Receives a call with at most `most` queries, and the files that come with it, if any.
+/// Receives a call with at most `most` queries; if `files` is not null, also the files that come with the
+/// call.
 bool receive(Call& call, std::uint32_t most, Files* files = nullptr) {
   iovec content{&call, sizeof call};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Files))> control{};
@@ -298,7 +299,7 @@ Memory* map(int file, int protection, std::size_t bytes) {
   return memory == MAP_FAILED ? nullptr : static_cast<Memory*>(memory);
 }
 
-/// Receives the call that shares the memory of batches. Returns whether it can be used.
+/// Receives the call that shares the memory of batches. Returns whether that memory can be used.
 bool receive_memory(Call& call) {
   Files files{};
   if (!receive(call, largest_batch, &files)) return false;
@@ -336,7 +337,7 @@ void describe(const DetectorInfo& info, const std::string& names) {
   about.batch = info.batch;
 }
 
-/// Opens a detector, and describes it.
+/// Opens a detector, and describes it to nearmiss.
 std::unique_ptr<Detector> open_detector(const nearmiss_subject& subject, const std::string& options,
                                         const std::vector<std::string>& names) {
   auto detector = std::make_unique<Detector>(subject, options);
@@ -352,7 +353,7 @@ struct Loaded {
   pid_t process = getpid();
 };
 
-/// Loads the plug-in of this name. Its library or program lives as long as this process.
+/// Loads the plug-in with this name. The plug-in's library or program lives as long as this process.
 Loaded load(std::string_view name) {
   try {
     if (is_program(name)) {
@@ -364,7 +365,7 @@ Loaded load(std::string_view name) {
     return {open_detector(library.subject(parsed.subject), parsed.options, library.names())};
   } catch (const Error& error) {
     const std::string_view text = error.what();
-    if (text.ends_with(std::strerror(ENOMEM))) note_refusal();  // dlopen(3) does not allocate by malloc
+    if (text.ends_with(std::strerror(ENOMEM))) note_refusal();  // dlopen(3) does not call our malloc
     copy(text, answers->error);
     return {};
   }
@@ -378,7 +379,7 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE, sizeof(SharedAnswers));
   if (answers == nullptr) return 1;
   note_refusals_in(answers->memory_refused);
-  prepare_for_faults(!is_program(plugin));  // a program has a stack of its own
+  prepare_for_faults(!is_program(plugin));  // this process has no stack of a program
   Call call{};
   if (!receive(call, 0)) return 0;
   limit_memory_of_loading(bytes);

@@ -18,8 +18,8 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The number of threads of all processes of this user. The folder /proc/PID/task has a link for each thread,
-/// and the two links of every folder.
+/// The number of threads of all processes of this user. The number of links of the folder /proc/PID/task is
+/// the number of threads plus 2.
 unsigned long threads_of_user() {
   DIR* const processes = opendir("/proc");
   if (processes == nullptr) return 0;

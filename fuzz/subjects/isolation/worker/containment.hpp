@@ -6,7 +6,8 @@
 
 namespace nearmiss::isolation {
 
-/// Closes all files except those of shared.hpp, and replaces standard input, output and error by /dev/null.
+/// Closes all file descriptors except those that shared.hpp names, and replaces standard input, output and
+/// error by /dev/null.
 void close_files();
 
 /// Keeps crashes from writing a file "core", which could replace a file of the user.
@@ -27,12 +28,12 @@ void limit_processes(unsigned long more);
 /// false if the system refuses namespaces to this user. Must be called before any thread starts.
 bool enter_namespaces();
 
-/// Leaves the network, if the system allows it to this user. Must be called before any thread starts.
+/// Leaves the network, if the system allows this user to do so. Must be called before any thread starts.
 void leave_network();
 
 /// Gives process 1 and its descendants folders of their own: a read-only /proc that shows only their
-/// namespace, a /dev/shm of `bytes` bytes for POSIX shared memory (0: half of the machine's memory), and
-/// terminals. If the system refuses this, as in some containers, these folders stay as they are.
+/// namespace, a /dev/shm of `bytes` bytes for POSIX shared memory (0: half of the machine's memory), and a
+/// /dev/pts for terminals. If the system refuses this, as in some containers, these folders stay as they are.
 void mount_own_folders(std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 /// From now on, `flag` becomes 1 whenever malloc(3) or mmap(2) refuse memory to this process.
 void note_refusals_in(std::atomic<std::uint32_t>& flag);
 
-/// Notes that the system refused memory to another function.
+/// Notes that the system refused memory to a function other than these.
 void note_refusal();
 
 /// Limits the memory that loading the plug-in may take. The limit is twice `more`, in addition to the memory

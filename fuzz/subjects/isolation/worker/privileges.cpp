@@ -87,8 +87,8 @@ class Filter {
   void load(std::size_t offset) {
     code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
   }
-  /// Loads the lower half of an argument, since the judged arguments have 32 bits. Both machines store the
-  /// lower half first.
+  /// Loads the lower half of an argument, since the judged arguments have 32 bits. x86-64 and AArch64 store
+  /// the lower half first.
   void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
   void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
     code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
@@ -104,7 +104,7 @@ class Filter {
 }  // namespace
 
 void drop_privileges() {
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that this process starts cannot gain privileges, either
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that this process starts cannot gain privileges
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
   if (syscall(SYS_capget, &header, sets.data()) != 0) return;
@@ -138,7 +138,7 @@ void confine_to_itself() {
   for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
                          SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
-  // Allows only the process itself. 0 stands for the caller's process group, or for the caller itself.
+  // Allows these calls only if their first argument is this process, or 0: the caller or its process group.
   for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64,
                          SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr, SYS_sched_setaffinity,
                          SYS_migrate_pages, SYS_move_pages})
@@ -157,13 +157,13 @@ void confine_to_itself() {
 }
 
 void keep_out_of_other_processes() {
-  // Moving files from one folder to another, as compilers of kernels do, must be allowed explicitly. The
-  // first version of Landlock always refuses it.
+  // Moving files from one folder to another, as pocl does with compiled kernels, must be allowed explicitly.
+  // The first version of Landlock always refuses such moves.
   const bool can_allow_moves =
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 1;
   const __u64 of_folders =
       LANDLOCK_ACCESS_FS_WRITE_FILE | (can_allow_moves ? LANDLOCK_ACCESS_FS_REFER : __u64{0});
-  landlock_ruleset_attr wanted{};  // other members are zero: newer systems have more
+  landlock_ruleset_attr wanted{};  // all other members are zero; newer kernels have more members
   wanted.handled_access_fs = of_folders;
   const auto rules = static_cast<int>(syscall(SYS_landlock_create_ruleset, &wanted, sizeof wanted, 0));
   if (rules < 0) return;
@@ -172,7 +172,8 @@ void keep_out_of_other_processes() {
     const std::string_view name = entry->d_name;
     if (name == "." || name == ".." || name == "proc") continue;
     const int parent = openat(dirfd(root), entry->d_name, O_PATH | O_CLOEXEC);
-    for (const __u64 access : {of_folders, __u64{LANDLOCK_ACCESS_FS_WRITE_FILE}}) {  // the second for files
+    for (const __u64 access : {of_folders, __u64{LANDLOCK_ACCESS_FS_WRITE_FILE}}) {  // the second is for
+                                                                                     // files
       const landlock_path_beneath_attr rule{.allowed_access = access, .parent_fd = parent};
       syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
     }

@@ -22,7 +22,7 @@ namespace nearmiss::isolation {
 namespace {
 
 constexpr int look_again_ms = 5;
-constexpr std::size_t rows_at_once = 2048;  // queries, in writing requests and reading answers
+constexpr std::size_t rows_at_once = 2048;  // the number of queries that are written or read at once
 
 /// The program that the functions of a nearmiss_subject ask.
 Program* the_program = nullptr;

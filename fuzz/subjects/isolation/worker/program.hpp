@@ -55,7 +55,8 @@ class Program {
   /// Asks about one query, and returns the number in the program's answer. Throws UnaskedBytes as the two
   /// functions above do.
   double number(Question question, int kind, const double* x, double h);
-  /// Reads the seconds, if the program gives them. Throws UnaskedBytes if anything else follows.
+  /// Reads the seconds at the end of an answer, if the program gives them. Throws UnaskedBytes if anything
+  /// follows.
   void read_end();
   void expect_silence() const;
   void write_all(const void* data, std::size_t size);
@@ -74,7 +75,7 @@ class Program {
       errors_ = -1;          ///< pipes to the program's stdin, and from its stdout and stderr
   std::string last_errors_;  ///< the end of what the program wrote to standard error
   ProgramDescription description_;
-  double seconds_ = -1;  ///< that the last answer took without copies, if the program gives them
+  double seconds_ = -1;  ///< the seconds that the last answer took without copies, if the program gives them
 };
 
 }  // namespace nearmiss::isolation

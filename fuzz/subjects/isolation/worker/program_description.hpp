@@ -7,12 +7,12 @@
 
 namespace nearmiss::isolation {
 
-/// The lines with which a program begins (fuzz/subjects/PROGRAMS.md).
+/// What the first lines of a program's output say (fuzz/subjects/PROGRAMS.md).
 struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;
   bool says_seconds = false;  ///< each answer ends with the seconds that it took without copies
-  bool ignores_separation_in_bounds = false;  ///< version 2: asked for bounds without the separation
+  bool ignores_separation_in_bounds = false;  ///< version 2: the program is asked for bounds without h
   nearmiss_subject subject{};                 ///< the rest, without texts and functions
 
   /// Parses all lines, including the empty one. Throws Error if a line is invalid, or a required line is

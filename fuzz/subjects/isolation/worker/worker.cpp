@@ -1,12 +1,14 @@
 // nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor
 // that never runs the plug-in's code. CODE is a digest of the code that the worker shares with nearmiss; a
-// worker with another digest refuses to work. The supervisor reads the standard error of the plug-in's
-// process, and tells nearmiss how the process ended, and what it wrote last. When the plug-in's process or
-// nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
+// worker with another digest refuses to work. BYTES limits the plug-in's memory; 0 is no limit. The
+// supervisor reads what the plug-in's process writes to standard error. It tells nearmiss how that process
+// ended, and what it wrote last. When the plug-in's process or nearmiss ends, the supervisor ends all
+// processes that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
-// other process can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also
-// waits for the end of nearmiss, and kills the supervisor. The system then ends everything in the namespace.
+// other process can stop, kill or trace it. A guard outside, which has no process id in the namespace, also
+// waits for the end of nearmiss, and kills the supervisor. The system then ends all processes of the
+// namespace.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -65,7 +67,7 @@ std::optional<siginfo_t> end_of(pid_t process) {
   while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0) {
     if (how.si_pid == process) {
       end = how;
-      kill(-process, SIGKILL);  // before reaping it, since only until then no other group can have its number
+      kill(-process, SIGKILL);  // before reaping it: until then, no other group can have its number
     }
     waitpid(how.si_pid, nullptr, 0);
     how.si_pid = 0;
@@ -88,10 +90,10 @@ void end_descendants() {
   }
 }
 
-/// The end of what is written to a pipe.
+/// Keeps the end of what is written to a pipe.
 class LastOutput {
  public:
-  /// Takes on the end of the pipe that is read; -1 if there is none.
+  /// `pipe` is the descriptor from which the pipe is read; -1 if there is no pipe.
   explicit LastOutput(int pipe) : pipe_(pipe) {
     if (pipe_ >= 0) fcntl(pipe_, F_SETFL, O_NONBLOCK);
   }
@@ -99,7 +101,7 @@ class LastOutput {
   /// What poll(2) waits for; nothing once the pipe has no writer.
   [[nodiscard]] pollfd event() const { return {pipe_, POLLIN, 0}; }
 
-  /// Reads what is in the pipe. A writer that never stops cannot make this take long.
+  /// Reads what is in the pipe, at most 128 KiB, because a writer may never stop.
   void read_some() {
     std::array<char, 4096> block{};
     ssize_t size = 1;
@@ -144,7 +146,7 @@ std::optional<siginfo_t> watch(pid_t child, LastOutput& errors) {
   return std::nullopt;
 }
 
-/// The plug-in's process, which writes its errors to this descriptor.
+/// Makes this process the plug-in's process, with `errors` as its standard error. Returns its exit code.
 int run_plugin(const Assignment& work, int errors) {
   dup2(errors, STDERR_FILENO);
   close(errors);
@@ -171,7 +173,7 @@ int supervise(const Assignment& work) {
   const pid_t process = fork();
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != supervisor) _exit(1);  // the supervisor ended before that call
+    if (getppid() != supervisor) _exit(1);  // the supervisor ended before prctl(2) was called
     close(errors[0]);
     return run_plugin(work, errors[1]);
   }
