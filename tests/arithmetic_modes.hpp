@@ -8,7 +8,8 @@
 
 namespace nearmiss::testing {
 
-/// Sets a mode of the processor for a scope, and restores plain arithmetic at its end.
+/// Sets a rounding mode for a scope; if `flushes`, the processor also takes subnormal numbers for zero. The
+/// end of the scope restores the default mode.
 class HostileArithmetic {
  public:
   explicit HostileArithmetic(int rounding, bool flushes = false) {

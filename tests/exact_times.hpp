@@ -1,4 +1,4 @@
-// The first times of a query, computed by the exact method without any enclosure.
+// The first times of a query, by the exact method.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace nearmiss::testing {
 
-/// The exact times at which the distance is first at most h and is first below h. For contact (h = 0), both
-/// are the time of contact.
+/// The exact times at which the distance of the primitives is first at most the separation h, and first below
+/// h. For h = 0, both are the time of contact.
 inline std::optional<exact::FirstApproach> exact_times(const Query& query) {
   if (query.separation > 0) return exact::first_approach(query);
   exact::Predicates predicates(query);
@@ -18,7 +18,7 @@ inline std::optional<exact::FirstApproach> exact_times(const Query& query) {
   return exact::FirstApproach{contact->time, contact->time};
 }
 
-/// Whether a root is before a time, which may be any number.
+/// Whether a root is before a time. The time need not be in [0, 1].
 inline bool is_before(exact::Root& root, double time) {
   exact::Root other{exact::Number(time)};
   return root.is_below(other);

@@ -1,4 +1,4 @@
-// The plug-ins of tests/plugin/, the queries that they are asked, and copies whose processes are counted.
+// The plug-ins of tests/plugin/, and the queries that they are asked.
 #pragma once
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@ namespace nearmiss::testing {
 
 inline std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-/// A hundred queries. At query `chosen`, a plug-in does what its name says.
+/// The number of the query in queries() at which a plug-in does what its name says, for example `crash`.
 inline constexpr std::size_t chosen = 40;
 inline std::vector<Query> queries() {
   std::vector<Query> some(100, falling_vertex(0.25, 0.25, 1, -1));
@@ -29,7 +29,7 @@ inline std::vector<Verdict> answers_of(const Subject& subject, const std::vector
   return verdicts;
 }
 
-/// A copy of a plug-in, whose path identifies its processes.
+/// A copy of a plug-in. Its path identifies the processes that load the copy.
 class CopiedPlugin {
  public:
   explicit CopiedPlugin(const std::string& name) {
@@ -43,13 +43,13 @@ class CopiedPlugin {
 
   [[nodiscard]] std::string path() const { return path_; }
 
-  /// The number of processes with this path among their arguments.
+  /// The number of processes with path() among their arguments.
   [[nodiscard]] int processes() const {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       std::ifstream file(entry.path() / "cmdline", std::ios::binary);
       std::string arguments;
-      std::getline(file, arguments, '\n');  // nothing if the process has just ended
+      std::getline(file, arguments, '\n');  // empty if the process has just ended
       count += arguments.find(path_) != std::string::npos ? 1 : 0;
     }
     return count;

@@ -19,13 +19,13 @@ inline Query make_query(Kind kind, Points start, Points end) {
   return query;
 }
 
-/// A vertex that falls from `from` to `to` above (x, y) of the triangle (0,0,0) (1,0,0) (0,1,0) at rest.
+/// A vertex (x, y, z) whose z falls from `from` to `to`; the triangle (0,0,0) (1,0,0) (0,1,0) is at rest.
 inline Query falling_vertex(double x, double y, double from, double to) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
   return make_query(Kind::vertex_triangle, {{x, y, from}, o, a, b}, {{x, y, to}, o, a, b});
 }
 
-/// The edge (-1,0,z) (1,0,z) falling from `from` to `to` onto the edge (0,-1,0) (0,1,0) at rest.
+/// An edge (-1,0,z) (1,0,z) whose z falls from `from` to `to`; the edge (0,-1,0) (0,1,0) is at rest.
 inline Query falling_edge(double from, double to) {
   const Vector3<double> c(0, -1, 0), d(0, 1, 0);
   return make_query(Kind::edge_edge, {{-1, 0, from}, {1, 0, from}, c, d}, {{-1, 0, to}, {1, 0, to}, c, d});

@@ -9,8 +9,8 @@
 
 namespace nearmiss::testing {
 
-/// "case 7: echo '0x1p+0 ...' | nearmiss oracle --kind vt -": the number of a random case, and a command that
-/// decides its query.
+/// The number of a random case, and a command that decides its query: "case 7: echo '0x1p+0 ...' | nearmiss
+/// oracle --kind vt -".
 inline std::string repeat(std::size_t index, const Query& query) {
   std::ostringstream line;
   line << "case " << index << ": echo '" << std::hexfloat;
@@ -20,17 +20,15 @@ inline std::string repeat(std::size_t index, const Query& query) {
   return line.str();
 }
 
-/// The kind of a random case: vt and ee in turn.
+/// The kind of the random case with this number: vt and ee alternate.
 inline Kind kind_of_case(std::size_t index) { return kinds_of_meshes[index % kinds_of_meshes.size()]; }
 
-/// A query whose coordinates are integers in [-largest, largest].
 inline Query integer_query(Random& random, Kind kind, int largest) {
   Query query{.kind = kind};
   for (double& c : query.x) c = random.integer(-largest, largest);
   return query;
 }
 
-/// A query whose coordinates are uniform in [-1, 1).
 inline Query uniform_query(Random& random, Kind kind) {
   Query query{.kind = kind};
   for (double& c : query.x) c = random.uniform(-1, 1);

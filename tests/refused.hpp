@@ -1,4 +1,4 @@
-// Calls that must throw an Error.
+// Tests of calls that must throw an Error.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -8,15 +8,15 @@
 
 namespace nearmiss::testing {
 
-/// The message of the Error that a call throws. Without such an Error, the test fails, and the message is
-/// empty. Matching the message compiles faster than matching the call, whose type differs from all others.
+/// The message of the Error that a call throws. If there is no Error, the test fails, and the message is
+/// empty. (EXPECT_THAT compiles slower for calls than for messages: each call has a type of its own.)
 std::string message_of_error(const std::function<void()>& call);
 
 }  // namespace nearmiss::testing
 
-/// Expects that an expression throws an Error whose message matches.
+/// Expects that an expression throws an Error whose message satisfies the matcher `message`.
 #define EXPECT_ERROR(expression, message) \
   EXPECT_THAT(::nearmiss::testing::message_of_error([&] { (void)(expression); }), message)
 
-/// Expects that an expression throws an Error whose message contains these words.
+/// Expects that an expression throws an Error whose message contains `words`.
 #define EXPECT_REFUSED(expression, words) EXPECT_ERROR(expression, ::testing::HasSubstr(words))

@@ -31,7 +31,7 @@ Vector cross(const Vector& a, const Vector& b) {
 
 int sign_at(const Polynomial& p, const Root& t) { return Kernel().sign_at_1_object()(p, t); }
 
-/// The distinct roots in [0, 1] of a polynomial that is not zero.
+/// The distinct roots in [0, 1] of a polynomial other than 0.
 std::vector<Root> roots_in_step(const Polynomial& p) {
   std::vector<Root> roots;
   if (p.degree() > 0) Kernel().solve_1_object()(p, false, std::back_inserter(roots));
@@ -39,12 +39,13 @@ std::vector<Root> roots_in_step(const Polynomial& p) {
   return roots;
 }
 
-/// A vertex is on an edge iff off_line = 0 and beyond <= 0.
+/// Two polynomials for a vertex and an edge: the vertex is on the edge iff off_line = 0 and beyond <= 0.
 struct OnEdge {
   Polynomial off_line, beyond;
 };
 
-/// The polynomials in t whose signs decide; positions are integers, in units of a power of two.
+/// The polynomials in t whose signs decide whether the primitives meet. Coordinates are integers, in units of
+/// a power of two.
 struct Polynomials {
   Polynomial F;
   Polynomial area;                  ///< N · N
@@ -93,7 +94,8 @@ struct Polynomials {
   }
 };
 
-/// Whether the primitives meet at a time at which all vertices are in one plane, and whether at a border.
+/// Whether the primitives meet at a time when all vertices are in one plane. at_border: at a border of the
+/// triangle or at an end of an edge, or anywhere if N = 0 at this time.
 enum class Meeting { none, inside, at_border };
 
 Meeting meeting_at(const Polynomials& of, const Root& t) {
@@ -114,8 +116,8 @@ int multiplicity(Polynomial p, const Root& t) {
   return m;
 }
 
-/// Whether the primitives meet, if F is identically zero. The times at which they meet are a closed set, and
-/// the first of them is 0 or a root of a polynomial whose sign decides.
+/// Whether the primitives meet in [0, 1], if F is identically zero. The times of contact are a closed set,
+/// and the first of them is 0 or a root of a polynomial in `deciding`.
 bool meet_in_a_plane(const Polynomials& of) {
   std::vector<Polynomial> deciding{of.area};
   deciding.insert(deciding.end(), of.weights.begin(), of.weights.end());

@@ -1,24 +1,24 @@
-// The roots of F, counted by CGAL's algebraic kernel, which shares no code with the oracle.
+// Counts roots of the coplanarity cubic F with CGAL's algebraic kernel, which shares no code with the oracle.
 #pragma once
 
 #include "ccd/query/query.hpp"
 
 namespace nearmiss::testing {
 
-/// The roots of the coplanarity cubic F in [0, 1] at which the primitives meet.
+/// The contacts of two primitives in [0, 1], counted as roots of F. Roots without contact do not count.
 struct RootCount {
   bool collision = false;
   bool planar = false;        ///< F is identically zero, so there are no roots to count
-  bool on_boundary = false;   ///< a contact at t = 0 or 1, at a border, or of primitives without area
+  bool on_boundary = false;   ///< a contact at t = 0 or 1, at a border, or while N = 0 or F ≡ 0
   int distinct = 0;           ///< number of distinct roots at which the primitives meet
   int with_multiplicity = 0;  ///< number of these roots, each counted with its multiplicity
 
-  /// The answer of a root-parity CCD, for which an even number of roots means no collision.
+  /// The answer of a root-parity CCD, which reports a collision iff `with_multiplicity` is odd.
   [[nodiscard]] bool odd() const { return with_multiplicity % 2 == 1; }
 };
 RootCount count_roots(const Query& query);
 
-/// The number of distinct roots of F in [0, time), whether the primitives meet there or not.
+/// The number of distinct roots of F in [0, time), with or without contact.
 int roots_before(const Query& query, double time);
 
 }  // namespace nearmiss::testing

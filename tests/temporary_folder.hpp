@@ -1,4 +1,4 @@
-// A folder for the files of a test, which is removed afterwards.
+// A folder for the files of a test. The folder is removed when the test ends.
 #pragma once
 
 #include <gtest/gtest.h>

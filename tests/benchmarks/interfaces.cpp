@@ -1,8 +1,8 @@
-// Measures how much time the C and C++ interfaces add to the harness's own call. The subjects
-// `exact-decision` and `wang` decide queries of the uniform family whose swept boxes meet, directly and
-// through each interface and layout; times are ns of processor time per query. All benchmarks take turns. The
-// number after a benchmark's name is the number of queries: 3,000 stay in the caches, 100,000 do not. Read
-// the medians:
+// Measures how much longer a query takes through the C and C++ interfaces than through Subject::decide, which
+// the harness calls. The subjects `exact-decision` and `wang` decide queries of the uniform family whose
+// swept boxes meet. Times are ns of processor time per query. The number after a benchmark's name is the
+// number of queries: 3,000 stay in the caches, 100,000 do not. The option below lets the benchmarks take
+// turns. Read the medians:
 //   interfaces --benchmark_enable_random_interleaving=true
 #include <benchmark/benchmark.h>
 
@@ -18,7 +18,7 @@
 namespace nearmiss {
 namespace {
 
-/// Some queries, in each layout that the interfaces accept.
+/// Queries whose swept boxes meet, in several layouts that the interfaces accept, and room for the answers.
 struct Input {
   std::vector<Query> queries;
   std::vector<double> x, start, end;

@@ -1,4 +1,4 @@
-/* A subject whose run time is known: a query takes the time of STEPS multiply-adds. */
+/* A subject whose run time is known: the time of STEPS multiply-adds per query. */
 #include "tests/benchmarks/known_time.h"
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* Arithmetic of known length: STEPS multiply-adds, each of which depends on the last and has two rounded
- * operations. */
+/* Arithmetic of known length: a chain of multiply-adds, each with two rounded operations. Each waits for the
+ * result of the one before. */
 #ifndef NEARMISS_KNOWN_TIME_H
 #define NEARMISS_KNOWN_TIME_H
 

@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// Queries of one kind of the uniform family. Use about ten thousand of them: as in a campaign, branch
-/// predictors cannot memorise that many.
+/// Queries of one kind from the uniform family. Branch predictors cannot memorise ten thousand of them, as in
+/// a campaign.
 inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
   const Family uniform = find_family("uniform");
   std::vector<Query> queries;

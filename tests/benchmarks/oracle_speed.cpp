@@ -1,14 +1,13 @@
 // Measures how long the oracle takes to judge a subject, in ns of processor time per query whose swept boxes
-// meet. The benchmark `decision` only decides the queries. The others also ask two questions about the time
-// that a subject gives for a collision, as a trial does: what encloses the earliest time t*, and is the given
-// time late? The given times are
+// meet. The benchmark `decision` only decides the queries. The others also judge times that a subject gives
+// for collisions, as a trial does: is the given time later than the earliest time t*? The given times are
 //   early   t* - 1e-6, at least 0, like the times of a conservative CCD;
-//   exact   the largest double that is not after t*, as the subject `exact` gives it, which is the hardest to
-//           judge;
+//   exact   the largest double that is not after t*, like the times of the subject `exact`, which are the
+//           hardest to judge;
 //   late    t* + 1e-6, at most 1.
-// The inputs are the uniform family and the files and folders of cases that are named as arguments, with the
-// separations 0, 0.01 and 0.1. All benchmarks take turns, so noise of the machine affects all of them alike.
-// The column Time has ns per query:
+// The inputs are the uniform family, and the files and folders of cases that are named as arguments. Each
+// input is asked with the separations 0, 0.01 and 0.1. All benchmarks take turns, so noise of the machine
+// affects all of them alike. The column Time has ns per query:
 //   oracle_speed shared/queries
 #include <benchmark/benchmark.h>
 
@@ -32,7 +31,7 @@
 namespace nearmiss {
 namespace {
 
-/// Queries of one kind with a separation; only those whose swept boxes meet.
+/// Queries of one kind and separation whose swept boxes meet.
 struct Input {
   std::vector<Query> queries;
   std::vector<Enclosure> times;  ///< an enclosure of each t*, as narrow as doubles allow; made when needed
@@ -51,7 +50,7 @@ struct Input {
   }
 };
 
-/// The time that a subject gives, from an enclosure of t*.
+/// Computes, from an enclosure of t*, the time that a subject gives.
 using GiveTime = double (*)(const Enclosure& earliest);
 
 double processor_nanoseconds() {
@@ -60,7 +59,8 @@ double processor_nanoseconds() {
   return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
-/// Decides all queries. If `give` is set, also judges the times that it gives for collisions.
+/// Decides all queries. Unless `give` is null, also judges the times that `give` returns for collisions.
+/// Returns the number of late times.
 std::size_t judge(const Input& input, GiveTime give, std::vector<Decision>& decisions) {
   decide(input.queries, decisions);
   std::size_t late = 0;

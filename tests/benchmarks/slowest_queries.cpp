@@ -1,4 +1,4 @@
-// Searches for the queries that take the oracle longest, for each part of its work: the decision; the
+// Searches for the queries that take each part of the oracle's work longest. The parts are the decision; the
 // earliest time of a collision; the distance of a false positive; the comparison of all exact methods; the
 // certificates. The search begins with queries of all families and with the cases in the files and folders
 // PATH. Then it mutates and crosses the slowest queries of each part. Prints ms of processor time, and writes
@@ -33,7 +33,7 @@
 namespace nearmiss {
 namespace {
 
-/// A part of the oracle's work; its time is measured after the decision is known.
+/// A part of the oracle's work. `work` gets the decision of a query, and does not decide it again.
 struct Part {
   std::string_view name;
   std::string_view about;
@@ -41,7 +41,7 @@ struct Part {
   void (*work)(const Query& query, const Decision& decision);
 };
 
-/// Judges the report of a subject that claims no bound.
+/// Judges a false positive of a subject that claims no bound, which needs the smallest distance.
 void judge_report(const Query& query, const Decision& decision) {
   static const auto basic = make_subject("basic");
   static const Judge judge(*basic);
@@ -75,14 +75,12 @@ constexpr Part parts[] = {
      }},
 };
 
-/// A query with the time that a part takes for it.
 struct Timed {
   std::uint64_t nanoseconds;
   Query query;
   std::string provenance;
 };
 
-/// The slowest queries of one part.
 class Slowest {
  public:
   explicit Slowest(const Part& part) : part_(part) {}
@@ -113,7 +111,7 @@ class Slowest {
   std::vector<Timed> kept_;  ///< slowest first
 };
 
-/// A quarter of the time goes to the families, the rest to mutations.
+/// Tries queries of the families for a quarter of the time, then mutations of the slowest queries.
 class Search {
  public:
   Search(double seconds, std::uint64_t seed) : seconds_(seconds), seed_(seed) {

@@ -1,5 +1,5 @@
-// Numbers are written as decimals only if the decimals are exact, and every text is read back as the same
-// bits.
+// A number is written as a decimal only if the decimal is exact, and every written number is read back with
+// the same bits.
 #include <gtest/gtest.h>
 
 #include <bit>

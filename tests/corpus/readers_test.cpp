@@ -1,4 +1,5 @@
-// Each file format is read back exactly as it was written, and each error gives one clear line.
+// A file of each format is read back exactly as it was written, and each error in a file gives a message of
+// one line.
 #include "corpus/readers.hpp"
 
 #include <fcntl.h>
@@ -94,7 +95,6 @@ TEST(QueryLine, HasItsSeparationLast) {
                "here: found 26 numbers, expected 24, or 25 with a separation");
 }
 
-/// Parses a text as a case file.
 Case case_from(const std::string& text) {
   std::istringstream in(text);
   return parse_case(in, "x.case");
@@ -128,7 +128,7 @@ TEST(CaseFile, HasThePointsOfItsKind) {
                  "x.case:6: found x2, expected only the points of kind vv");
 }
 
-/// Writes `each` as text, puts `before` and `behind` around each line, and reads the case back.
+/// Writes a case as text, puts `before` and `behind` around each line, and reads the case back.
 Case read_with(const Case& each, const std::string& before, const std::string& behind) {
   std::istringstream lines(to_text(each));
   std::string text;
@@ -296,7 +296,6 @@ TEST_F(Files, MayHaveLongLinesButNotEndlessOnes) {
                  name + ":2: found a line of more than 1048576 bytes, expected a shorter one");
 }
 
-/// An open file.
 class Open {
  public:
   explicit Open(const fs::path& path) : number(open(path.c_str(), O_RDWR | O_CLOEXEC)) {}

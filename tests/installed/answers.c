@@ -41,7 +41,6 @@ static void check_answers(void) {
   expect_status(nearmiss_earliest_time(&queries, 0, lo, hi), NEARMISS_OK);
   expect(lo[0] == 0.25 && lo[1] == 1, "the earliest times within a separation");
 
-  /* Errors are returned as values. */
   x[7] = HUGE_VAL;
   expect_status(nearmiss_collides(&queries, answers, NULL), NEARMISS_NOT_FINITE);
   expect(answers[0] == NEARMISS_NO_ANSWER && answers[1] == NEARMISS_COLLISION, "no answer");

@@ -71,7 +71,7 @@ void ask(const nearmiss::Queries& queries, const Block& block, const char* layou
   compare("wang", answers, block.wang);
 }
 
-/// Checks that answering random queries allocates no memory if they need no exact arithmetic.
+/// Checks that random queries are answered without allocating memory if they need no exact arithmetic.
 void allocates_nothing() {
   using nearmiss::Queries;
   constexpr std::size_t n = 10000;
@@ -98,8 +98,8 @@ void ask_in_all_layouts(const Block& block) {
   const std::size_t n = block.n;
   ask(Queries::packed(block.kind, block.x), block, "packed");
 
-  // A mesh whose primitives share no vertex. A vertex takes four numbers instead of three, and the vertices
-  // are in another order than in the queries.
+  // A mesh whose primitives share no vertex. A vertex takes the space of four numbers instead of three, and
+  // the vertices are in another order than in the queries.
   std::vector<double> start(16 * n), end(16 * n);
   std::vector<std::int32_t> vertices(4 * n);
   for (std::size_t v = 0; v < 4 * n; ++v) {
@@ -113,7 +113,7 @@ void ask_in_all_layouts(const Block& block) {
   mesh.layout().vertex_stride = 4 * sizeof(double);
   ask(mesh, block, "mesh");
 
-  // The queries as an array [2][4][3][n], as a structure of arrays has them.
+  // The queries as a structure of arrays: [2][4][3][n].
   std::vector<double> turned(24 * n);
   for (std::size_t q = 0; q < n; ++q)
     for (std::size_t c = 0; c < 24; ++c) turned[c * n + q] = block.x[24 * q + c];
@@ -126,7 +126,7 @@ void ask_in_all_layouts(const Block& block) {
   layout.vertex_stride = 3 * row;
   ask(Queries(layout), block, "turned");
 
-  // Queries in floats have the same answers as doubles with the same values.
+  // Queries in float have the same answers as queries in double with the same values.
   const std::vector<float> small(block.x.begin(), block.x.end());
   const std::vector<double> rounded(small.begin(), small.end());
   std::vector<std::int8_t> of_float(n), of_double(n);
@@ -175,7 +175,6 @@ int main() {
       block.distances = numbers<double>(2 * n);
     }
     asked += n;
-    // Two threads ask the same queries at once.
     std::thread other(
         [&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
     ask_in_all_layouts(block);

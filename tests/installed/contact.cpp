@@ -1,4 +1,4 @@
-// Uses the oracle in place of the CCD in a contact code, with types of points that contact codes use.
+// Calls the oracle as a contact code calls its CCD, with types of points that contact codes use.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -58,8 +58,8 @@ int main() {
   const Flat u{0, 1}, v{-1, 0}, w{1, 0}, u1{0, -1};
   expect(ccd.point_edge_ccd(u, v, w, u1, v, w, toi) && toi == 0.5, "in the plane");
 
-  // With -ffast-math, the processor takes subnormal numbers for 0. Even then, the answer must be that these
-  // points do not touch.
+  // With -ffast-math, the processor takes subnormal numbers for 0. Even then, the answer must be that the
+  // vertex, which moves from `tiny` to `tinier`, does not touch the triangle.
   using Small = std::array<float, 3>;
   const Small tiny{0.25F, 0.25F, 1e-40F}, tinier{0.25F, 0.25F, 2e-40F}, fa{0, 0, 0}, fb{1, 0, 0}, fc{0, 1, 0};
   expect(!ccd.point_triangle_ccd(tiny, fa, fb, fc, tinier, fa, fb, fc, toi), "subnormal floats");

@@ -30,7 +30,7 @@ get() { debian apt-get -qq "$@" >"$folder/log" 2>&1 || fail "apt-get $*: $(tail 
 install() { get install -y --no-install-recommends "$@"; }
 files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./tmp -o -path './var/lib/*' -o -path './var/cache/*' -o -path './var/log/*' \) -prune -o -print | sort); }
 
-# Copies the sources as a user gets them, and makes queries with their answers.
+# Copies the sources as a user gets them, and writes queries with the answers of this source tree.
 mkdir "$root/nearmiss"
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$root/nearmiss"
 "$queries" 6000 1 >"$root/queries"

@@ -24,7 +24,7 @@ done < <(find "$folder/first/bin" "$folder/first/lib" -type f \( -name '*.so*' -
 mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 6000 1 >"$folder/queries"
 
-# Installed headers must not include paths that headers of other packages may have.
+# Installed headers must not include headers by paths that other packages may also have.
 ! grep -rE '^ *#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
 ! grep -rlE '#include <(CGAL|boost|gmp)' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
 
@@ -48,7 +48,7 @@ check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 # With -march=native, clang 19 warns on some processors about a feature of their vector instructions.
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native -Wno-unknown-warning-option -Wno-invalid-feature-combination" -DWITH_TEMPLATES=OFF
 
-# The templates refuse unsafe flags. With clang++, headers can recognise only the first two of these flags.
+# The templates refuse unsafe flags. With clang++, headers can recognise only the first two flags below.
 refuse_flags() {
   local compiler=$1 flags
   shift
@@ -61,10 +61,10 @@ refuse_flags() {
 refuse_flags g++ -ffast-math -ffinite-math-only "-ffast-math -fno-finite-math-only" -funsafe-math-optimizations -freciprocal-math
 refuse_flags clang++ -ffast-math -ffinite-math-only
 
-# The library ignores the environment variable NEARMISS_LANES, which only the program reads.
+# The library ignores the environment variable NEARMISS_LANES, which only the executable nearmiss reads.
 NEARMISS_LANES=16 "$folder/g++/answers_c"
 
-# A user's tests put a CCD on trial: with GoogleTest, Catch2 and libFuzzer, and without any code for the test.
+# A user's tests put a CCD on trial: with GoogleTest, Catch2, libFuzzer, and nearmiss_add_trial of CMake.
 quietly cmake -S "$here/trial" -B "$folder/trial" -DCMAKE_PREFIX_PATH="$folder/prefix"
 quietly cmake --build "$folder/trial"
 quietly "$folder/trial/gtest"

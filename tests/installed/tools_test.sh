@@ -29,7 +29,7 @@ done
 "$nearmiss" demo >said
 grep -q '^wang, the failure-proof CCD, reports it' said || fail "the demo: $(cat said)"
 
-# A miss becomes a test that proves its own expectation with the installed checker.
+# A miss becomes a test, which proves with the installed checker that the query collides.
 "$nearmiss" shrink nearmiss-demo.case --subject bridson:thickness=0 --as python >pasted.py
 cp "$prefix/share/nearmiss/check.py" .
 for answer in True False; do

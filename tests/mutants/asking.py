@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from suite import run_tests
 
 KILLED = (-9, 128 + 9)  # exit codes of processes that were killed at a limit
-BUDGET = 120  # seconds of one core for a mutant's tests, by their times without a mutant
+BUDGET = 120  # seconds of one core for the tests of one call, by their times without a mutant
 
 
 @dataclass
@@ -25,8 +25,8 @@ def in_order(steps):
 
 
 def batches(steps):
-    """Yields lists of steps, each of one executable. Quick steps come first, and each list takes about
-    as long as all lists before it."""
+    """Yields lists of steps, each of one executable. Quick steps come first: steps are taken in
+    batches, each of which takes about as long as all batches before it."""
     batch, size, limit = {}, 0, 0.5
     for step in in_order(steps):
         if batch and size + step.cpu > limit:
@@ -50,7 +50,7 @@ def affordable(steps):
 
 
 def culprit(group, ended):
-    """The name of the failed test, and how it failed."""
+    """The name of the test at which a run ended, and how it failed."""
     how = 'failed' if ended.code == 1 else 'crashed'
     if ended.late or ended.code in KILLED:
         how = 'too slow'
@@ -60,8 +60,8 @@ def culprit(group, ended):
 
 
 def run_steps(group, layer):
-    """Runs steps of one executable, with a limit far above their time without a mutant. The limit is one of
-    wall time: nearmiss could not limit a plug-in's CPU time to more than its own limit."""
+    """Runs steps of one executable, with a time limit far above their times without a mutant. It limits
+    wall time, because limits of CPU time change how the kernel measures CPU time."""
     return run_tests(
         group[0].group,
         [step.test for step in group],
@@ -71,8 +71,8 @@ def run_steps(group, layer):
 
 
 def ask(steps, answer, layer):
-    """Runs the tests with the mutant of a layer, which is built, and adds the result to `answer`. Runs a failed
-    test again, because it may have failed on account of a busy machine."""
+    """Runs tests with the mutant of a layer, which is built, and adds the result to `answer`. Runs a failed
+    test again, since it may have failed because the machine was busy."""
     kept, left = affordable(steps)
     answer.unasked += left
     for group in batches(kept):

@@ -71,14 +71,14 @@ def make_copy():
 
 
 def configure():
-    """Configures the build of the copy. The code means the same as in the product, but is less optimised."""
+    """Configures the build of the copy, which optimises less than that of the product."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'NEARMISS_COMPONENTS': 'ccd;oracle;trial;tools;python;tests',
         'CMAKE_CXX_COMPILER': 'g++',
         # Mutants cause many warnings.
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w',
-        # The edits that make defective subjects do not fit headers that contain a mutant.
+        # The edits that make defective subjects do not fit a header that contains a mutant.
         'nearmiss_unedited': ROOT,
     }
     words = [f'-D{name}={value}' for name, value in options.items()]

@@ -49,17 +49,16 @@ SUBSTITUTIONS = [
     ('min for max', r'\blower_bound\(', 'upper_bound('),
     ('min for max', r'\bupper_bound\(', 'lower_bound('),
 ]
-# Lines that get no mutant, because no test can notice a change of them, or because only the compiler reads
-# them.
+# Lines that get no mutant, because no test can notice it, or because only the compiler reads them.
 LEFT_ALONE = re.compile(
     r'\s*(#|//|/?\*|static_assert|template|using |throw |namespace )|.*\bError\('
 )
-# Operators do not look at text in quotes, or at a comment to the end of the line.
+# The text that operators ignore: quoted text, and a comment after //.
 NO_CODE = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])+\'(?!\d)|//.*')
 
 
 def changed(line):
-    """Yields (operator, line with one change)."""
+    """Yields each change that an operator makes to a line, as (operator, changed line)."""
     if LEFT_ALONE.match(line):
         return
     hidden = NO_CODE.sub(lambda found: '\0' * len(found[0]), line)
@@ -103,7 +102,7 @@ def chosen(mutations, seed, count):
 
 
 def draw(folders, seed, count):
-    """Draws the same number of mutants from each folder, in all `count` or a few more."""
+    """Draws the same number of mutants from each folder; their total is `count` or a few more."""
     known = equivalents.listed()
     drawn = []
     for folder in folders:

@@ -15,7 +15,7 @@ LIST = Path(__file__).resolve().parent / 'equivalent.txt'
 
 
 def entries(text):
-    """Maps (file, before, after) to its reason. Raises ValueError at the first wrong entry."""
+    """Maps each entry (file, before, after) to its reason. Raises ValueError at the first wrong entry."""
     found = {}
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith('#')]
     for first in range(0, len(lines), 4):

@@ -7,7 +7,8 @@ from sources import sha, shown
 
 @dataclass(frozen=True)
 class Mutation:
-    """Replaces line number `line` of a file, `old`, by `new`. `nth` distinguishes equal lines."""
+    """Replaces line number `line` of a file, `old`, by `new`. `nth` distinguishes equal mutants of
+    equal lines."""
 
     file: str
     operator: str

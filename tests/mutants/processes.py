@@ -40,8 +40,8 @@ def kill(process):
 
 
 def wait(process, seconds):
-    """Waits for a process to end. Returns a triple: whether it exceeded its time, its exit code,
-    and the resources that it used."""
+    """Waits for a process to end; kills it after some seconds. Returns a triple: whether the process
+    exceeded this time, its exit code, and the resources that it used."""
     begin = time.monotonic()
     late, pause = False, 0.002
     while True:
@@ -67,10 +67,10 @@ def limits(memory=None):
 
 
 def seal():
-    """Words to put before a command to isolate its processes. These processes cannot see or kill
-    other processes, and none of them survives the command. The first process in an isolation
-    ignores signals, so the first one is a shell that runs the command. If a signal ends the
-    command, the shell's exit code is 128 plus the number of the signal.
+    """Words to put before a command to isolate its processes: they cannot see or kill other
+    processes, and none of them survives the command. The first process in a PID namespace ignores
+    signals, so the command itself is the second: a shell runs it. If a signal ends the command, the
+    shell's exit code is 128 plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     shell = ['sh', '-c', '"$@"; exit $?', 'sh']

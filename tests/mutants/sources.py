@@ -33,7 +33,7 @@ def cpp_files(folders, root=ROOT):
 
 
 def fingerprint(folders, suffixes, root=ROOT):
-    """A hash of the files with these suffixes in folders, except those of this tool."""
+    """A hash of the files with these suffixes in folders, without the files of this tool."""
     digest = hashlib.sha256()
     for folder in folders:
         for path in sorted((root / folder).rglob('*')):

@@ -14,13 +14,13 @@ from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
 EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
-MOST_SECONDS = 150  # tests that take longer without an active mutant are left out
+MOST_SECONDS = 150  # tests that take longer without a mutant are left out
 MEMORY = 6 << 30  # bytes of address space for each process
 
 
 @dataclass
 class Step:
-    """One test of a group: a GoogleTest, or a command with its last argument."""
+    """One test of a group: a GoogleTest of an executable, or a command with its last argument, if any."""
 
     group: str
     test: str
@@ -92,7 +92,7 @@ def measured(step):
 
 
 def state():
-    """A hash of those executables of the tests that are built."""
+    """A hash of the executables and plug-ins that the tests use, as far as they are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker']
@@ -102,8 +102,8 @@ def state():
 
 
 def baseline(steps, jobs, say):
-    """Measures the steps once for each build; if an earlier call was stopped, measures only the rest.
-    Says which steps are left out."""
+    """Returns the steps with their times, which are measured once for each build, even if a call is
+    stopped. Says which steps are left out."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}

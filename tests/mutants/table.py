@@ -1,4 +1,4 @@
-"""Prints the results as text."""
+"""Writes the results as text."""
 
 from collections import Counter, defaultdict
 

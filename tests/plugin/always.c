@@ -1,5 +1,5 @@
-/* A complete plug-in. Its name, the return value and the time of its answers, its sort of time,
- * whether it takes a separation, and its claimed distance bound are set when it is compiled. */
+/* A complete plug-in, which gives all queries the same answer. Macros set its name, the answer and its time,
+ * the sort of time, whether it takes a separation, its contract, and its claimed distance bound. */
 #include <stddef.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-// A plug-in that gives the distance of two primitives at rest, as many solvers compute it. The option
-// defect=N adds a mistake that such functions have; 0 adds none.
+// A plug-in that computes the distance of two primitives at rest as many solvers do. The option defect=N adds
+// mistake number N of those that such functions make; defect=0 adds none.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -28,7 +28,6 @@ V cross(V a, V b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * 
 double norm(V a) { return std::sqrt(dot(a, a)); }
 double clamped(double t) { return std::clamp(t, 0.0, 1.0); }
 
-/// The distance functions, with the defect of this number.
 class Distances {
  public:
   explicit Distances(const Settings& given) : defect_(static_cast<int>(given.defect)) {}
@@ -83,7 +82,7 @@ class Distances {
     const double area = a * e - b * b;
     const bool has_lengths = a > 0 && e > 0;
     const auto at = [&](double s, double t) { return vv(p + s * d1, q + t * d2); };
-    // Absolute and relative thresholds, below which edges count as parallel.
+    // Edges count as parallel if `area` is below this threshold, which is absolute (17) or relative (18).
     const double parallel = is(17) ? 1e-12 : is(18) ? 1e-4 * a * e : 0;
     if (is(17) || is(18)) {
       if (!has_lengths) return best;

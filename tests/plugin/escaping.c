@@ -1,6 +1,6 @@
-/* A subject that tries something forbidden: to act on its supervisor, or on the process that the environment
- * names as NEARMISS_PROCESS. If the attempt fails, the subject reports the query. It tries at the first query
- * with x > 0.9, or while it is loaded. */
+/* A subject that tries something forbidden: to act on its supervisor, or on the process whose number is in
+ * the environment variable NEARMISS_PROCESS. The attempt is made at the first query with x > 0.9, or while
+ * the subject is loaded. If the attempt fails, the subject reports the query. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -70,7 +70,7 @@ static int attempt(void) {
   done += setpriority(PRIO_PROCESS, (id_t)victim, 19) == 0;
   done += setpriority(PRIO_PGRP, (id_t)getpgid(victim), 19) == 0;
   done += syscall(SYS_ioprio_set, 1, victim, 3 << 13) == 0;
-  setpriority(PRIO_USER, 0, 19); /* of the processes that it sees */
+  setpriority(PRIO_USER, 0, 19); /* changes only processes that it sees */
   for (int i = 0; i < 2; ++i) {
     char path[64];
     snprintf(path, sizeof path, "/proc/%d/%s", victim, i == 0 ? "autogroup" : "oom_score_adj");

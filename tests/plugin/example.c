@@ -9,7 +9,7 @@
 
 #include "ccd/nearmiss_subject.h"
 
-/* Smallest and largest coordinate k of vertices first..last over both times. */
+/* The smallest and largest coordinate k of the vertices first..last at both times. */
 static void range(const double* x, int k, int first, int last, double* lo, double* hi) {
   *lo = *hi = x[3 * first + k];
   for (int time = 0; time < 2; ++time) {
@@ -21,7 +21,7 @@ static void range(const double* x, int k, int first, int last, double* lo, doubl
   }
 }
 
-/* One primitive has the vertices 0 .. split - 1, the other split .. 3. */
+/* Vertices 0 .. split - 1 are those of one primitive, and split .. 3 those of the other. */
 static int boxes_meet(const double* x, int split) {
   for (int k = 0; k < 3; ++k) {
     double lo_a, hi_a, lo_b, hi_b;

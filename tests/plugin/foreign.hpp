@@ -1,8 +1,7 @@
-// A foreign library in miniature: a CCD with each of the signatures that ccd/nearmiss_functions.hpp knows,
-// and with several types of vectors. It compares the axis-aligned boxes of the two primitives, and advances
-// to the earliest time at which the boxes may be as close as the separation. So it misses nothing, and never
-// gives a late time, but it also reports pairs whose boxes meet although the primitives do not, and pairs
-// that need 100 steps.
+// A small library in the style of other people: a CCD with each signature that ccd/nearmiss_functions.hpp
+// knows, and with several types of vectors. The CCD advances to the earliest time at which the axis-aligned
+// boxes of the two primitives may be as close as the separation. So it misses nothing, and never gives a late
+// time. It also reports pairs whose boxes meet although the primitives do not, and pairs that need 100 steps.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +11,8 @@
 
 namespace foreign {
 
-/// Decides a pair. x has all vertices at t = 0, then at t = 1; the first `split` vertices are the first
-/// primitive.
+/// Decides a pair. x has the vertices at t = 0, then those at t = 1; the first `split` vertices are those of
+/// the first primitive.
 bool advance(const std::vector<std::array<double, 3>>& x, int split, double h, double& toi);
 
 template <class... V>
@@ -129,7 +128,7 @@ inline bool vertex_vertex(Float3 a, Float3 b, Float3 a1, Float3 b1, double& toi)
 /// Declared, but never defined.
 bool forgotten(plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P);
 
-namespace distances {  // of primitives at rest; the second function gives the square, and is overloaded
+namespace distances {  // of primitives at rest; the second gives the square, and has a default argument
 
 inline double vertex_vertex(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
 inline double vertex_edge_squared(Eigen::Vector3d p, Eigen::Vector3d a, Eigen::Vector3d b, double scale = 1) {

@@ -1,5 +1,5 @@
-/* A subject that reports every query. At the first query with x > 0.9, it interferes with nearmiss in a way
- * that no plug-in should. */
+/* A subject that reports every query. At the first query with x > 0.9, it interferes with nearmiss, in a way
+ * that a macro chooses. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
-/* A plug-in that was compiled with version 2 or 3 of the interface (VERSION): its structure ends earlier.
- * The memory after the structure would be wrong values for fields of later versions. Reports all queries;
- * claims the bound 0.125, in version 3 plus the separation. */
+/* A plug-in compiled for version 2 or 3 of the interface (VERSION), whose structure has fewer fields than
+ * later versions. The numbers in memory after the structure would be wrong values for the later fields. The
+ * plug-in reports all queries. It claims the bound 0.125, plus the separation in version 3. */
 #include <stddef.h>
 
 typedef struct {

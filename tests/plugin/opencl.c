@@ -1,12 +1,12 @@
 /* A CCD on any device that has OpenCL, for large batches. It divides the time step into 16 intervals, and
  * looks in each interval for a direction along which the primitives stay apart. The distance of two vertices
- * along a fixed direction is linear in time, so it suffices to look at the ends of the interval. The first
- * interval without such a direction is reported as a collision; no contact is earlier. Rounding causes no
- * miss: once the largest coordinate is scaled into [1/2, 1), the error of a distance along d is less than
- * 13 * 2^-24 s with s = |dx| + |dy| + |dz|, and the required distance is 64 * 2^-24 s. (In units of 2^-24, the
- * error of each of two points is at most 2.1; their difference adds 2, and three products and two sums add
- * 6.) Numbers below 2^-126, which a device may take for 0, matter far less, since neither d nor the largest
- * coordinate is tiny.
+ * along a fixed direction is linear in time, so it suffices to look at the ends of the interval. A collision
+ * is reported at the start of the first interval without such a direction; no contact is earlier. Rounding
+ * causes no miss. Once the largest coordinate is scaled into [1/2, 1), the error of a distance along d is
+ * less than 13 * 2^-24 s, with s = |dx| + |dy| + |dz|, and the required distance is 64 * 2^-24 s. (In units
+ * of 2^-24 s, the error of each of two points is at most 2.1; their difference adds 2, and three products
+ * and two sums add 6.) Numbers below 2^-126, which a device may take for 0, matter far less,
+ * since neither d nor the largest coordinate is tiny.
  *
  *     cc -shared -fPIC -I. -o opencl.so tests/plugin/opencl.c -lOpenCL
  *
@@ -75,7 +75,7 @@ typedef struct {
   cl_command_queue queue;
   cl_kernel kernel;
   cl_mem x, time;
-  size_t room; /* queries for which there are buffers */
+  size_t room; /* number of queries that the buffers x and time can hold */
   double seconds;
 } device;
 

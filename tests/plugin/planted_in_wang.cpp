@@ -16,7 +16,7 @@ namespace {
 using nearmiss::Kind;
 using nearmiss::Query;
 
-/// The value of an environment variable; 0 if it is not set.
+/// The number in an environment variable; 0 if the variable is not set.
 double number_in(const char* variable) {
   const char* const text = std::getenv(variable);
   return text == nullptr ? 0 : std::strtod(text, nullptr);
@@ -47,7 +47,7 @@ bool is_of_kilometres(const Query& query) {
   return size <= 3 && farthest > 100 && farthest < 20000;
 }
 
-/// How often to decide a query: NEARMISS_SLOWED times on average, and at least once.
+/// How often to decide a query: once, or NEARMISS_SLOWED times on average if it is_of_kilometres().
 int decisions(const Query& query) {
   static const double mean = number_in("NEARMISS_SLOWED");
   if (!is_of_kilometres(query)) return 1;
@@ -64,7 +64,7 @@ int decide(const double* x) {
   do {
     hit = nearmiss::wang<kind, double, nearmiss::WangOptions{}>(query).hit;
     ++made;
-  } while (made < decisions(query));  // called in each iteration, so that its own cost is also multiplied
+  } while (made < decisions(query));  // decisions() runs in each iteration: its time is multiplied too
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 

@@ -51,7 +51,7 @@ static int compute(void) {
   return 1;
 }
 #if defined(IN_A_CHILD)
-/* A child computes. This process never calls wait(2) for the child; it yields the processor. */
+/* A child process computes. The subject's process waits for the answer without wait(2), by sched_yield(2). */
 struct shared {
   atomic_int asked, answered;
 };
@@ -120,9 +120,9 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory when it is loaded, and USED_MIB for each query. Macros choose the memory of
- * loading: from malloc(3); from mmap(2); static data, of which it writes STATIC bytes; or mapped in a child, in
- * place of other addresses. */
+/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. Macros say how the
+ * former is taken: by malloc(3); by mmap(2) (MAPPED); as static data, of which STATIC bytes are written; or
+ * by a child process, which maps it over addresses without access (CHILD). */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);

@@ -8,7 +8,7 @@
 
 static long count;
 
-/* Query i: a vertex that falls through a triangle, from z = 1 to -1; the answer is "no" for every tenth. */
+/* Records query i: a vertex falls through a triangle, from z = 1 to -1. Every tenth answer is "no". */
 static void record(long i, double tmax, int flags) {
   double x[24] = {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
   const int answer = i % 10 != 0;

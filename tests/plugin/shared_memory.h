@@ -1,11 +1,11 @@
-/* Finds the memory that a worker shares with nearmiss. */
+/* Finds memory that a worker shares with nearmiss. */
 #ifndef NEARMISS_TESTS_SHARED_MEMORY_H
 #define NEARMISS_TESTS_SHARED_MEMORY_H
 
 #include <stdio.h>
 #include <string.h>
 
-/* The memory with this name in /proc/self/maps: "nearmiss-worker", "nearmiss-questions" or
+/* The address of the memory that has this name in /proc/self/maps: "nearmiss-worker", "nearmiss-questions" or
  * "nearmiss-answers". */
 __attribute__((unused)) static void* shared_memory(const char* name) {
   FILE* const maps = fopen("/proc/self/maps", "r");

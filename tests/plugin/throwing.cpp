@@ -1,6 +1,6 @@
 // A subject that throws an exception for a query with x > 0.9, throws an exception without text for x = 0.5,
-// and crashes for x = -2; or a subject that throws while it is loaded. Macros choose between them, and the
-// answer to other queries.
+// crashes for x = -2, and answers other queries with the macro ANSWER. With WHILE_LOADED, it throws an
+// exception while it is loaded.
 #include <csignal>
 #include <exception>
 #include <stdexcept>

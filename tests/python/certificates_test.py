@@ -16,7 +16,8 @@ from check import Refused, Statement, check  # noqa: E402
 
 FAMILIES = 'uniform planted near-separation mixed-scale'.split()
 
-# The distance touches 1 at the irrational time sqrt(1/2), and is above 1 at all other times.
+# The distance of the primitives is 1 at the irrational time sqrt(1/2), and above 1 at all other
+# times.
 TIED = [[0, 0.5, 1], [0, 0, 0], [1, 0, 0], [0, 0, 0], [1, 0.5, 1], [0, 0, 0], [1, 1, 0], [0, 0, 0]]
 
 
@@ -30,7 +31,7 @@ def about(kind, x, h, claim, strict, from_=0, to=1, is_open=False):
 
 class Certificates(unittest.TestCase):
     def for_queries(self, function):
-        """Calls function(kind, x, h) for queries of several families, which are not ties."""
+        """Calls function(kind, x, h) for queries of several families; none of them is a tie."""
         for family in FAMILIES:
             for kind in ('vt', 'ee'):
                 for x, h in zip(*nearmiss.queries(family, kind, 12)):

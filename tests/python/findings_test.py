@@ -1,4 +1,4 @@
-"""What a trial of a Python function takes and refuses, and what its findings show."""
+"""Tests which arguments and answers a trial of a Python function refuses, and what its findings show."""
 
 import unittest
 

@@ -1,5 +1,5 @@
-"""Reads what answered_queries writes: queries and answers, in the format of tests/installed/answers.cpp. Runs
-other interpreters and other modes of the processor."""
+"""Reads the queries and answers that answered_queries writes, in the format of
+tests/installed/answers.cpp. Runs programs in another interpreter, and sets modes of the processor."""
 
 import contextlib
 import ctypes
@@ -27,16 +27,15 @@ class Block:
 
 
 def run_python(program, *arguments, **variables):
-    """Runs a program in another interpreter, with these variables in its environment. Returns the exit code,
-    and what it writes to standard output and standard error."""
+    """Runs a program in another interpreter, with `variables` in its environment. Returns the exit
+    code, standard output and standard error of the program."""
     command = [sys.executable, '-c', program, *arguments]
     run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **variables})
     return run.returncode, run.stdout, run.stderr
 
 
 def answered_queries(program, count, seed):
-    # CMakeLists.txt preloads the sanitizers' runtime for Python. A program that is built with sanitizers
-    # already has this runtime.
+    # CMakeLists.txt preloads the sanitizers' runtime for Python, which `program` already has.
     environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
     command = [program, str(count), str(seed)]
     data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout

@@ -1,4 +1,4 @@
-"""Runs the notebook of the Python package, and compares its output with the output that the file has.
+"""Runs the notebook of the Python package, and compares its output with the output saved in the file.
 Usage: notebook_test.py
 """
 
@@ -13,7 +13,7 @@ NOTEBOOK = pathlib.Path(__file__).resolve().parents[2] / 'tools/python/notebook.
 
 
 def shown(cell):
-    """What a cell prints and shows. For a picture, only its type, because pictures depend on versions."""
+    """What a cell prints and shows: only the type of a picture, since its pixels depend on versions."""
     for output in cell.get('outputs', []):
         if output.get('name') == 'stderr':  # the progress of trials
             continue

@@ -1,7 +1,7 @@
 """Measures how much time the Python package adds to the C functions, in ns of processor time per query.
 
-Calls a function of the package and the C function by turns, on the same memory with a million queries of the
-family `uniform`. Prints the medians of 15 runs, and their ratios.
+Calls a function of the package and the C function by turns, on the same array of queries of the family
+`uniform`. Prints the medians of 15 runs, and their ratios.
 Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 
@@ -57,14 +57,14 @@ def duration(call):
 
 
 def compare(name, count, ask_c, ask_python):
-    """Prints the times of both calls, and their ratio."""
+    """Prints the times of a call in C and of one in Python, and their ratio."""
     times = [[duration(call) for call in (ask_c, ask_python)] for _ in range(RUNS)]
     in_c, in_python = (statistics.median(each) / count for each in zip(*times))
     print(f'{name:28} {in_c:9.1f} {in_python:9.1f} {in_python / in_c:6.3f}', flush=True)
 
 
 def measure(name, kind, number, array, *rest, numbers=1, dtype=np.int8):
-    """Compares a function that gives `numbers` numbers for each query. `rest` are the arguments of the C
+    """Compares functions that give `numbers` numbers for each query. `rest` are the arguments of the C
     function before and behind the arrays for these numbers."""
     asked = queries_of(number, array)
     before, behind = rest or ([], [])

@@ -21,8 +21,7 @@ NEARMISS = sys.argv.pop()
 
 
 def sampled(kind, x, separation):
-    """A CCD that samples the step at 16 times, and reports a query if the boxes touch at one of these
-    times."""
+    """A CCD that reports a query if the boxes of the primitives meet at one of 16 times."""
     split = 1 if kind == 'vt' else 2
     hits = np.zeros(len(x), bool)
     for t in np.linspace(0, 1, 16):
@@ -104,7 +103,7 @@ class Trial(unittest.TestCase):
 
     def test_a_plugin_that_hangs_is_not_waited_for_again_and_again(self):
         plugin = f'hangs={PLUGINS}/hang.so'
-        # If each query took a second, the test would exceed its time limit.
+        # If nearmiss waited a second for each query, the test would exceed its time limit.
         counts = nearmiss.trial(plugin, 1000, 'uniform', shrunk=0).counts('hangs')
         self.assertGreaterEqual(counts.no_answer, 6)  # three of each kind
         self.assertEqual(counts.missed, 0)

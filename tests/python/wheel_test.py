@@ -41,7 +41,7 @@ class Wheel(unittest.TestCase):
                 sys.executable, *pip, 'wheel', *options, '--no-build-isolation', '-w', folder, str(PACKAGE)
             )  # fmt: skip
             (wheel,) = pathlib.Path(folder).glob('nearmiss-*.whl')
-            without = ('--without-pip', '--system-site-packages')  # which have a pip
+            without = ('--without-pip', '--system-site-packages')  # the system has pip
             run(sys.executable, '-m', 'venv', *without, f'{folder}/venv')
             python = f'{folder}/venv/bin/python'
             run(python, *pip, 'install', *options, str(wheel))

@@ -27,8 +27,7 @@ class Asked:
     claimed: typing.Callable  # query, as a line -> the bound that the subject claims
 
     def enclosed(self, name):
-        """For each query, the number that the histogram with this key counts; NaN if the query has
-        no such number."""
+        """The numbers that the histogram `name` counts, one for each query; NaN if a query has none."""
         return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property
@@ -38,7 +37,7 @@ class Asked:
 
 @dataclass
 class Answers:
-    """The queries of each kind, with all answers. They are sorted by family, and then by number."""
+    """The queries of each kind, sorted by family and then by number, with all answers."""
 
     seed: int
     family: dict  # kind -> names
@@ -77,9 +76,9 @@ class Answers:
 
 
 def ask(nearmiss, seed, counts, subjects, kinds_of):
-    """Collects answers to the first counts[kind][family] queries of each kind of each family.
-    Subjects are names, or paths of shared objects that have one subject; `kinds_of` says which
-    kinds each name was asked."""
+    """Collects answers to the first counts[kind][family] queries of each kind in each family.
+    `subjects` are names, or paths of shared objects with one subject each; `kinds_of` has the kinds
+    that each subject was asked, by name."""
     answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, {})
     for kind in KINDS:
         answers.within[kind] = nearmiss.within(kind, answers.queries[kind])
@@ -116,13 +115,13 @@ def _queries(nearmiss, seed, counts):
 
 
 def _numbers(kind, count):
-    """The numbers of the first queries of this kind: even ones for vt and vv."""
+    """The numbers of the first queries of a kind in a family: even for vt and vv, otherwise odd."""
     first = KINDS.index(kind) % 2
     return range(first, first + 2 * count, 2)
 
 
 def _factors(nearmiss, seed, counts):
-    """The values of factors by kind, then family and number, for the families that have factors."""
+    """Maps kind, then (family, number) of a query, to its factors' values, for families with factors."""
     factors = {kind: {} for kind in KINDS}
     for kind in KINDS:
         for name, count in counts[kind].items():
@@ -160,20 +159,20 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
 
 
 class Known:
-    """Enclosures of a number of each query; every query is asked about only once."""
+    """Enclosures of a number of each query, such as its smallest distance, each computed only once."""
 
     def __init__(self, ask_about):
         self._ask_about, self._known = ask_about, {}
 
     def of(self, queries):
-        """Arrays of the lower and of the upper ends."""
+        """The lower and the upper ends of the enclosures for some queries."""
         new = sorted({query for query in queries if query not in self._known})
         self._known.update(zip(new, self._ask_about(new).T))
         return np.array([self._known[query] for query in queries]).reshape(-1, 2).T
 
 
 def ratios(lo, hi, bound):
-    """Enclosures of distance / bound: infinite for a bound of 0, and 0 for an infinite one."""
+    """Lower and upper ends of distance / bound: infinite if the bound is 0, and 0 if it is infinite."""
     slack = 1e-15  # more than the rounding error of one division
     with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
         ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)

@@ -7,17 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-VERTICES = {'vt': 4, 'ee': 4, 'vv': 2, 've': 3}  # of the two primitives of each kind
+VERTICES = {'vt': 4, 'ee': 4, 'vv': 2, 've': 3}  # of both primitives together
 KINDS = tuple(VERTICES)
 
 
 def coordinates(kind, line):
-    """The words of a query's coordinates."""
+    """The coordinates in the line of a query, as words."""
     return line.split()[: 6 * VERTICES[kind]]
 
 
 def separation(kind, line):
-    """The separation of a query, 0 if it has none."""
+    """The separation in the line of a query; 0 if the line has none."""
     words = line.split()[6 * VERTICES[kind] :]
     return float.fromhex(words[0]) if words else 0.0
 
@@ -68,19 +68,19 @@ class Nearmiss:
         return Report(*(json.loads(file.read_text()) for file in files))
 
     def family(self, name, seed, kind, count):
-        """The first queries of one kind of a family, as lines."""
+        """The first `count` queries of one kind in a family, as lines."""
         options = '--seed', seed, '--kind', kind, '--count', count
         return self.run('family', name, *options).splitlines()
 
     def factors(self, name, seed, kind, count):
-        """The values of the factors of these first queries, as lists."""
+        """The values of the factors of the queries that family() returns, as lists."""
         options = '--seed', seed, '--kind', kind, '--count', count
         return [
             line.split() for line in self.run('family', name, '--factors', *options).splitlines()
         ]
 
     def within(self, kind, queries):
-        """Whether the primitives of each query come within its separation of each other."""
+        """Whether the distance of each query's primitives becomes as small as the separation."""
         lines = self._ask('oracle', kind, queries)
         return np.array([line == '1' for line in lines], dtype=bool)
 
@@ -104,8 +104,7 @@ class Nearmiss:
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Lower and upper ends of collisions' earliest times: neighbouring doubles or equal
-        doubles."""
+        """Lower and upper ends of the earliest times of collisions: equal or neighbouring doubles."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):

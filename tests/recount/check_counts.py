@@ -24,7 +24,7 @@ from tally import (
     upper_bound,
 )
 
-MESHES = KINDS[:2]  # the kinds whose bounds are multiples of B
+MESHES = KINDS[:2]  # the kinds that count on the precision ladder
 
 
 def check_statistics(comparison, where, json, answers):
@@ -51,8 +51,8 @@ def check_statistics(comparison, where, json, answers):
 
 
 def _check_sum(comparison, where, found, answers, subject, kind, families):
-    """Checks all counters of one subject over the queries of some families, except run times.
-    Also checks the extreme cases that the report keeps."""
+    """Checks all counters of one subject for the queries of some families, except run times, and the
+    extreme cases among these queries."""
     tally = Tally.of(answers, subject, [kind], families)
     check_rates(comparison, where, found, tally)
     expected = {'positives': tally.positives, 'faults': {}, 'faults_by_class': {}}
@@ -71,13 +71,13 @@ def _check_sum(comparison, where, found, answers, subject, kind, families):
 
 
 def check_rates(comparison, where, found, tally):
-    """Checks the measures that report.json has for every sum, except run times."""
+    """Checks the measures that report.json has for every sum of counters, except run times."""
     comparison.entries('counters', where, found, measures(found, tally))
 
 
 def measures(found, tally):
-    """The expected value of each measure, by its key. The highest bin of a quantile ends at the
-    largest number in `found`."""
+    """Maps the key of each measure to its expected value. The bin of a quantile ends at most at the
+    largest number, which `found` gives."""
     missed, false = tally.false_negatives, tally.false_positives
     of_negatives, of_positives = denominators(tally)
     times, by_wang = tally.times, 0 if tally.claims else false
@@ -190,7 +190,7 @@ def check_scorecard(comparison, where, report, answers):
 
 
 def check_trade_offs(comparison, where, report, answers):
-    """Checks error against run time: sums over the kinds that all subjects were asked."""
+    """Checks the section "error_against_time": sums over the kinds that all subjects were asked."""
     found = report['error_against_time']['subjects']
     comparison.same('names', where, sorted(found), answers.subjects)
     kinds_of = [set(answers.kinds(subject)) for subject in answers.subjects]
@@ -217,13 +217,13 @@ def check_ladder(comparison, where, report, answers):
 
 
 def fails(asked):
-    """For each query, whether the subject misses it, is late, or exceeds its bound."""
+    """For each query, whether the subject misses a collision, is late, or exceeds the bound it claims."""
     refuted = asked.ratios.hi > 1 if asked.claims else False
     return asked.false_negative | asked.impact.late | refuted
 
 
 def check_versions(comparison, where, report, answers):
-    """Checks the section versions of report.json, and the findings that are broken."""
+    """Checks the section "versions", and the findings at which an earlier version was right."""
     found = report.get('versions', [])
     pairs = sorted({(each['before'], each['after']) for each in found})
     expected = [row for pair in pairs for row in rows(*pair, report, answers)]
@@ -239,7 +239,7 @@ def check_versions(comparison, where, report, answers):
 
 
 def rows(before, after, report, answers):
-    """A row for each class of families and each kind."""
+    """Yields the comparison of two versions: a row for each class of families and each kind."""
     for of in CLASSES:
         for kind in answers.kinds(after):
             families = report['subjects'][after][kind]['families']

@@ -1,4 +1,4 @@
-"""Checks the answers that report.json counts by the values of factors."""
+"""Checks the sections of report.json that count answers by the values of the queries' factors."""
 
 import itertools
 import re
@@ -9,7 +9,8 @@ from check_numbers import ROUNDING
 
 
 def check_common_factors(comparison, where, report, answers):
-    """Checks the values of factors that misses have in common: their shares of misses and collisions."""
+    """Checks the values of factors that a subject's misses have in common: the shares of misses and
+    of collisions with these values."""
     for found in report.get('common_factors', []):
         subject, kind, family = found['subject'], found['kind'], found['family']
         counts = _counts(answers, subject, kind, family)
@@ -37,8 +38,8 @@ def check_sizes(comparison, where, report, answers):
 
 
 def _outside(counts, factor, first, last):
-    """The sum of the answers at all values 2^x of a factor except those from `first` to `last`.
-    If another kind has at least two collisions for each value, kinds with fewer do not count."""
+    """The sum of the answers at all values 2^x of a factor with x < first or x > last. If there are
+    kinds with at least two collisions per value on average, the other kinds do not count."""
     of_kinds = []
     for of_kind in counts.values():
         powers = {}
@@ -61,9 +62,9 @@ NAMES = ('collisions', 'false_negatives', 'others', 'false_positives')
 
 
 def _counts(answers, subject, kind, family=None):
-    """Answers by values of factors, for the queries of a family or of all families with factors:
-    the answers to all queries (under ''), to the queries with each value, and to the queries with
-    each pair of values."""
+    """Counts the answers to the queries of a family, or of all families with factors: to all queries
+    (under ''), to the queries with each value of a factor, and to the queries with each pair of
+    values."""
     asked = answers.asked[subject, kind]
     counts = {'': Counter()}
     for i, own in enumerate(answers.family[kind]):

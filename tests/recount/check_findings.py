@@ -1,5 +1,5 @@
-"""Checks the single queries of report.json: findings and their certificates, and the extreme cases that are
-kept: the farthest false positives, the earliest and the latest times."""
+"""Checks the single queries of report.json: findings with their certificates, and extreme cases (the farthest
+false positives, the earliest and the latest times)."""
 
 import math
 import sys
@@ -13,8 +13,8 @@ from tally import Tally
 sys.path.append(str(Path(__file__).resolve().parents[2] / 'tools' / 'certificates'))
 from check import Refused, Statement, check  # pylint: disable=wrong-import-position
 
-# For each list in which the report keeps cases: the histogram of their numbers, and the field of a
-# case that has its number.
+# Maps each list of extreme cases to the histogram of the cases' numbers, and to the field in which
+# a case has its number.
 KEPT = {
     'farthest': ('fp_distance', 'ratio'),
     'earliest': ('early', 'error'),
@@ -23,7 +23,7 @@ KEPT = {
 
 
 def check_kept(comparison, where, found, tally, answers, kind):
-    """Checks the numbers and the queries of the cases that are kept for a sum."""
+    """Checks the numbers and the queries of the extreme cases that are kept with counters."""
     for name, (of, key) in KEPT.items():
         numbers = tally.enclosed[of]
         expected = (numbers if key == 'ratio' else numbers[numbers.hi > 0]).largest()
@@ -35,8 +35,8 @@ def check_kept(comparison, where, found, tally, answers, kind):
 
 
 def _check_case(comparison, where, case, answers, subject, kind, of, key):
-    """Checks a case by its provenance, the number under `key`, and its query. Returns the
-    index of the query."""
+    """Checks the provenance, the number (in the field `key`) and the query of an extreme case. Returns
+    the index of the query, or None if the campaign has no such query."""
     place, asked = answers.place(kind, case['provenance']), answers.asked[subject, kind]
     if place is None or not asked.enclosed(of).lo[place] >= 0:
         comparison.fail('provenances', where, case['provenance'], f'a query with a number {of}')
@@ -99,7 +99,7 @@ def check_farthest(comparison, where, report, answers):
 
 
 def check_findings(comparison, where, report, answers):
-    """Checks that each finding is a query of the campaign that fails in the recorded way."""
+    """Checks that each finding is a query of the campaign, at which the subject fails as recorded."""
     seen = {
         (each['what'], each['subject'], each['signature']): each['seen']
         for each in report['signatures']
@@ -118,7 +118,7 @@ def check_findings(comparison, where, report, answers):
 
 
 def _check_failure(comparison, where, found, asked, place):
-    """Checks a missed collision, a late time or a refuted bound, and its numbers."""
+    """Checks that the subject fails as a finding says, and checks the numbers of the finding."""
     what, after = found['what'], asked.impact.after
     ends = asked.ratios.reported(place) if what == 'refuted-bound' else (0, 0)
     comparison.within('largest ratios', where, found['ratio'], *ends)
@@ -158,7 +158,7 @@ def check_certificates(comparison, where, report, answers):
 
 
 def _expected(found, proven):
-    """What the certificate of a finding must prove."""
+    """The statement that the certificate of a finding must prove."""
     count = 6 * VERTICES[found['kind']]
     x, h = tuple(found['shrunk'][:count]), (*found['shrunk'], 0)[count]
     if found['what'] == 'refuted-bound':

@@ -1,4 +1,4 @@
-"""Checks quantiles and histograms, whose numbers are known as enclosures, and queries."""
+"""Checks queries, and quantiles and histograms of numbers that are known as enclosures."""
 
 import numpy as np
 
@@ -10,7 +10,8 @@ SOLVED = 1e-9  # relative error of an equation's solution, and of values compute
 
 
 def quantile(enclosed, part, largest):
-    """The range of each end of a quantile's bin. The bin ends at the largest number."""
+    """The ranges of the lower and of the upper end of a quantile's bin. A bin ends at its upper border
+    or, if that is less, at `largest`, the largest of the numbers."""
     bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))
@@ -19,7 +20,7 @@ def quantile(enclosed, part, largest):
 
 
 def outward(least, most):
-    """The range, widened by the rounding error of a bin's border."""
+    """A range, widened by the rounding error of a bin's border."""
     return least * (1 - ROUNDING), most if most >= LARGEST else most * (1 + ROUNDING)
 
 
@@ -37,6 +38,6 @@ def check_histogram(comparison, where, found, enclosed):
 
 
 def check_query(comparison, where, found, line):
-    """Checks a query, which is a line or a list of numbers."""
+    """Checks that `found`, a line or a list of numbers, is the query in `line`."""
     numbers = [float.fromhex(word) for word in found.split()] if isinstance(found, str) else found
     comparison.same('provenances', where, numbers, [float.fromhex(word) for word in line.split()])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Near:
-    """Expects a number up to a relative error, or None."""
+    """Expects `value`: a number, up to a relative error, or None."""
 
     value: float
     relative: float
@@ -53,8 +53,8 @@ class Comparison:
         )
 
     def entries(self, sort, where, found, expected):
-        """`found` must have these keys, with equal values, or with numbers that satisfy a Near
-        or Within. It may have more keys."""
+        """`found` must have the keys of `expected`, with equal values, or with numbers that satisfy the
+        expected Near or Within. `found` may have more keys."""
         for key, value in expected.items():
             self._entry(sort, f'{where} {key}', found[key], value)
 
@@ -79,14 +79,14 @@ class Comparison:
         self.compared[sort] = self.compared.get(sort, 0) + count
 
     def section(self, check, where, *arguments):
-        """Runs a check. A missing entry, or an entry of another type, is a difference."""
+        """Runs a check. A missing entry, or an entry of a wrong type, counts as a difference."""
         try:
             check(self, where, *arguments)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
             self.fail('structure', where, repr(error), 'something to read')
 
     def allow(self, what, count=1):
-        """Counts values with two allowed results, because an enclosure contains a border."""
+        """Counts values of which two results are allowed, because an enclosure contains a border."""
         self.either_way[what] = self.either_way.get(what, 0) + count
 
     def print(self):

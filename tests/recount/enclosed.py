@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# The borders of the histogram's bins, four to a decade from 10^-16 to 10^1. The first bin lies
-# below all borders, and the last one above.
+# The borders of a histogram's bins, four to a decade from 10^-16 to 10^1. The first bin lies below
+# all borders, and the last bin lies above them.
 BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
 BINS = len(BORDERS) + 1
 KEPT = 5  # number of extreme cases that a report keeps
@@ -16,7 +16,7 @@ LARGEST = np.finfo(float).max
 
 @dataclass
 class Enclosed:
-    """Some numbers, each of which is between a lower and an upper end."""
+    """Numbers, each between a lower end in `lo` and an upper end in `hi`."""
 
     lo: np.ndarray
     hi: np.ndarray
@@ -29,7 +29,7 @@ class Enclosed:
 
     @classmethod
     def joined(cls, parts):
-        """The numbers of several parts together."""
+        """The numbers of several objects together."""
         return cls(
             *(np.concatenate([getattr(part, end) for part in parts]) for end in ('lo', 'hi'))
         )
@@ -50,21 +50,21 @@ class Enclosed:
         return least, most
 
     def largest(self):
-        """The ranges in which a report may give the largest numbers, largest first."""
+        """The ranges in which a report may give the KEPT largest numbers, the largest first."""
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
     def most(self):
-        """The range in which a report may give the largest number; 0 without numbers."""
+        """The range in which a report may give the largest number; (0, 0) without numbers."""
         return self.largest()[0] if len(self) else (0, 0)
 
     def reported(self, place):
-        """The range in which a report may give one of the numbers."""
+        """The range in which a report may give the number at an index."""
         return reported(self.lo[place], self.hi[place])
 
     def quantile_bins(self, part):
-        """The first and the last bin in which the quantile may be. The quantile is a number that a
-        fraction `part` of all numbers does not exceed. None without numbers."""
+        """The first and the last bin in which the quantile may be, or None without numbers. At least a
+        fraction `part` of all numbers is not larger than the quantile."""
         if len(self) == 0:
             return None
         place = max(int(np.ceil(part * len(self))), 1) - 1
@@ -74,7 +74,7 @@ class Enclosed:
 def reported(lo, hi):
     """The range in which a report may give a number between lo and hi. Reports round up.
 
-    The largest double stands for infinity. If a number is below all borders, a report need only
-    say that."""
+    The largest double stands for infinity. Instead of a number below all borders of bins, a report
+    may give any number up to the lowest border."""
     most = BORDERS[0] if lo < BORDERS[0] else 0
     return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)

@@ -22,9 +22,10 @@ WORDS = {
     'a lower bound of the time': 'lower-bound',
     'a time to which the step is free': 'free-step',
 }
-PROMISED = ('lower-bound', 'free-step')  # nothing happens before such a time
-# The bound that wang claims in double, in units of B: sqrt(D^2 + 2 delta) with D^2 = 1678 eps^(1/2) and
-# delta = 311 eps (sections 4.2 and 4.5 of the paper).
+PROMISED = ('lower-bound', 'free-step')  # no contact is before such a time
+
+# The bound that wang claims in double, in units of the pair's size B: sqrt(D^2 + 2 delta), with
+# D^2 = 1678 eps^(1/2) and delta = 311 eps (sections 4.2 and 4.5 of the paper).
 WANGS_BOUND = math.sqrt(1678 * math.sqrt(2.0**-52) + 2 * 311 * 2.0**-52)
 ROUNDING = 1e-15  # more than the relative rounding error of one operation
 SPLIT = {'vt': 1, 'ee': 2, 'vv': 1, 've': 1}  # the first vertex of the second primitive
@@ -44,13 +45,13 @@ class Impact:
     number."""
 
     sort: str
-    time: np.ndarray  # as the subject gives it; NaN unless it is a true positive with a time
+    time: np.ndarray  # the subject's time for a true positive; NaN if there is none
     early: Enclosed  # t* - time, if the time is not after t*
     after: Enclosed  # time - t*, if the time is after t*
     travelled: Enclosed  # relative motion of the vertices in the time `early`, divided by B
     stuck: np.ndarray  # bool
     committed: np.ndarray  # bool: the step to a sound time, rounded, has contact before its end
-    touches_at_end: np.ndarray  # bool: only at its end
+    touches_at_end: np.ndarray  # bool: this step has contact only at its end
 
     @property
     def given(self):
@@ -58,17 +59,17 @@ class Impact:
 
     @property
     def late(self):
-        """Whether the time is after t*, although it was promised as a lower bound of t*."""
+        """Whether the time is after t*, although it was promised to be a lower bound of t*."""
         return ~np.isnan(self.after.lo) & (self.sort in PROMISED)
 
     @property
     def unsafe_step(self):
-        """Whether the step is committed, although it was promised to be free."""
+        """Whether the step is committed, although it was promised to be free of contact."""
         return self.committed & (self.sort == 'free-step')
 
 
 def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
-    """Compares the times of true positives with t*. `times` gives the enclosures of t*, and
+    """Compares a subject's times for true positives with t*. `times` gives enclosures of t*, and
     `rounds` says whether the subject computes in float."""
     given = verdicts.hit & collision & ~np.isnan(verdicts.time) & (sort != 'none')
     own = np.flatnonzero(given)
@@ -93,8 +94,8 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
 
 
 def _committed(times, judged, time, own, in_float):
-    """Which of the steps x0 + time (x1 - x0), in the subject's scalar, have contact before their
-    end, and which have contact only at their end."""
+    """Whether the steps that end at x0 + time (x1 - x0), rounded to float or double, have contact
+    before their end, and whether they have contact only at their end."""
     scalar = np.float32 if in_float else np.float64
     before, at_end = np.zeros(len(judged), bool), np.zeros(len(judged), bool)
     steps = {}
@@ -116,8 +117,8 @@ def _committed(times, judged, time, own, in_float):
 
 
 def _where(is_there, lo, hi):
-    """Enclosures of differences where `is_there`, NaN elsewhere. They are cut off below 0, and
-    widened by the rounding errors."""
+    """Enclosures of differences from t* where `is_there`, NaN elsewhere. The enclosures are cut off below
+    0, and widened by the rounding errors of the differences."""
     return Enclosed(
         np.where(is_there, np.maximum(lo, 0) * (1 - ROUNDING), np.nan),
         np.where(is_there, np.maximum(hi, 0) * (1 + ROUNDING), np.nan),
@@ -125,8 +126,8 @@ def _where(is_there, lo, hi):
 
 
 def _speeds(nearmiss, kind, queries):
-    """The largest relative motions between vertices of the two primitives in the whole step,
-    divided by the pair's B. The bound that wang claims is a multiple of B."""
+    """For each query, the largest motion of a vertex of one primitive relative to a vertex of the
+    other in the whole step, divided by the pair's B. B is wang's bound / WANGS_BOUND."""
     if not queries:
         return Enclosed(np.zeros(0), np.zeros(0))
     pairs = [coordinates(kind, query) for query in queries]
@@ -141,6 +142,7 @@ def _speeds(nearmiss, kind, queries):
         relative = np.nan_to_num(relative, nan=0, posinf=np.inf)
         speed = relative.max(axis=(1, 2))
         speed[np.isinf(speed)] = 0  # as in the program that makes the report
+
         # The quotients are rounded, and a subnormal bound has few digits.
         relative_error = 1e-12 + 1e-322 / bound
         slack = np.nan_to_num(
@@ -150,7 +152,7 @@ def _speeds(nearmiss, kind, queries):
 
 
 def _as_meshes(kind, pairs):
-    """The kind vt or ee, and the queries of that kind with the same vertices."""
+    """Makes queries of vt or ee by repeating the last vertex. Returns their kind and the queries."""
     missing, count = 4 - VERTICES[kind], 3 * VERTICES[kind]
     whole = [
         ' '.join(
@@ -165,7 +167,7 @@ def _as_meshes(kind, pairs):
 
 @dataclass
 class Times:
-    """The times of impact of a subject over some queries."""
+    """A subject's times of impact for some queries: their counts and their errors."""
 
     sort: str  # 'none' without times
     given: int
@@ -181,7 +183,7 @@ class Times:
 
     @classmethod
     def of(cls, impacts, own):
-        """Adds up the times of some queries of each kind; `own` selects them."""
+        """Adds up the times of impact of several kinds. `own` selects some queries of each kind."""
         of_kinds = list(zip(impacts, own))
         given, late, stuck, *of_steps = (
             sum(int(getattr(each, name)[some].sum()) for each, some in of_kinds)
@@ -198,7 +200,7 @@ class Times:
 
     @property
     def errors(self):
-        """The differences from t*, before and after it, as positive numbers."""
+        """The distances of the times from t*, before or after it."""
         return Enclosed.joined([self.early, self.after])
 
 

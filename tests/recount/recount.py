@@ -59,7 +59,7 @@ def check_cases(comparison, found, cases, counts, seed):
 
 
 def note_either_way(comparison, answers):
-    """Counts enclosures that contain a bin's border or the bound: two results are allowed."""
+    """Counts enclosures that contain a bin's border or a distance bound: two results are allowed."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         for name, enclosed in tally.enclosed.items():

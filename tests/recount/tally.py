@@ -15,8 +15,8 @@ ON_REQUEST = {'committed', 'unknown'}  # failures that count only with --fail-on
 
 @dataclass
 class Tally:
-    """Counters of one subject over some queries, its false positives' ratios of distance to
-    bound, and its times of impact."""
+    """Counters of one subject for some queries, the ratios of distance to bound of its false positives,
+    and its times of impact."""
 
     subject: str
     queries: int
@@ -32,8 +32,8 @@ class Tally:
 
     @classmethod
     def of(cls, answers, subject, kinds, family=None):
-        """The tally over the queries of these kinds. `family` is one family, a tuple of
-        families, or None for all. Each tally is computed only once."""
+        """The tally over the queries of some kinds. `family` is one family, a tuple of families, or None
+        for all. Each tally is computed only once."""
         key = subject, tuple(kind for kind in kinds if kind in answers.kinds(subject)), family
         if key not in answers.tallies:
             answers.tallies[key] = cls._of(answers, *key)
@@ -63,14 +63,14 @@ class Tally:
         )
 
     def refuted(self):
-        """The least and the largest possible number of refuted bounds, by the enclosures."""
+        """The least and the largest number of refuted bounds that the enclosures of the ratios allow."""
         if not self.claims:
             return 0, 0
         return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())
 
     @property
     def enclosed(self):
-        """The numbers that have a histogram in reports, by its key."""
+        """Maps the key of each histogram in a report to the numbers that the histogram counts."""
         times = self.times
         return {
             'fp_distance': self.ratios,
@@ -81,21 +81,21 @@ class Tally:
 
     @property
     def unknown(self):
-        """The number of reports for which the subject answered that it cannot tell."""
+        """The number of queries that the subject reported because it could not decide them."""
         return sum(
             stages.get('unknown', 0) for stages in (self.true_by_stage, self.false_by_stage)
         )
 
 
 def _part(answers, subject, kind, family):
-    """The answers to queries of a kind, and which of these queries are of the family."""
+    """The answers to queries of a kind, and which of these queries are of `family`."""
     names = (family,) if isinstance(family, str) else family
     own = slice(None) if names is None else np.isin(answers.family[kind], names)
     return answers.asked[subject, kind], own
 
 
 def classes_of(class_of):
-    """The families of each class, in the order of reports; class_of maps families to classes."""
+    """Maps each class, in the order of CLASSES, to its families; `class_of` maps families to classes."""
     members = {
         each: tuple(family for family, own in class_of.items() if own == each) for each in CLASSES
     }
@@ -107,8 +107,8 @@ def _by_name(stages):
 
 
 def failures_of(counts):
-    """The failures in a subject's counters, the gravest first. A campaign that is recomputed has
-    no faults."""
+    """The kinds of failures in a subject's counters, the gravest first. Recomputed campaigns have no
+    faults."""
     found = {
         'miss': counts['false_negatives'],
         'late': counts['late'],
@@ -122,11 +122,9 @@ def failures_of(counts):
 
 
 def stages(subject, counts):
-    """Counts by accepting stage. For exact, whose counts depend on how many queries are decided at
-    once, the stages filter and exact are added up.
-
-    The subject exact decides many queries at once. Its filter then leaves other queries undecided
-    than if the queries are asked one by one."""
+    """Counts by accepting stage. For the subject `exact`, the stages filter and exact are added up: in a
+    campaign, it decides many queries at once, and its filter leaves other queries undecided than for
+    single queries."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}
@@ -134,19 +132,18 @@ def stages(subject, counts):
 
 
 def denominators(tally):
-    """The totals by which the numbers of false negatives and of false positives are divided."""
+    """The denominators of the rates of false negatives and of false positives."""
     return tally.collisions, tally.queries - tally.collisions
 
 
 def rate(count, total):
-    """The quotient, or 0 if the total is 0."""
+    """count / total, or 0 if `total` is 0."""
     return count / total if total else 0.0
 
 
 @functools.cache
 def upper_bound(count, total, risk=0.05):
-    """Clopper and Pearson's upper bound of a rate. The rate exceeds it with probability at most
-    `risk`."""
+    """Clopper and Pearson's upper bound, which the true rate exceeds with probability at most `risk`."""
     return 1.0 if count >= total else float(betaincinv(count + 1, total - count, 1 - risk))
 
 

@@ -33,7 +33,7 @@ TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   Campaign now = before;
   now.statistics.seen[inside] = 1;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
-  // Failures of another subject, or other failures of this subject, do not matter.
+  // Earlier failures of another subject, or of another sort, do not make the failure of `mine` an old one.
   before.statistics.seen[{missed, "basic", "ee inside"}] = 9;
   before.statistics.seen[{Finding::What::refuted_bound, "mine", "ee"}] = 9;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
@@ -52,7 +52,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
   EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "mine", "d"}));
-  // Good and Toulmin: the number of signatures seen once, less the number of signatures seen 40 times.
+  // The estimate of Good and Toulmin: signatures seen once (b and c) count 1, those seen 40 times (a) count
+  // -1.
   EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
@@ -62,8 +63,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "a"}));
 }
 
-// The test is one-sided: k failures now and none before have p = 1 / 2^k. The risk is divided by the number
-// of all signatures.
+// The test is one-sided: k failures now and none before have p = 1 / 2^k. The risk 0.001 is divided by the
+// number of signatures in the two campaigns.
 TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const auto with = [](Seen seen) {
     Campaign made = campaign("1", {{key, counts(2000000, 1000000, 50, 0)}});
@@ -84,7 +85,7 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   EXPECT_TRUE(is_new(12, three));
 }
 
-/// A campaign of a plug-in, which began at this date.
+/// A campaign that began at `date`, with a version of the plug-in `mine`.
 Campaign night(const std::string& date, Seen seen, const std::string& version = "1",
                const std::string& sha256 = "a", std::uint64_t queries = 200000) {
   Campaign made = campaign(date, {{key, counts(queries, queries / 2, 0, 0)}});
@@ -95,8 +96,8 @@ Campaign night(const std::string& date, Seen seen, const std::string& version = 
   return made;
 }
 
-// Five of six nights have the failure about equally often, and one in the middle does not have it. But if the
-// sixth night has it 1,300 times, chance cannot explain that.
+// The failure is seen about 1,000 times in four of five nights, and not at all in the third night. Chance
+// explains 1,005 failures in a sixth night, but not 1,300.
 TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   const auto misses = [](std::uint64_t times) {
     Campaign made = campaign(std::to_string(times), {{key, counts(200000, 100000, times, 0)}});
@@ -110,13 +111,14 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   EXPECT_THAT(found.rates, IsEmpty());
   EXPECT_THAT(changes(misses(1300), nights).new_signatures, ElementsAre(inside));
   EXPECT_THAT(changes(misses(1300), nights).rates, SizeIs(1));
-  // Until it comes back, it is absent.
+  // If the last night has the failure once, the night without it stays in the baseline.
   nights.resize(3);
   nights.push_back(misses(1));
   EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
 }
 
-// Before, one of 1,000 draws failed; now, five fail. All steps of a sweep fail with these draws.
+// One of 1,000 random draws fails in the baseline, and five fail now. All 12 steps of a sweep fail with the
+// same draws, but each of 12 families has its own draws.
 TEST(Changes, StepsOfASweepShareTheirDraws) {
   const auto with = [](const std::string& family, std::uint64_t draws) {
     constexpr std::uint64_t steps = 12;
@@ -192,7 +194,6 @@ TEST(Baseline, SaysManyChangesOfASubjectInOneLine) {
             "new: false-negative of mine, ee inside\nnew: false-negative of mine, ee on-edge\n");
 }
 
-// A failure is new in one night only. In later nights, it is lasting.
 TEST(Baseline, AFailureIsNewOnceAndThenLasts) {
   std::vector<Campaign> nights{night("1", {})};
   const Changes first = changes(night("2", {{inside, 1}}), nights);
@@ -241,7 +242,7 @@ TEST(Gone, IsWhatChanceWouldHardlyHide) {
   EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
 }
 
-// Chance could explain the absence of each single failure, but hardly that of all failures.
+// Chance could explain the absence of each single failure, but hardly that of all 30.
 TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   Seen rare;
   for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
@@ -249,8 +250,8 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
-// A time limit ended the later campaign. It asked twice as many queries of the signature's family as the
-// earlier campaign, and as many of the other family.
+// The later campaign asks twice as many queries of the family `parallel`, which may have the signature, and
+// equally many of `uniform`. Then twice as many failures are no change.
 TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
   const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
     Campaign made = night(date, {{inside, seen}});
@@ -276,7 +277,7 @@ TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
 }
 
-// The signatures were seen in cases, and the later campaign replays fewer of them.
+// Of the 40 failures with each signature, 38 were in cases, which the later campaign does not replay.
 TEST(Gone, DoesNotCountFailuresInCases) {
   const Signature late{Finding::What::late, "mine", "ee inside"};
   const Signature crash{Finding::What::fault, "mine", "ee crash"};
@@ -305,7 +306,7 @@ TEST(Gone, IsFixedIfTheCodeHasChanged) {
   EXPECT_EQ(json["gone_signatures"][0]["fixed"], "in version 3");
   EXPECT_EQ(json["gone_signatures"][0]["first_code"], "version 1");
   EXPECT_EQ(json["gone_signatures"][0]["last_code"], "version 2");
-  // The first later code without the signature has the fix, not the code of this campaign.
+  // The fix is in the first version without the signature (3), not in the version of this campaign (4).
   auto nights = before;
   nights.push_back(night("3", {}, "2", "b"));
   nights.push_back(night("4", {}, "3", "c"));

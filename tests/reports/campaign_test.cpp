@@ -1,4 +1,4 @@
-// Tests that merging the shards of a run gives the result of one machine.
+// Tests that the merged shards of a run give the same result as a run on one machine.
 #include "reports/campaign/campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   return made;
 }
 
-/// Shard `shard` of three. The three share the rounds 0 to 9. Each round has a finding with the signature
-/// "s"; rounds from 5 on also have a finding with the signature "t".
+/// Shard `shard` of three, which divide the rounds 0 to 9 among them. Each round has a finding with the
+/// signature "s"; rounds from 5 on also have a finding with the signature "t".
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.index = shard, .count = 3, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
@@ -71,7 +71,8 @@ TEST(Campaign, ARunBeganWithItsFirstShard) {
   EXPECT_EQ(json["cases_done"], 30);
 }
 
-// The unshrunk finding has a query without coincident vertices, and still comes after the shrunk one.
+// The query of the unshrunk finding has no coincident vertices, so it is less exotic than that of the shrunk
+// finding. Still, the shrunk finding comes first.
 TEST(Campaign, ShowsShrunkFindingsOfAClassFirst) {
   Campaign campaign{{{info, {{}}, {}}}, {}};
   for (const bool is_shrunk : {false, true}) {
@@ -108,7 +109,6 @@ TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
   EXPECT_EQ(whole.statistics.oracle_disagreements, 6);
   std::vector<std::uint64_t> order{0, 1, 2};
   while (std::next_permutation(order.begin(), order.end())) EXPECT_EQ(merged(order).runs, whole.runs);
-  // Merging in several steps gives the same result.
   EXPECT_EQ(merge(merged({2, 0}), shard_of_three(1)).runs, whole.runs);
 }
 
@@ -176,8 +176,8 @@ TEST(Campaign, ANameStandsForOneSubject) {
   EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
 }
 
-/// A campaign with one run of seed 3, with these families and this number of cases. The campaign asked the
-/// subject that the key names queries of the family that the key names.
+/// A campaign with one run of seed 3, in which the subject of `key` was asked 10 queries of the kind and the
+/// family of `key`.
 Campaign asked(const std::string& families, const std::string& cases, const CountsKey& key) {
   const RunInfo facts{{"command", "fuzz"}, {"seed", "3"}, {"families", families}, {"cases", cases}};
   Campaign campaign{{{facts, {{.index = 0, .complete = true}}, {}}}, {}};
@@ -220,7 +220,7 @@ TEST(Campaign, TheSameMeshIsTheSameQueries) {
   }
 }
 
-// The facts of each run in a merged store say what the run asked.
+// A merged store still has the facts of each run, which say what the run asked.
 TEST(Campaign, AMergedStoreIsMergedAgain) {
   const auto run = [](const std::string& subject, const std::string& given, const std::string& seed,
                       Kind kind) {
@@ -259,7 +259,7 @@ TEST(Campaign, CountsThatDoNotFitAreRefused) {
                "found counts that add up to more than 2^60, expected fewer queries");
 }
 
-/// Shards 0 and 1 of a run, with different values of this fact.
+/// Shards 0 and 1 of a run, with different values of a fact.
 std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[0].runs[0].info[fact] = "a";

@@ -67,8 +67,8 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
   EXPECT_THAT(changes(with_others(1200), with_others(1000)).rates, IsEmpty());
 }
 
-// If there was no failure before, 11 failures in 10,000 queries are significant in a single test. With 4
-// tests that share the risk 0.001, it takes 13 failures.
+// If there was no miss before, 11 misses in 10,000 collisions are significant in a single test with the risk
+// 0.001. If four tests share this risk, it takes 13 misses.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{uniform, counts(20000, 10000, missed, 0)}});
@@ -79,7 +79,6 @@ TEST(Changes, AFewAfterNoneAreEnough) {
   EXPECT_LT(found.rates[0].p, false_alarm_risk / 4);
 }
 
-// No single family has enough failures to be noticed, but all families together have.
 TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const auto with = [](std::uint64_t missed, std::uint64_t in_the_last) {
     std::map<CountsKey, Counts> all;
@@ -127,8 +126,8 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_EQ(unclaimed.rates[0].what, "false positives beyond wang's bound (no claim)");
 }
 
-// For family a, p is 2 / 2^13, between 1/5 and 1/4 of the risk. It is no longer significant if the sum over
-// families is a fifth comparison.
+// For family a, p is 2 / 2^13, between 1/5 and 1/4 of the risk: significant in four comparisons, but not if
+// the sum over families is a fifth one.
 TEST(Changes, ASumOverFamiliesIsAComparisonToo) {
   const auto with = [](std::uint64_t in_a, std::uint64_t in_b) {
     return campaign("1", {{{"basic", Kind::edge_edge, "a"}, counts(10000, 10000, in_a, 0)},
@@ -150,7 +149,7 @@ TEST(Changes, CasesAndMeshesAreNoSamples) {
   EXPECT_EQ(changes(now, before).compared_rates, 0);
 }
 
-/// The run time of each subject and family, as a multiple of the usual run time.
+// Functions that give the run time of each subject, kind and family as a multiple of the usual run time.
 
 double usual(const CountsKey& /*key*/) { return 1; }
 
@@ -158,13 +157,13 @@ const CountsKey one{"mine", Kind::edge_edge, "f7"};
 
 double one_slower(const CountsKey& key) { return key == one ? 1.5 : 1; }
 
-/// A number from -1 to 1 that looks random.
+/// A number from -1 to 1, from a hash of the text.
 double noise(const std::string& text) {
   return static_cast<double>(std::hash<std::string>{}(text) % 2001) / 1000 - 1;
 }
 
-/// A night of these subjects, with `families` families. From night to night, the times of a family differ by
-/// up to 2 %; within a night, the times of its 40 batches differ by up to 20 %.
+/// A campaign in which each family's time differs from the usual one by up to 2 %, and the times of the
+/// family's 40 batches differ from that by up to 20 %.
 Campaign night(const std::string& seed, const Slowness& slowness,
                std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
   std::map<CountsKey, Counts> all;
@@ -236,8 +235,7 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
     EXPECT_EQ(found[0].subject, "mine");
     EXPECT_NEAR(found[0].ratio() / factor, 1, 0.05);
   }
-  // Families are compared with each other from eight pairs of family and kind on; four families of two kinds
-  // just suffice.
+  // Families are compared with each other if there are at least eight pairs of a family and a kind, as here.
   const std::vector<std::string> subjects{"mine", "wang"};
   EXPECT_THAT(changed(night("2", slow(3), subjects, 4), {night("1", usual, subjects, 4)}), SizeIs(1));
   const auto alone = changed(night("2", slow(118), {"mine"}), {night("1", usual, {"mine"})});
@@ -245,8 +243,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
 }
 
-// If a family's times differ by a factor of 1.5 among the nights of the baseline, such a difference is no
-// change now.
+// If a family's times differ by a factor of 1.5 among the nights of the baseline, a difference of 1.5 now is
+// no change.
 TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   std::vector<Campaign> nights;
   for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
@@ -266,7 +264,7 @@ TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
   EXPECT_THAT(changed(night("2", usual), {before}), IsEmpty());
 }
 
-// A single family does not show the spread between families.
+// A single family does not show how much the times of families differ.
 TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   const auto few = [](double factor) {
     return [factor](const CountsKey& key) {
@@ -280,7 +278,7 @@ TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   EXPECT_EQ(found[0].kind, "ee");
 }
 
-// The spread between four families is itself uncertain.
+// Four families show only roughly how much the times of families differ.
 TEST(ChangedTimes, OfAFewFamiliesSayLittle) {
   const auto slower = [](double factor) {
     return [factor](const CountsKey& key) {

@@ -1,4 +1,5 @@
-// Every counter is in the store, in report.json and in statistics.csv. Also tests sums by class of families.
+// Tests that every counter is in the store, in report.json and in statistics.csv. Also tests sums by class of
+// families.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +67,7 @@ Owner filled(std::uint64_t last = 0) {
   return owner;
 }
 
-/// Counters with distinct values. None of them exceeds the counter of which it counts a part.
+/// Counters with distinct values. A counter that counts a part of another one does not exceed it.
 Counts filled_counts(std::uint64_t last = 0) {
   auto counts = filled<Counts>(last);
   counts.queries = 1000000;
@@ -156,7 +157,7 @@ std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
   return keys;
 }
 
-/// The keys of some properties in the schema, in order. `path` leads to the object with these properties.
+/// The keys, in order, of the properties of an object in the schema. `path` is a JSON pointer to the object.
 std::vector<std::string> keys_in_schema(const char* path) {
   std::ifstream file(NEARMISS_SCHEMA);
   const auto schema = nlohmann::ordered_json::parse(file);
@@ -203,7 +204,7 @@ void expect_in_csv(const Fields& fields, const Counts& counts, const NamedCounts
               std::to_string((counts.*counter.member)[i]));
 }
 
-/// Expects nothing for members of any other type, because they are no numbers.
+/// Expects nothing of members that are not numbers, such as histograms.
 template <class Member>
 void expect_in_csv(const Fields& /*fields*/, const Counts& /*counts*/,
                    const Counter<Counts, Member>& /*counter*/) {}
@@ -267,7 +268,7 @@ TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {
     EXPECT_EQ(class_of(name), QueryClass::unclassified) << name;
 }
 
-/// Results of two ordinary families (one of them with late times), of one degenerate family, and of cases.
+/// Counters for two ordinary families (one of them has late times), for a degenerate family, and for cases.
 Statistics some_statistics() {
   Statistics statistics;
   const auto of = [&](const char* family) -> Counts& {

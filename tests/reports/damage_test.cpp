@@ -25,7 +25,7 @@ using testing::shard;
 using testing::some_finding;
 using testing::some_statistics;
 
-/// A campaign with two runs, shards, statistics of several subjects, findings on several pages, and pictures.
+/// A campaign with two runs, shards, several subjects, pictures, and findings that fill pages of the file.
 Campaign whole_campaign() {
   std::string picture = R"({"points":[0)";
   for (int i = 0; i < 5000; ++i) picture += ",1";
@@ -58,7 +58,7 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.factors, IsSupersetOf(part.statistics.factors));
   EXPECT_THAT(whole.statistics.versions, IsSupersetOf(part.statistics.versions));
   EXPECT_THAT(whole.statistics.extremes, IsSupersetOf(part.statistics.extremes));
-  // If the row of a count is lost, the count may come from the stored findings, and be smaller.
+  // If the row with a count is lost, the stored findings are counted instead, and may be fewer.
   for (const auto& [signature, count] : part.statistics.seen)
     EXPECT_LE(count, whole.statistics.times_seen(signature));
   for (const Run& run : part.runs) {
@@ -168,7 +168,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
         Change{nested_views(), "found other tables than those of a store", ""},
         Change{"CREATE TRIGGER t INSERT ON run BEGIN DELETE FROM run; END",
                "found other tables than those of a store", ""},
-        // Columns that SQLite computes: endlessly many rows, or a large value in each row.
+        // In place of the table `seen`: endlessly many rows, and a column with large computed values.
         Change{"DROP TABLE seen; CREATE VIEW seen AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n "
                "FROM r) "
                "SELECT n AS rowid, n AS key, n AS value, n AS checksum FROM r",
@@ -192,7 +192,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
   }
 }
 
-/// Replaces the row of the table `contents` about a table by a row with these numbers and the right checksum.
+/// Changes what the table `contents` says about `table`: the number of rows and the sum of their checksums.
 void claim_rows(const std::filesystem::path& store, const std::string& table, const std::string& rows,
                 std::uint64_t sum = 0) {
   const std::string key = '"' + table + '"';
@@ -201,7 +201,7 @@ void claim_rows(const std::filesystem::path& store, const std::string& table, co
                           std::to_string(checksum("contents", key, value)) + " WHERE key = '" + key + "'");
 }
 
-// A store may claim any number of rows; reading looks up no more rows than the file can hold.
+// A store may claim any number of rows, but loading looks up no more rows than the file can hold.
 TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
   for (const char* table : {"run", "shard", "finding", "picture", "campaign", "counts", "oracle", "funnel",
                             "factor", "simulated", "version", "seen", "extreme"})
@@ -217,7 +217,8 @@ TEST_F(DamageTest, RowsDoNotShareALongValue) {
   const std::string key = R"([0,"scene:cloth"])";
   const std::string value = R"({"points":")" + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + "\"}";
   write_campaign({{{{}, {}, {}, {{"scene:cloth", value}}}}, {}}, file("b.db"));
-  // The only cell of the page begins with the row's size in three bytes and the row's id.
+  // The page has one cell, which begins with the row's size (three bytes) and the row's id. Three copies of
+  // the cell, with other ids, share the other pages of the row.
   std::string bytes = read("b.db");
   const std::size_t page = bytes.find(key + value.substr(0, 9)) / page_size * page_size;
   std::size_t start =

@@ -1,4 +1,5 @@
-// Factors of queries: which values the missed collisions have in common, and at which sizes a subject is right.
+// Factors of queries: which values the missed collisions have in common, and at which sizes a subject is
+// right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -95,7 +96,7 @@ TEST(CommonFactors, CountsMergeInAnyOrder) {
   EXPECT_EQ(forward.factors.at(basic), (FactorCounts{128, 20}));
 }
 
-/// Answers to `each` collisions and `each` other queries for each length of edges from 2^-30 to 2^30.
+/// Answers to `each` collisions and `each` other queries for each length 2^-30, 2^-29 .. 2^30 of edges.
 template <class Missed, class Reported>
 FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
   FactorTable table;
@@ -143,7 +144,8 @@ TEST(RightRange, NeedsEvidence) {
   EXPECT_TRUE(range_of(answers(Kind::edge_edge, 1, never, never)).too_few);
   const auto always = [](int /*x*/, int /*i*/) { return true; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it always says yes
-  // Values without an answer divide a range.
+
+  // A size without an answer ends a range.
   FactorTable table = answers(Kind::edge_edge, 8, never, never);
   std::erase_if(table, [](const auto& each) { return each.first.values == "edge=2^10"; });
   EXPECT_THAT(range_of(table).exponents, Optional(Pair(-30, 9)));
@@ -162,7 +164,7 @@ TEST(RightRange, IsSeenInFewMissesIfAllAreElsewhere) {
 }
 
 TEST(RightRange, IsNotSeenInMissesThatAreRareEverywhere) {
-  // One collision in 60 is missed, at any size: then four sizes in a row without a miss say nothing.
+  // One collision in 60 is missed, whatever the size is. Then four sizes in a row without a miss say nothing.
   const auto rare = [](int x, int i) { return (x + 30) % 5 == 0 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, rare, never)).exponents);
   // Nor does a single miss say anything about sizes.

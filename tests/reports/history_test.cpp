@@ -39,7 +39,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
     return list;
   }
 
-  /// Writes the report of the night of a day in November.
+  /// Writes the report of a night. Unless `baseline_until` is 0, a run of that day is the baseline.
   void write_night(int day, const Said& said, int baseline_until = 0) {
     const auto date = [](int of) { return fmt::format("2026-11-{:02}T22:00:00Z", of); };
     ordered_json report{
@@ -84,7 +84,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
     write(fmt::format("2026-11-{:02}/report/report.json", day), report.dump());
   }
 
-  /// A text such as "05 new 1" for each event of each night.
+  /// The events of all nights, as texts such as "05 new 1": on day 5, one thing was new.
   [[nodiscard]] std::vector<std::string> events() const {
     std::vector<std::string> all;
     for (const Night& night : make_history(read_nights(file(""))).nights)
@@ -98,7 +98,8 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1"}, 1);
   write_night(3, {.version = "2", .seen = {"a", "b"}, .created = {"a", "b"}, .worse = {"uniform"}}, 2);
-  // More ways to fail and other families are later evidence of the same change, so they are no events.
+  // In night 4, another way to fail and another worse rate come from the change of night 3: they are no
+  // events.
   write_night(4, {.version = "2", .seen = {"a", "c"}, .created = {"c"}, .worse = {"uniform", "sliver"}}, 3);
   write_night(5, {.version = "3", .gone = {"a", "b"}, .slower = 4, .ns = 400}, 4);
   write_night(6, {.version = "3", .gone = {"a", "b", "c"}, .slower = 3.5, .ns = 390}, 5);
@@ -128,7 +129,7 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
       HasSubstr("2026-11-09  FAIL  1,000  mine: 1 new way to fail: false-negative, a; mine: version"));
 }
 
-// The code of a program is not known, so it seems to stay the same.
+// The subject's code seems to stay the same, as for a program (pipe:...), whose code nearmiss does not know.
 TEST_F(HistoryOfNights, TellsAnotherFailureOfTheSameCodeAfterARepair) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}}, 1);

@@ -37,7 +37,8 @@ class ReportFolder : public testing::TemporaryFolder {
     return files;
   }
 
-  /// Expects that writing a report of the subject `bad` fails with these words, and changes no file.
+  /// Expects that a report of the subject `bad` is refused with an error that contains `words`, and that no
+  /// file changes.
   void expect_refused(const std::string& folder, const std::string& words) const {
     const ReportPaths before = files_in(folder);
     std::map<std::string, std::string> contents;

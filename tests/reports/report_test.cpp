@@ -110,8 +110,8 @@ TEST(Summary, AnswersThatCouldNotTellAreNamed) {
                         "unknown, the farthest at 0.5 of the bound\n"));
 }
 
-/// A subject with one false positive, at 2.5 times the unit of distances: the bound that the subject claims,
-/// or wang's bound.
+/// Counters of a subject with one false positive, at 2.5 times wang's bound if `measured_by_wang`, else at
+/// 2.5 times the bound that the subject claims.
 Statistics one_far_report(bool measured_by_wang) {
   Statistics statistics;
   Counts& counts = statistics.counts[{"mine", Kind::vertex_triangle, "f"}];
@@ -251,7 +251,7 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   EXPECT_EQ(far["false_positive_rate_interval_95"], rates_json({both})["false_positive_rate_interval_95"]);
   EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
   EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
-  // A text that refers to a query uses the full name of the query's family.
+  // Counters are summed under "search-far", but a finding names the family of its query in full.
   EXPECT_EQ(json["findings"][0]["family"], "search-far-wang");
   ASSERT_EQ(json["farthest"].size(), 5);
   EXPECT_EQ(json["farthest"][1]["family"], "search-far-wang");

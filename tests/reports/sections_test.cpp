@@ -128,8 +128,8 @@ TEST(OptionSweeps, AreInTheOrderOfClassesAndValuesWithBothKindsTogether) {
   EXPECT_EQ(json[2]["class"], "degenerate");
 }
 
-/// A sweep of the option max_iter in ordinary and in degenerate families. Each list has pairs of a value and
-/// the number of misses among 1,000 collisions.
+/// A sweep of the option max_iter in an ordinary and in a degenerate family. Each list has pairs of a value
+/// of max_iter and the number of misses among 1,000 collisions.
 Statistics budgets(const std::vector<std::pair<int, std::uint64_t>>& ordinary,
                    const std::vector<std::pair<int, std::uint64_t>>& degenerate) {
   Statistics statistics;
@@ -174,7 +174,7 @@ TEST(Cliffs, AreNotSeenInChance) {
   EXPECT_FALSE(summary_json({{}, sweep_of_option()}).contains("cliffs"));
 }
 
-/// A scene with two steps. In each step, 100 pairs of each kind are asked about, and 900 are left out.
+/// A scene with two steps. In each step, subjects are asked about 100 pairs of each kind; 900 are left out.
 Statistics two_steps() {
   Statistics statistics;
   for (const char* step : {"scene:cloth#0", "scene:cloth#1"})
@@ -263,7 +263,7 @@ TEST(Simulations, HaveAListForEachCounterInJson) {
 
 class OtherTables : public testing::TemporaryFolder {
  protected:
-  /// Expects that `load` refuses a file that does not exist, and files with other content.
+  /// Expects that `load` refuses a missing file, a folder, a file that is too large, and other content.
   template <class Load>
   void expect_refusal(const Load& load, const std::string& expected) {
     EXPECT_REFUSED(load(file("none.json")), "none.json: cannot be read");

@@ -228,8 +228,8 @@ TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {
     }
 }
 
-// The bound of Clopper and Pearson is the rate at which P(X <= count) = 5 % for a binomial X. For 0 events
-// in n trials, the bound is 1 - 0.05^(1/n).
+// The upper bound of Clopper and Pearson is the rate at which P(X <= count) = 5 % for a binomial X. For 0
+// events in n trials, this bound is 1 - 0.05^(1/n).
 TEST(Confidence, NoneSeenInMany) {
   for (const std::uint64_t n : {1U, 10U, 1000U, 1000000U})
     EXPECT_NEAR(clopper_pearson_upper(0, n) / (1 - std::pow(0.05, 1.0 / static_cast<double>(n))), 1, 1e-6);
@@ -242,7 +242,7 @@ TEST(Confidence, TheTailHasFivePercent) {
   EXPECT_NEAR(tail, 0.05, 1e-9);
 }
 
-// At the upper end of the interval, P(X <= count) is half of the risk; at the lower end, P(X >= count) is.
+// P(X <= count) is half of the risk at the upper end of the interval, and P(X >= count) at the lower end.
 TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
   const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9 trials
   const ConfidenceInterval interval = clopper_pearson(1, 9, 0.01);
@@ -266,21 +266,21 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // Both campaigns ask the same number of queries. With probability 11 / 1024, 9 or more of 10 failures are
-  // in the campaign called `now`.
+  // Both campaigns ask the same number of queries. If nothing has changed, 9 or 10 of the 10 failures are in
+  // the later campaign with probability 11 / 1024.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
-  // One family has three times as many queries now as before, the other has as many now as before. On
-  // average, two thirds of the 6 failures are expected to be seen now.
+  // If nothing has changed, 3/4 of the 4 failures in one family and 1/2 of the 2 in the other are expected in
+  // the later campaign.
   EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
               std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
   EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);
   EXPECT_EQ(pooled_test({}).either(), 1);
 }
 
-// For large numbers, the test uses the binomial distribution, whose p-value is larger than the exact one.
-// For small shares, it is only slightly larger.
+// For large numbers, the test uses the binomial distribution. Its p-value is larger than the exact one, but
+// only slightly if few of the queries fail.
 TEST(FisherTest, OfLargeNumbersIsNearTheBinomial) {
   const double small = fisher_test({60, 1ULL << 30}, {30, (1ULL << 30) - 1}).more;
   const double large = fisher_test({60, 1ULL << 31}, {30, 1ULL << 31}).more;

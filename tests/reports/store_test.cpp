@@ -97,7 +97,8 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   std::filesystem::create_directory(file("killed"));
   {
     const Database db(file("a.db"));
-    // Without a cache, the change reaches the file before its commit. A kill may leave a file in this state.
+    // Without a cache, SQLite writes the change to the file before the commit. A process that is killed then
+    // leaves the file in this state.
     db.execute(
         "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
         "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "
@@ -110,7 +111,7 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   EXPECT_EQ(read("a.db"), read("killed/a.db"));
 }
 
-// SQLite would delete the file that such a journal names.
+// If a journal names another file, SQLite would delete that file.
 TEST_F(StoreTest, AJournalThatNamesAnotherFileIsRefused) {
   { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
   write("precious", "mine");

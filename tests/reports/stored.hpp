@@ -67,7 +67,6 @@ inline Finding some_finding(const std::string& provenance) {
           .errors = "first line\n\nthird line\n"};
 }
 
-/// An open database.
 class Database {
  public:
   explicit Database(const std::filesystem::path& file) { sqlite3_open(file.c_str(), &db_); }

@@ -86,8 +86,8 @@ TEST(Times, StandInTheReport) {
   for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
 }
 
-// Six cases are equally slow. The five whose provenances come first are kept, in whatever order the cases
-// come.
+// Of six equally slow cases, the five whose provenances come first are kept, in whatever order they are
+// added.
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;
@@ -112,11 +112,9 @@ constexpr TimeError in_time{.early = 0.02, .travelled = 0.01, .promised = true};
 constexpr TimeError at_start{.early = 0.5, .travelled = 0.4, .promised = true, .stuck = true};
 constexpr TimeError too_late{.after = 0.125, .promised = true, .late = true};
 
-/// A vertex that reaches its triangle at t = 1/2.
 const Query hit = testing::falling_vertex(0.25, 0.25, 1, -1);
 
-/// Counters of a subject that reports collisions whose times have these errors, and takes `ns` for each
-/// query.
+/// Counters of a subject that reports a collision for each error in `times`, and takes `ns` for each query.
 Counts counts_of(const std::vector<TimeError>& times, std::uint64_t ns = 100) {
   Counts counts;
   for (const TimeError& time : times)
@@ -238,7 +236,7 @@ TEST(ImpactTimes, CsvHasARowForEachBinOfEachSide) {
             "mine,vt,uniform,after,0.1,0.1778279410038923,1\n");
 }
 
-/// A campaign with a late time for `hit`. `shrunk` is the finding's shrunk query.
+/// A campaign with a finding: a late time for the query `hit`, which is shrunk to `shrunk`.
 Campaign late_campaign(const Query& shrunk) {
   Campaign campaign{{}, statistics_of("mine", {in_time, too_late})};
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});

@@ -1,5 +1,5 @@
-// Compares subjects: error against run time, the precision ladder (one algorithm in several scalar types),
-// and which stage decided the queries.
+// Tests comparisons of subjects: error against run time, the precision ladder (one algorithm in several
+// scalar types), and which stage decided the queries.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   EXPECT_EQ(json["sound"], false);
 }
 
-// Slow queries and queries that a contract excludes are failures only on request, as for verdicts.
+// Slow queries, and queries outside the subject's contract, are failures only on request, as in verdicts.
 TEST(TradeOff, ASubjectThatDidNotFailIsSound) {
   Statistics statistics;
   Counts& some = statistics.counts[at("a")] = counts(100, 50, 0, 10, 100);
@@ -106,7 +106,7 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-/// The fit over all families; null if there is none.
+/// The fit of a ladder's distances over all families; null if the ladder has no fit.
 nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
   const auto all = ladder_json(farthest_at(parts))["fits"];
   return all.empty() ? nlohmann::ordered_json() : all[0];
@@ -164,13 +164,13 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
       ladder_table(farthest_at(parts)),
       HasSubstr(
           "\nwang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions\n"));
-  // If the distances halve once more for each halving of ε, the exponent grows by one.
+  // The claimed distances go as ε^(1/4). If the parts of these distances go as ε, the exponent is 1/4 + 1.
   EXPECT_NEAR(fit({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})["exponent"], 1.25, 1e-4);
   for (const char* no_third : {"wang:p200", "wang:float"})
     EXPECT_TRUE(fit({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}}).is_null());
 }
 
-// The 0.975 quantile of t with two degrees of freedom is 0.95 √(2 / (4 · 0.975 · 0.025)).
+// The 0.975 quantile of Student's t with two degrees of freedom is 0.95 √(2 / (4 · 0.975 · 0.025)) = 4.3027.
 TEST(Ladder, TheIntervalIsStudents) {
   const std::map<std::string, double> parts{
       {"wang:p24", 0.5}, {"wang:float", 0.25}, {"wang:p32", 1}, {"wang:p64", 0.125}};
@@ -184,8 +184,8 @@ TEST(Ladder, TheIntervalIsStudents) {
                 "with 3 precisions; at 0.125 to 1 of the claimed distance\n"));
 }
 
-// Three points have distances of 16 in x, and the middle one is 1 lower than the others. The sum of squared
-// residuals is 2/3, with one degree of freedom.
+// The three points are 16 apart in x, and the middle one is 1 below the line through the other two. The sum
+// of squared residuals is 2/3, with one degree of freedom.
 TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
   const auto line = fit({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}});
   EXPECT_NEAR(line["exponent"], 0.25, 1e-5);
@@ -252,8 +252,8 @@ Statistics some_statistics() {
   return statistics;
 }
 
-// wang passes nothing on, and exact has no algorithm of its own, so neither has rows. wang was not asked
-// about edges, so only times for vertices and triangles are divided by times of wang.
+// Only subjects that pass queries on have rows. `wang` was not asked about edges, so only times for vertices
+// and triangles are divided by its times.
 TEST(Deciders, AreCountedByFamilyOverBothKinds) {
   const auto json = deciders_json(some_statistics());
   ASSERT_EQ(json.size(), 3);

@@ -21,7 +21,7 @@ Counts with(Counts counts, Fault fault, std::uint64_t number) {
   return counts;
 }
 
-/// The verdict on a subject "mine" that was asked one family and has these counters.
+/// The verdict on a subject "mine" that has these counters in one family.
 std::string line_of(const Counts& counts, const Failures& failing = usual_failures()) {
   Statistics statistics;
   statistics.counts[{"mine", Kind::edge_edge, "f"}] = counts;
@@ -257,9 +257,9 @@ TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   Campaign missing = crashing;
   missing.statistics.counts[key].false_negatives = 1;
   EXPECT_THAT(alarms(missing, missing), ElementsAre("a missed 1 of 5 ordinary vt collisions"));
-  // Every failure of a subject that the baseline lacks raises an alarm.
+  // If a subject is not in the baseline, each failure of this subject raises an alarm.
   EXPECT_THAT(alarms(crashing, campaign("2", {})), SizeIs(1));
-  // A failure that counts only on request raises an alarm only on request.
+  // A kind of failure that counts only on request raises an alarm only on request.
   Campaign slow = good;
   slow.statistics.counts[key].faults[static_cast<std::size_t>(Fault::time)] = 2;
   slow.statistics.seen[{Finding::What::fault, "a", "vt time"}] = 2;

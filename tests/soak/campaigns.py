@@ -1,4 +1,4 @@
-"""Campaigns, and checks that their results do not depend on how they were run."""
+"""Campaigns that take several runs, and checks that their results are those of a single run."""
 
 import json
 import pathlib
@@ -10,7 +10,8 @@ import sqlite3
 FAMILIES = ['uniform', 'sliver', 'parallel', 'needle', 'stiff', 'near-underflow-planted']
 SWEEPS = ['stiff', 'needle', 'aspect', 'offset']
 
-# Plug-ins, each with the name of its subject, that misbehave at queries chosen by the queries' coordinates.
+# Plug-ins that misbehave at queries chosen by the queries' coordinates, and the names of their
+# subjects.
 CHOSEN_BY_QUERY = {
     'crash': 'misbehaving',
     'leave': 'misbehaving',
@@ -19,7 +20,8 @@ CHOSEN_BY_QUERY = {
     'print': 'misbehaving',
     'throwing': 'throwing',
 }
-# Plug-ins whose faults depend on the clock, or on the queries that the same process was asked before.
+# Plug-ins whose faults depend on the clock, or on the queries that the same process was asked
+# before.
 CHOSEN_BY_CHANCE = {
     'hang': 'misbehaving',
     'sleep': 'misbehaving',
@@ -34,11 +36,11 @@ TIMES = {'started', 'seconds', 'ns_per_query', 'times', 'front_by_distance', 'fr
 
 
 class Failure(Exception):
-    """A check of the soak has failed."""
+    """A check has failed."""
 
 
 def without(value, subject):
-    """A report without times, and without everything about one subject."""
+    """A report without times, and without everything about a subject, if one is given."""
     if isinstance(value, dict):
         return {
             key: without(each, subject)
@@ -55,7 +57,7 @@ def without(value, subject):
 
 
 def leaves(value):
-    """All values in a report, by their paths."""
+    """The values in a report, by their paths, such as 'subjects.0.name.'."""
     if isinstance(value, (dict, list)):
         pairs = value.items() if isinstance(value, dict) else enumerate(value)
         return {
@@ -71,12 +73,12 @@ class Campaign:
         draw = random.Random(f'{seed} campaign {number}')
         self.number, self.machine = number, machine
         plugin = draw.choice([*CHOSEN_BY_QUERY, *CHOSEN_BY_CHANCE])
-        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # fewer: nearmiss waits for time limits
+        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # few: each query may time out
         self.size = int(draw.uniform(0.2, 1) * rate * seconds)
         self.left_out = CHOSEN_BY_CHANCE.get(plugin)
         self.options = ['--cases', str(self.size), '--seed', str(draw.randrange(1 << 32))]
         self.options += ['--subject', f'wang,basic,{machine.plugins / plugin}.so']
-        # If reports are compared, the limit must be so long that no query exceeds it, even on a busy
+        # If the plug-in is compared, none of its queries may exceed the limit, even on a busy
         # machine.
         limit = '100ms' if plugin in CHOSEN_BY_CHANCE else '30s'
         self.options += ['--query-time', limit, '--query-memory', '32M', '--compare', '64']
@@ -105,7 +107,7 @@ class Campaign:
         return [store.with_name(name) for name in names if store.with_name(name).exists()]
 
     def check_progress(self):
-        """Reads a copy of the store, which must be sound and must not lose anything."""
+        """Checks a copy of the store: it must be sound, and have all cases that it had before."""
         copy = self.machine.folder / 'copy'
         shutil.rmtree(copy, ignore_errors=True)
         copy.mkdir()
@@ -140,7 +142,7 @@ class Campaign:
             raise Failure(f'{self}: it ends by itself, but is not complete')
 
     def compare(self):
-        """Compares the report with that of an undisturbed campaign. Returns the number of compared values."""
+        """Compares the report with that of an undisturbed run. Returns how many values were compared."""
         undisturbed = self.machine.folder / 'undisturbed.db'
         self.machine.call(self.command(undisturbed, 2), self)
         expected, found = (self.report(store) for store in (undisturbed, self.store))

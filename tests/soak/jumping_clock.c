@@ -1,6 +1,6 @@
-/* A clock that jumps, which LD_PRELOAD loads in place of that of libc. Every call that asks for the time of
- * day gets a time up to NEARMISS_JUMP seconds before or after the true time. The clock that measures
- * durations is not changed. */
+/* A clock that jumps; LD_PRELOAD loads it in place of libc's clock. Every call that asks for the time of day
+ * gets a time up to NEARMISS_JUMP seconds before or after the true time. The clock that measures durations is
+ * not changed. */
 #define _GNU_SOURCE
 #include <stdlib.h>
 #include <sys/syscall.h>

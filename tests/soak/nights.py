@@ -1,4 +1,4 @@
-"""Nights, which are runs of a campaign that end badly, and the machine on which they run."""
+"""Nights, and the machine on which they run. A night is a run of a campaign that ends early."""
 
 import os
 import pathlib
@@ -40,7 +40,7 @@ class Machine:
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
             # Python ignores SIGXFSZ, the signal for a file that is too large. If file sizes are
-            # limited, nearmiss inherits this: a write fails, but no signal ends it.
+            # limited, nearmiss ignores it too, so a write fails, but no signal ends nearmiss.
             return subprocess.Popen(
                 [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
                 stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,
@@ -71,7 +71,7 @@ class Machine:
         return found
 
     def wait_until_alone(self):
-        """Waits until no process is left: the children of a killed process take a moment to end."""
+        """Waits until no process is left. The children of a killed process take a moment to end."""
         end = time.monotonic() + PATIENCE
         while left := self.left():
             if time.monotonic() >= end:
@@ -98,7 +98,7 @@ def catches(process, number):
 
 
 def last_save(store):
-    """The time of the last save; None before the first save."""
+    """The time at which a store was last saved; None before its first save."""
     try:
         return store.with_name(f'{store.name}-wal').stat().st_mtime_ns
     except FileNotFoundError:
@@ -127,7 +127,7 @@ class Night:
         return text + (', a clock that jumps' if self.jumps else '')
 
     def run(self, campaign, machine):
-        """Runs the night. Returns the exit code; raises Failure if it does not fit the night."""
+        """Runs the night. Returns the exit code; raises Failure if a night cannot end with it."""
         if self.end == 'full disk':
             largest = max([file.stat().st_size for file in campaign.files()] + [0]) + self.room
             process = machine.start(
@@ -154,7 +154,8 @@ class Night:
 
     @staticmethod
     def wait(process, end, after):
-        """Waits, then sends the signal, if any. Returns the exit code."""
+        """Waits until a process ends, or sends it the signal `end` after some seconds. Returns the exit
+        code."""
         try:
             if end is not None:
                 try:

@@ -13,7 +13,6 @@
 
 namespace {
 
-/// A CCD without a bug: gives the exact answer.
 bool exact(const nearmiss::Question& q) {
   const nearmiss::Kind kind = *nearmiss::kind_of_bit(q.kind);
   std::int8_t answer = -1;
@@ -80,7 +79,7 @@ TEST(MyCcd, AnExceptionIsAFaultOfItsQuery) {
   EXPECT_NE(report.text().find("not on my"), std::string::npos) << report;
 }
 
-/// Expects at most 15 lines, of at most 79 columns each.
+/// Expects that the text of a report has at most 15 lines, of at most 79 columns each.
 void expect_short(const nearmiss::TrialReport& report) {
   std::istringstream lines{std::string(report.text())};
   int count = 0;
@@ -155,7 +154,7 @@ TEST(MyCcd, FamiliesMayBeGroupsWithBlanks) {
   const auto report = nearmiss::trial(exact, {.families = "uniform, vertices,", .kinds = 15, .cases = 1000});
   EXPECT_TRUE(report.clean());
   EXPECT_GT(report.counts(nearmiss::Kind::vertex_vertex).queries, 0U);
-  // In a detector, too, a function that takes a Question may return a bool.
+  // A function that takes a Question may return a bool in a detector, too.
   EXPECT_TRUE(nearmiss::trial(nearmiss::plugin::detector("d").edge_edge(exact), {.cases = 500}).clean());
 }
 
@@ -166,7 +165,7 @@ TEST(MyCcd, OptionsThatMakeNoSenseAreRefused) {
         nearmiss::TrialOptions{.time = std::chrono::seconds(-1)}})
     EXPECT_THROW(nearmiss::trial(mine, bad), std::invalid_argument);
   EXPECT_THROW(nearmiss::hard_queries("uniforms", nearmiss::Kind::edge_edge, 1, 10), std::invalid_argument);
-  // A CCD that is asked nothing is not clean.
+  // The report of a CCD that was asked nothing is not clean.
   EXPECT_FALSE(nearmiss::trial(exact, {.time = std::chrono::nanoseconds(1)}).clean());
 }
 

@@ -1,5 +1,5 @@
-// The CCD of a user who tests it with nearmiss. For a vertex and a triangle, it compares the signs of the
-// volume at both ends of the step, so it misses vertices that pass the triangle's plane twice.
+// The CCD of a user who tests it with nearmiss. It compares the sign of volume() at both ends of the step, so
+// it misses a vertex that passes the triangle's plane twice.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline double volume(const Point& p, const Point& a, const Point& b, const Point
   return dot(cross(b - a, c - a), p - a);
 }
 
-/// Positions at t = 0, then at t = 1.
+/// The positions p0 to c0 are those at t = 0; p1 to c1 are those at t = 1.
 inline bool point_triangle_ccd(const Point& p0, const Point& a0, const Point& b0, const Point& c0,
                                const Point& p1, const Point& a1, const Point& b1, const Point& c1) {
   return volume(p0, a0, b0, c0) * volume(p1, a1, b1, c1) <= 0;

@@ -7,14 +7,12 @@ import { count, folder, open, pageOf } from "./session.mjs";
 
 const axe = readFileSync(new URL("../../../reports/page/node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 
-/** The barriers to access that axe-core finds on a page. */
 export async function axeViolations(page) {
   await page.evaluate(axe);
   const { violations } = await page.evaluate(() => axe.run({ resultTypes: ["violations"], selectors: false }));
   return violations.map(({ id, nodes }) => `${id}: ${nodes.length} times, such as ${nodes[0].html.slice(0, 200)} (${nodes[0].failureSummary})`);
 }
 
-/** axe-core finds no barriers, in both themes and on a phone. */
 export async function hasNoBarriers(browser) {
   const [light, dark, phone] = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }];
   for (const [name, ...all] of [["found", light, dark, phone], ["timed", dark], ["many", phone], ["clean", light], ["later", dark], ["decided", light], ["options", light, dark]])
@@ -24,7 +22,7 @@ export async function hasNoBarriers(browser) {
     }
 }
 
-/** Makes a copy of a report with this number of findings, which repeat the findings of the report. */
+/** Copies the page of a report, repeats its findings until there are `many`, and returns the address. */
 function withFindings(name, many) {
   const page = readFileSync(join(folder, name, "index.html"), "utf8");
   const begin = page.indexOf(">", page.indexOf('id="report"')) + 1;
@@ -38,8 +36,8 @@ function withFindings(name, many) {
 }
 
 /**
- * With any number of findings, the page draws only a few, and still finds any other finding. Prints the
- * times.
+ * The page draws at most 24 findings at first, and the search finds any other. Prints the times of drawing
+ * and of searching.
  */
 export async function staysQuickWithManyFindings(browser) {
   for (const many of [10, 10000]) {

@@ -15,7 +15,8 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Each result above 0 has one more mark.
+  // Each of 4 panels has 12 marks, for 2 families, 2 subjects and 3 values. Each result above 0 has one more
+  // mark.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);
@@ -24,8 +25,8 @@ export async function showsSweeps(browser) {
 }
 
 /**
- * A single value of a parameter is no sweep, with or without a separation: its misses are shown with those
- * of other families.
+ * A family with a single value of its parameter is no sweep, even with a separation: its misses are shown
+ * with those of other families.
  */
 export async function showsASingleValueBesideASweep(browser) {
   const family = "end-contact@1";
@@ -60,7 +61,8 @@ export async function showsValuesOfOptions(browser) {
 export async function showsSweepsOfWhatIsNeverWrong(browser) {
   const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
   assert.equal(await count(page, ".units:visible"), 0); // every subject claims a bound
-  // All numbers except the times are 0.
+
+  // All results except the times are 0, so only the times have one more mark.
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2);
 }
 
@@ -71,13 +73,13 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
   const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
   assert.ok((await ends("error-time")).includes("∞"));
-  // Each subject has a mark, and the failed subject also has a cross.
+  // Each of 3 subjects has a mark, and the failed subject also has a cross.
   assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 4);
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
   // The chart shows the bound even if all false positives are beyond it.
   const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin("claims_exact")]));
   assert.ok((await beyond.locator("#distances .role-axis-label text").allTextContents()).includes("1"));
-  // The certificate of a refuted bound has a plane between the primitives.
+  // The picture shows the plane between the primitives that proves the refutation.
   assert.ok(await count(beyond, "#example .picture .plane") === 1);
 }
 

@@ -62,7 +62,7 @@ async function checkTables(page, report) {
   assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
 }
 
-/** Every section with distances says that basic claims no bound, and marks its distances. */
+/** Every section with distances says that basic claims no bound, and marks the distances of basic with **. */
 async function checkUnits(page) {
   const notes = await page.locator(".units:visible").allTextContents();
   assert.ok(notes.length >= 3);
@@ -93,7 +93,7 @@ async function checkFindings(page, report) {
   assert.equal(await shrunk.isVisible(), true);
 }
 
-/** The filter takes fields of findings, and words. A subject in the first table links to its findings. */
+/** Findings can be filtered by fields and by words. A subject in the first table links to its findings. */
 async function checkFilter(page, report) {
   const shown = () => page.textContent("#findings-count");
   const of = (test) => report.findings.filter(test).length;
@@ -163,8 +163,8 @@ async function checkThatAFindingOpensLarge(page) {
 }
 
 /**
- * The failed subjects come first, then their simplest example, then the findings. The address of a finding
- * opens it in every report that has this finding.
+ * The failed subjects come first, then the simplest failure, then the findings. The address of a finding
+ * opens this finding in every report that has it.
  */
 async function checkOrderAndAddresses(browser, page, report) {
   const titles = await page.locator("nav a").allTextContents();
@@ -253,9 +253,9 @@ export async function showsFindings(browser) {
 }
 
 /**
- * Findings of the kinds vv and ve. The text of a query has the places of its vertices, and the separation;
- * its picture has the vertices; its command fails again; its certificate is for its kind. Tables and charts
- * have both kinds.
+ * Tests findings of the kinds vv and ve. The text of a finding has the places of the vertices, and the
+ * separation. Its picture has the vertices, its command fails again, and its certificate is for its kind.
+ * Tables and charts have both kinds.
  */
 export async function showsVerticesAndEdges(browser) {
   const page = await open(browser, makeReport("vertices", ["--cases", "20000", "--subject", "basic", "--kind", "vv,ve"]));
@@ -285,7 +285,7 @@ export async function showsVerticesAndEdges(browser) {
   for (const title of ["vertex-vertex", "vertex-edge"]) assert.ok(titles.some((text) => text.startsWith(title)), title);
 }
 
-/** What a subject wrote before it failed. */
+/** A finding shows what the subject wrote to standard error before it failed. */
 export async function showsStandardError(browser) {
   writeFileSync(join(folder, "exits.sh"), "printf 'nearmiss 3\\nname exits\\nkinds vt\\n\\n'; head -c 1 >/dev/null; printf 'the <b>reason</b>\\nno licence\\n' >&2; exit 3\n");
   const page = await open(browser, makeReport("exits", ["--cases", "20", "--subject", "pipe:sh exits.sh"]));

@@ -32,8 +32,8 @@ async function answersEverything(browser, name) {
 }
 
 /**
- * For a night that also has a scene and a precision ladder (one CCD in several scalar types), the page folds
- * only the many subjects of the ladder, and is neither too wide nor too long.
+ * For a night that also has a scene and a precision ladder (one CCD in several scalar types), the first table
+ * has one row for all subjects of the ladder that did not fail, and still fits on the screen.
  */
 async function answersBesideAScene(browser) {
   run("ladder", "--scalar", "float,p40,p48,p56,p64", "--cases", "160", "--db", "rungs.db");

@@ -6,8 +6,8 @@ import { axeViolations } from "./access.mjs";
 import { count, folder, nearmiss, open, pageOf, run } from "./session.mjs";
 
 /**
- * Three nights of a subject: a textbook CCD that fails, a right CCD under the same name, and the textbook
- * CCD again.
+ * In the first and the third of three nights, the name `mine` stands for a textbook CCD, which fails; in the
+ * second night, for an exact CCD.
  */
 export async function showsTheNights(browser) {
   const stores = [];

@@ -8,7 +8,6 @@ import { pathToFileURL } from "node:url";
 
 export const nearmiss = process.argv[2];
 export const folder = mkdtempSync(join(tmpdir(), "nearmiss-page-"));
-/** The path of a plug-in of the tests. */
 export const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
 export const removeFolder = () => rmSync(folder, { recursive: true });
 
@@ -24,10 +23,10 @@ export function run(...args) {
 export const pageOf = (name) => pathToFileURL(join(folder, name, "index.html")).href;
 export const jsonOf = (name) => JSON.parse(readFileSync(join(folder, name, "report.json")));
 
-/** The command that replays a finding of a report, as its page shows it. */
+/** The command that replays a finding, as the page of the report `name` shows it, with the report's path. */
 export const inAnyFolder = ({ again }, name) => again.replace(" cases/", ` ${join(folder, name)}/cases/`);
 
-/** Runs a campaign and writes its report. Returns the address of its page. */
+/** Runs a campaign and writes its report. Returns the address of the report's page. */
 export function makeReport(name, fuzz, report = []) {
   run("fuzz", ...fuzz, "--db", `${name}.db`);
   run("report", `${name}.db`, "-o", name, ...report);

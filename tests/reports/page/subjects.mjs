@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
 /**
- * At first, failed subjects and the Pareto front are chosen. A change of the choice redraws the charts that
- * have a row or a line for each subject.
+ * At first, all subjects are chosen, because there are enough colours for all. A change of the choice redraws
+ * the charts that have a row or a line for each subject.
  */
 export async function showsAChoiceOfManySubjects(browser) {
   const names = "wang:float,wang:p40,wang:p64,wang-tight:float,wang-tight:p40,wang,wang-tight,basic,basic-plain,exact,adaptive".split(",");
@@ -77,8 +77,8 @@ export async function showsWhatIsBeyondAContract(browser) {
 }
 
 /**
- * The first chart shows every subject. If there are more subjects than colours, the choice begins with
- * subjects without failures.
+ * The first chart shows every subject. If there are more subjects than colours, those without failures are
+ * chosen first.
  */
 export async function drawsManySubjectsWithoutALadder(browser) {
   const defects = ["D2*0.01", "D2*0", "S*0", "vv", "proximity", "psi*0", "rho*0", "lambda2*0"].map((name) => `defect:${name}`);

@@ -59,7 +59,7 @@ async function checkHistograms(page, { subjects }) {
     }
   assert.equal(await count(page, "#time-errors .mark-area path"), 3 * 2);
   assert.equal(await count(page, "#time-errors .mark-rule.role-mark line"), 3 * 2);
-  // The headers of the rows, which stand left of the charts of the first kind.
+  // The headers of the rows stand left of the charts of the first kind.
   assert.deepEqual((await texts(page, "#time-errors .role-row-header text")).filter((text) => text.includes("(")),
     ["always (lower bound)", "exact (lower bound)", "sampling (estimate)"]);
   const ticks = await texts(page, "#time-errors .role-axis-label text");
@@ -125,8 +125,8 @@ export async function showsSeparations(browser) {
 }
 
 /**
- * A lower bound after t* is not late if the distance at t* only touches h. The first query is such a case;
- * the second query has a late time.
+ * A lower bound after t* is not late if the distance is h at t*, but never less than h. The first query of
+ * touching.vt is such a case; the time for the other query is late.
  */
 export async function showsWhichTimesAreLate(browser) {
   const [end, triangle] = ["0.25 0.25", "0 0 0  1 0 0  0 1 0"];
@@ -143,8 +143,8 @@ export async function showsWhichTimesAreLate(browser) {
 }
 
 /**
- * Each subject has a strip for each kind, even for a kind that it was not asked about, so that names stand
- * beside their strips.
+ * Each subject has a strip for each kind, even for a kind that it was not asked about, so that the subject's
+ * name stands beside its strips.
  */
 export async function namesEveryStripOfTimes(browser) {
   run("fuzz", "--subject", "exact", "--cases", "40", "--kind", "vt", "--family", "planted", "--db", "strips-exact.db");
