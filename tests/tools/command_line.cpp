@@ -90,7 +90,7 @@ CommandLine::Output CommandLine::run(const std::string& arguments, const std::st
   const std::string command = "cd " + file("").string() + " && " + before + " " + NEARMISS_EXECUTABLE + " " +
                               arguments + " >out.txt 2>error.txt " + redirections;
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("error.txt")};
+  return {code_of(status), read("out.txt"), read("error.txt")};
 }
 
 CommandLine::Output CommandLine::expect_code(int code, const std::string& arguments,
