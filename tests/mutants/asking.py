@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from suite import run_tests
 
 KILLED = (-9, 128 + 9)  # exit codes of processes that were killed at a limit
-BUDGET = 120  # seconds of one core for the tests of one call, by their times without a mutant
+BUDGET = 300  # seconds of one core for the tests of one call, by their times without a mutant
 
 
 @dataclass
