@@ -294,6 +294,17 @@ TEST(JUnit, SaysWhatFailedWithItsQuery) {
   EXPECT_THAT(junit_xml(testing::some_campaign("basic"), {FailureKind::late}), Not(HasSubstr("<failure")));
 }
 
+TEST(JUnit, PrefersFindingsWhoseQueryHasTheClassOfTheTest) {
+  Campaign campaign = testing::some_campaign("basic");  // its family is unclassified
+  auto& findings = campaign.runs.front().findings;
+  findings.push_back(findings.front());
+  findings.back().signature = "vt another";
+  for (Finding& each : findings) each.query_class = QueryClass::degenerate;
+  EXPECT_THAT(junit_xml(campaign), AllOf(HasSubstr("vt simple-root"), HasSubstr("vt another")));
+  findings.back().query_class = QueryClass::unclassified;
+  EXPECT_THAT(junit_xml(campaign), AllOf(Not(HasSubstr("vt simple-root")), HasSubstr("vt another")));
+}
+
 TEST(JUnit, ASubjectThatWasAskedNothingFails) {
   Campaign campaign;
   campaign.statistics.counts[{"idle", Kind::vertex_triangle, "uniform"}] = {};
