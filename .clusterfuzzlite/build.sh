@@ -6,8 +6,8 @@ set -euo pipefail
 source tools/options.sh
 options '' "$@"
 
-# Ubuntu's libraries are built with libstdc++, so a program that links them must use libstdc++, too. -w,
-# because warnings of a newer clang must not stop the build.
+# Ubuntu's libraries are built with libstdc++, so a program that links them must use libstdc++, too. With -w,
+# warnings of a newer clang do not stop the build.
 CXXFLAGS="${CXXFLAGS//-stdlib=libc++/} -w"
 
 build=$WORK/build

@@ -39,8 +39,8 @@
 //
 //   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
 //
-// .edge_edge_step(f), and so on, add a filter of steps, double f(const Question&, double* y). It writes the
-// positions at the end of the safe step to y. It returns the clearance that it claims during this step
+// .edge_edge_step(f), and so on, add a filter of steps, double f(const Question&, double* y). f writes the
+// positions at the end of the safe step to y, and returns the clearance that it claims during this step
 // (nearmiss_subject.h).
 #pragma once
 
@@ -57,7 +57,7 @@
 #include <type_traits>
 #include <utility>
 
-// These two headers lie beside this one, both in the source tree and where it is installed.
+// These two headers lie beside this one, in the source tree and in an installation.
 #include "nearmiss_subject.h"
 #include "subjects/number_options.hpp"
 
@@ -197,7 +197,7 @@ class Asked {
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
 
   static constexpr bool is_question = takes<std::tuple<const Question&>>;
-  // A function that takes a number in place of the reference double& toi has another signature.
+  // A function that also takes a number in place of the reference double& toi has another signature.
   static constexpr bool is_ipc =
       takes<Points, double&, double, double> && !takes<Points, double, double, double>;
   static constexpr bool is_displaced =
@@ -257,7 +257,7 @@ Settings owner_of(const Option<Settings>* /*option*/);
 /// The task of a function of a detector: to decide queries, to give distances, or to filter steps.
 enum class Role { decide, measure, step };
 
-/// A function of a detector, with its role and the kind of queries for which it is.
+/// A function of a detector, with its role and the kind of its queries.
 template <Role its_role, int its_kind, class F>
 struct Part {
   static constexpr Role role = its_role;
@@ -272,7 +272,7 @@ template <class F, class... Argument>
 constexpr bool gives_number<F, std::tuple<Argument...>> =
     std::is_invocable_r_v<double, const F&, Argument...>;
 
-/// The distance of the primitives with the coordinates x according to f. `front` has f's first arguments.
+/// The distance that f gives for the primitives with the coordinates x. `front` has f's first arguments.
 template <class F, class Front, std::size_t... i>
 double distance_by(const F& f, const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) {
   auto arguments = std::tuple_cat(front, std::tuple(Point(x + 3 * i)...));
@@ -403,7 +403,7 @@ struct Detector {
         if (part.kind == kind) act(part);
     });
   }
-  /// The type Asked for a function that decides queries.
+  /// The `Asked` for a part that decides queries.
   template <int kind, class F>
   static Asked<F, Front, kind> asked(const Part<Role::decide, kind, F>& /*part*/) {
     return {};
@@ -494,8 +494,8 @@ nearmiss_subject described_by(const Detector& detector) {
   return subject;
 }
 
-/// The nearmiss_subject of a detector without options, with only decide(), whose state is a pointer to the
-/// detector.
+/// The nearmiss_subject of a detector without options. It only decides queries, and its state is a pointer to
+/// the detector.
 template <class... Parts>
 nearmiss_subject described_by_itself(const Detector<NoOptions, Parts...>& detector) {
   using Its = Detector<NoOptions, Parts...>;

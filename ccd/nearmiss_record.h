@@ -12,7 +12,7 @@
  * number of threads may record at once, and a forked child process records to the file of its parent. If
  * another process, or a shared object with a recorder of its own, already records to run.nmq, the name of the
  * new file contains the number of the process: run-4711.nmq. A finished recording in run.nmq is renamed to
- * run.nmq~. If the program crashes, only records that were just being written are lost. If the disk has no
+ * run.nmq~. If the program crashes, only the records that were being written are lost. If the disk has no
  * room for the file, a line on stderr says so, and nothing is recorded. */
 #ifndef NEARMISS_RECORD_H
 #define NEARMISS_RECORD_H
@@ -83,8 +83,7 @@ typedef struct {
   uint64_t unused[3];
 } nearmiss_record_slot;
 
-/* The recorder of the program. All its source files share this recorder, as do all shared objects that can
- * see the symbol. */
+/* The recorder that all source files of the program share, and all shared objects that can see the symbol. */
 typedef struct {
   int state;  /* 0: not yet known; 1: off; 2: on; 3: a thread is opening the file */
   int opener; /* the process that opens the file, while `state` is 3 */
@@ -252,7 +251,7 @@ __attribute__((unused, noinline)) static void nearmiss_record_begin(void) {
 }
 
 /* Returns whether queries are recorded. The first call opens the file, and calls in other threads wait until
- * it is open. A child process that is forked during this time records nothing. */
+ * it is open. A child process that is forked while the file is being opened records nothing. */
 static inline int nearmiss_record_is_on(void) {
   int state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
   if (state == 0) nearmiss_record_begin();

@@ -19,7 +19,7 @@ extern "C" {
 #define NEARMISS_VERTEX_VERTEX 4   /* vertices x0 and x1 */
 #define NEARMISS_VERTEX_EDGE 8     /* vertex x0, edge x1x2 */
 
-/* Answers. A detector may also answer with a negative number, its own code of an error. All other numbers are
+/* Answers. A detector may also answer with a negative number, an error code of its own. All other numbers are
  * invalid. */
 #define NEARMISS_NO_COLLISION 0
 #define NEARMISS_COLLISION 1
@@ -29,8 +29,8 @@ extern "C" {
 #define NEARMISS_NO_TIME 0
 #define NEARMISS_TIME_ESTIMATE 1
 #define NEARMISS_TIME_LOWER_BOUND 2 /* before this time, the distance exceeds h */
-/* A lower bound, which also makes the shortened step safe: the distance exceeds h while each vertex moves
- * straight from a, its position at t = 0, to a + toi (b - a), where b is its position at t = 1. Each
+/* A lower bound toi that also makes the step shortened to toi safe: the distance exceeds h while each vertex
+ * moves straight from a, its position at t = 0, to a + toi (b - a), where b is its position at t = 1. Each
  * operation of this formula is rounded to double, or to float if `bits` is 24. The shortened step is judged
  * only if the exact answer is a collision. */
 #define NEARMISS_TIME_FREE_STEP 3
@@ -131,7 +131,7 @@ typedef struct {
 } nearmiss_subject;
 
 /* The one exported function. Returns detector number `index`, or NULL if there are no more than `index`
- * detectors. The detector that it points to stays valid until the shared object is unloaded. */
+ * detectors. The result stays valid until the shared object is unloaded. */
 const nearmiss_subject* nearmiss_get_subject(size_t index);
 
 #ifdef __cplusplus

@@ -47,7 +47,7 @@ fs::path new_file_beside(const fs::path& place) {
   }
 }
 
-/// The path of a part file, in a form that a signal handler can read: the handler may use only lock-free
+/// The path of a PartFile, in a form that a signal handler can read: the handler may use only lock-free
 /// objects, and allocate nothing.
 struct KnownPart {
   enum State : std::uint8_t { unused, changing, used };
@@ -61,8 +61,8 @@ std::array<KnownPart, 16>& known_parts() {
   return parts;
 }
 
-/// Notes the path of a part file, so that a signal handler can remove the file. The handler leaves the file
-/// behind if too many part files were noted before, or if the path is too long.
+/// Notes the path of a PartFile, so that a signal handler can remove the file. The handler leaves the file
+/// behind if too many paths were noted before, or if the path is too long.
 void remember(const fs::path& path) {
   const std::string& text = path.native();
   for (KnownPart& part : known_parts()) {

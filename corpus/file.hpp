@@ -32,7 +32,7 @@ class PartFile {
   std::filesystem::path place_, path_;
 };
 
-/// Removes all part files. A signal handler that ends the program may call this function.
+/// Removes the files of all PartFile objects. A signal handler that ends the program may call this function.
 void remove_part_files() noexcept;
 
 /// Replaces the content of a file, or of the file that a link leads to, with `text`. No reader ever sees a

@@ -20,7 +20,7 @@ struct Recorded {
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 
-  /// The query whose step ends at tmax. The positions at tmax are computed in double.
+  /// The recorded query with tmax as the end of its step. The positions at tmax are computed in double.
   [[nodiscard]] Query asked() const;
 };
 

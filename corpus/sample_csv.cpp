@@ -19,7 +19,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The kind that the name of the folder, or the end of the file's name, determines.
+/// The kind of a file's queries, from the name of the folder or the end of the file's name.
 Kind kind_of_file(const std::filesystem::path& path) {
   const auto folder = std::filesystem::absolute(path).lexically_normal().parent_path().filename();
   const std::string stem = path.stem().string();

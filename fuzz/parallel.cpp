@@ -39,15 +39,15 @@ int try_threads(int jobs) {
 }
 
 /// The number of threads, at most `jobs`, that TBB can use. TBB ends the program if it cannot start a thread.
-/// Therefore try_threads() first tries every number of threads that is larger than all earlier numbers. TBB
-/// keeps the threads that it has started, so smaller numbers need no trial.
+/// So if `jobs` exceeds the largest number tried so far, try_threads() tries `jobs`. TBB keeps the threads
+/// that it has started, so a smaller number needs no trial.
 int usable_threads(int jobs) {
   static std::atomic<int> most = 1;
   if (most < jobs) most = std::max(most.load(), try_threads(jobs));
   return std::min(jobs, most.load());
 }
 
-/// Throws std::bad_alloc unless some memory is left before TBB starts. If TBB (2022.1) finds no memory when
+/// Throws std::bad_alloc if too little memory is left for TBB's start. If TBB (2022.1) finds no memory when
 /// it starts, it does not throw, but waits forever for a lock that it holds itself.
 void expect_memory_to_start() {
   static std::atomic<bool> has_started = false;
@@ -68,8 +68,8 @@ void on_threads(int jobs, const std::function<void()>& algorithm) {
   tbb::task_arena(jobs).execute(algorithm);
 }
 
-/// Performs actions on several threads until one of them throws an exception. Keeps this exception. An
-/// exception that left a pipeline of TBB would leak the items inside the pipeline.
+/// Performs the actions of several threads until an action throws an exception. Keeps this exception, because
+/// an exception that leaves a pipeline of TBB leaks the items inside the pipeline.
 class FirstFailure {
  public:
   template <class Action>

@@ -1,4 +1,5 @@
-// Parallel loops. Shrinking (trial/shrinking.hpp) runs beside these loops, on threads of its own.
+// Parallel loops, which pass exceptions on to their callers. Shrinking (trial/shrinking.hpp) runs beside
+// these loops, on threads of its own.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +15,11 @@ namespace nearmiss {
 /// Starts a thread. If the system has no thread left, returns a thread that is not joinable.
 std::thread start_thread(std::function<void()> work);
 
-/// Calls work(0) to work(count - 1) on `jobs` threads, or on as many as the system can start. An exception is
-/// passed on to the caller.
+/// Calls work(0) to work(count - 1) on `jobs` threads, or on as many as the system can start.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// Calls work(first, last) for consecutive parts [first, last) of [0, count), on all processors. If `count`
-/// is small, calls work(0, count) once, on this thread. An exception is passed on to the caller.
+/// is small, calls work(0, count) once, on this thread.
 template <class PartWork>
 void in_parts(std::size_t count, const PartWork& work) {
   constexpr std::size_t part = 16384;
@@ -40,7 +40,7 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
 /// A pipeline. next() makes items until it returns nothing. work(item) runs on `jobs` threads, or on as many
 /// as the system can start. take(item) receives each item after its work. next() and take() are called in the
 /// order of the items, and each of them for one item at a time. At most 16 items per thread exist at the same
-/// time. An exception is passed on to the caller.
+/// time.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

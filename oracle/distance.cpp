@@ -1,5 +1,5 @@
-// Computes certified bounds in floating-point arithmetic. If they do not resolve the distance, compares
-// exactly.
+// Bounds the distance in floating-point arithmetic. If the bounds are too far apart, exact comparisons narrow
+// them.
 #include "oracle/distance.hpp"
 
 #include <algorithm>

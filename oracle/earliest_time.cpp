@@ -79,11 +79,11 @@ Root first_root(const Query& query, const KnownTime& known) {
   return contact->time;
 }
 
-/// If `is_certified`, certified bounds show that the distance is above h at the beginning of the enclosure,
-/// unless the enclosure begins at 0, and below h at its end. Then t* is neither end.
+/// If `is_certified` and the enclosure does not begin at 0, certified bounds show that the distance is above
+/// h at its beginning, and below h at its end. Then t* is neither end.
 KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_certified && time.lo > 0}; }
 
-/// 1 if all numbers in the enclosure `known` of t* are below `time`, 0 if none is, -1 if some are.
+/// 1 if all numbers in the enclosure `known` of t* are below `time`, 0 if none is, -1 if only some are.
 int comparison(const Enclosure& known, double time) {
   if (!(time > known.lo)) return 0;
   return time > known.hi ? 1 : -1;
@@ -119,7 +119,8 @@ bool EarliestTime::is_before(double time) {
 bool EarliestTime::makes_late(double time) {
   const PlainArithmetic guard;
   if (query_.separation == 0) return is_before(time);
-  // If `is_certified_`, the enclosures contain both t* and the time at which the distance falls below h.
+  // If `is_certified_`, `rough_` and narrow() enclose both t* and the time at which the distance falls below
+  // h.
   if (!(time > rough_.time.lo)) return false;
   if (is_certified_) {
     int late = comparison(rough_.time, time);

@@ -1,4 +1,4 @@
-// A description of a collision's first contact, used to sort findings.
+// A description of a collision's first contact, by which failures of CCDs are sorted.
 #pragma once
 
 #include <cstdint>

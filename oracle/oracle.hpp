@@ -32,12 +32,12 @@ Decision settle(const Query& query, FilterStage stage);
 Decision decide(const Query& query);
 
 /// Decides many queries of any kinds. If all have h = 0, the filter processes them side by side. This changes
-/// no answer, but may change a stage.
+/// no answer, but may change `Decision::stage`.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 bool collides(const Query& query);
 
-/// The decision by exact arithmetic only, without the filters.
+/// The decision by exact arithmetic only.
 Decision decide_exactly(const Query& query);
 bool collides_exactly(const Query& query);
 

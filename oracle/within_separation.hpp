@@ -18,8 +18,8 @@ struct KnownApproach {
   double estimate = 1;  ///< an uncertified estimate of the earliest time
 };
 
-/// Decides by boxes, planes, and a search for a time at which the distance is below h. The enclosure of the
-/// time is as wide as this search leaves it.
+/// Decides by boxes, planes, and a search for a time at which the distance is below h. The enclosure of this
+/// time may be wide.
 KnownApproach known_approach(const Query& query);
 
 /// Narrows the time of `known`, which must be the answer of known_approach(query). If a further search

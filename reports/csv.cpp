@@ -80,7 +80,7 @@ Value interval_of_false_positives(const Counts& counts) {
   return Bin{lo, hi};
 }
 
-/// Adds the counters. After each counter, adds the measures that are computed from it.
+/// Adds each counter, and after it the measures that are computed from it.
 void add_counters(Fields& fields, const CountsSum& sum) {
   for_each_counter<Counts>([&](const auto& counter) {
     add_counter(fields, sum.counts, counter);
@@ -106,8 +106,8 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a file with these rows. The headings come from `any`, which may be any row; there may be no
-/// rows.
+/// The text of a file with these rows. The headings come from `any`, which may be any row, because `rows` may
+/// be empty.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);
   for (const Fields& row : rows) text += line(row, &Field::text);

@@ -7,23 +7,21 @@
 
 namespace nearmiss {
 
-/// The text of statistics.csv: a row for each subject, kind and family. The last column is the family's
-/// class.
+/// statistics.csv: a row for each subject, kind and family. The last column is the family's class.
 std::string statistics_csv(const Statistics& statistics);
 
-/// The text of classes.csv: a row for each subject, kind and class of families, with the counters of
-/// statistics.csv.
+/// classes.csv: a row for each subject, kind and class of families, with the counters of statistics.csv.
 std::string classes_csv(const Statistics& statistics);
 
-/// The text of distances.csv: a row for each non-empty bin of the histograms of distances.
+/// distances.csv: a row for each non-empty bin of the histograms of distances.
 std::string distances_csv(const Statistics& statistics);
 
-/// The text of times.csv: a row for each non-empty bin of the histograms of time errors. If the column "side"
-/// is "early", the error is t* - time; if it is "after", the error is time - t*.
+/// times.csv: a row for each non-empty bin of the histograms of time errors. If the column "side" is "early",
+/// the error is t* - time; if it is "after", the error is time - t*.
 std::string times_csv(const Statistics& statistics);
 
-/// The text of findings.csv: a row for each finding. The columns "shrunk" and "query" have queries as to_line
-/// writes them; "seen" is the number of queries that failed with the finding's signature.
+/// findings.csv: a row for each finding. The columns "shrunk" and "query" have queries as to_line writes
+/// them; "seen" is the number of queries that failed with the finding's signature.
 std::string findings_csv(const Campaign& campaign);
 
 }  // namespace nearmiss

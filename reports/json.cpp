@@ -43,8 +43,8 @@ ordered_json extreme_json(const Extreme& extreme) {
   return json;
 }
 
-/// The command that repeats the results of a run. Nothing in two cases: a time limit ended several shards,
-/// which no command can repeat; or the fact "again" is not a single nearmiss command that stores a run.
+/// The command that repeats the results of a run. Nothing if a time limit ended several shards (no command
+/// can repeat this), or if the fact "again" is not a single nearmiss command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");
   constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "simulate ", "tightness "};
@@ -57,7 +57,7 @@ std::optional<std::string> command_to_repeat(const Run& run) {
   return fmt::format("{} --first {}", again, run.shards.front().cases);
 }
 
-/// The sections that are left out if they are empty.
+/// The sections of report.json that are left out if they are empty.
 constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 8> sections{
     {{"sizes", sizes_json},
      {"common_factors", common_factors_json},
@@ -227,7 +227,7 @@ ordered_json before_and_now(const Statistics& now, const Statistics& before) {
   return json;
 }
 
-/// The lower borders of all bins; the last bin has no upper border.
+/// The lower borders of all bins of a Histogram; the last bin has no upper border.
 ordered_json borders_json() {
   ordered_json json = ordered_json::array();
   for (std::size_t i = 0; i < Histogram::bin_count; ++i) json.push_back(Histogram::border(i));

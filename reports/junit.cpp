@@ -92,8 +92,9 @@ std::string commands(const Campaign& campaign) {
   return lines;
 }
 
-/// The shrunk queries of some findings, in the form that nearmiss replay reads: the first finding of each
-/// signature for which `chosen` is true, for at most three signatures.
+/// Takes the findings that `chosen` accepts, except those that reports only show, and returns the shrunk
+/// query of the first one of each signature, for at most three signatures, in the form that nearmiss replay
+/// reads.
 template <class Chosen>
 std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
   constexpr std::size_t most = 3;

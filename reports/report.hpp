@@ -80,7 +80,7 @@ ReportPaths files_of(const nlohmann::ordered_json& report);
 ReportPaths own_files(const std::filesystem::path& folder);
 
 /// Replaces the files `own` in a folder by `files`, a map from paths to contents; changes no other file.
-/// Writes all files under temporary names and then renames them, report.json last. The next call completes
+/// Writes all files to a temporary sub-folder and then moves them, report.json last. The next call completes
 /// an interrupted replacement. Throws Error, before it replaces any file, if another file is in the way or
 /// the files cannot be written.
 void replace_report(const std::filesystem::path& folder, const ReportPaths& own,

@@ -15,7 +15,7 @@ namespace nearmiss::testing {
 
 inline std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-/// The number of the query in queries() at which a plug-in does what its name says, for example `crash`.
+/// The index in queries() of the query at which a plug-in does what its name says, for example `crash`.
 inline constexpr std::size_t chosen = 40;
 inline std::vector<Query> queries() {
   std::vector<Query> some(100, falling_vertex(0.25, 0.25, 1, -1));

@@ -9,7 +9,7 @@
 namespace nearmiss::testing {
 
 /// The message of the Error that a call throws. If there is no Error, the test fails, and the message is
-/// empty. (EXPECT_THAT compiles slower for calls than for messages: each call has a type of its own.)
+/// empty.
 std::string message_of_error(const std::function<void()>& call);
 
 }  // namespace nearmiss::testing

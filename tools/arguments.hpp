@@ -98,8 +98,8 @@ struct QueryInput {
   SeparationOption separation;
 
   void add_to(CLI::App& command);
-  /// Passes every query to `sink`, in order. Throws Error if the file cannot be read, or if a line is not a
-  /// query.
+  /// Passes every query to `sink`, in order. Throws Error if the file cannot be read, or has a line that is
+  /// not a query.
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
@@ -113,19 +113,19 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
                        std::optional<double> given_bound = std::nullopt);
 
 /// Finds the families with these names: NAME, NAME@VALUE and so on (find_any_family). "all" stands for the
-/// families in `all`, "vertices" for the families of vertices and edges. Throws Error for an unknown or
+/// families in `all`, "vertices" for the families of vv and ve queries. Throws Error for an unknown or
 /// repeated name, and Stopped if the user ends the command.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all, const Stop& stop);
 
-/// Makes the families NAME@VALUE of sweeps, for `steps` values of each family's parameter. "all" stands for
-/// the families in `all` that have a parameter, "vertices" for those of vertices and edges that have one.
-/// Throws Error for any other family without a parameter.
+/// Makes a sweep of each family NAME: families NAME@VALUE for `steps` values of NAME's parameter. "all"
+/// stands for the families in `all` that have a parameter, "vertices" for the families of vv and ve queries
+/// that have one. Throws Error for any other family without a parameter.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known, std::span<const Family> all);
 
-/// Parses "0/4" .. "3/4" into the index of the shard and the number of shards. Throws Error for any other
-/// form.
+/// Parses a shard, "0/4" to "3/4" for four shards, into its index and the number of shards. Throws Error for
+/// any other form.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);
 
 /// Parses a positive finite number; "" gives nothing. Throws Error for any other text.

@@ -66,7 +66,7 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
 std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& subjects) {
   if (options.kinds.empty()) {
     const bool of_meshes = !options.separation.of_families().empty();
-    const bool of_vertices = of_meshes || !options.separation.is_given();  // as_asked()
+    const bool of_vertices = of_meshes || !options.separation.is_given();  // as_asked() gives separations
     return kinds_to_ask(subjects, [&](Kind kind) { return is_of_meshes(kind) ? of_meshes : of_vertices; });
   }
   std::vector<Kind> chosen;
@@ -77,8 +77,8 @@ std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& s
   return chosen;
 }
 
-/// The family, restricted to the chosen kinds. A family that has none of these kinds stays as it is, unless
-/// --kind is given: then throws Error.
+/// The family, restricted to the chosen kinds. If the family has none of these kinds, throws Error with
+/// --kind, and returns the family as it is without --kind.
 Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
   if (const auto chosen = of_kinds(family, asked)) return *chosen;
   if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");

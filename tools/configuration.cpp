@@ -35,7 +35,7 @@ std::size_t piece_length(std::string_view line) {
   return std::clamp<std::size_t>(line.find_first_of(separators), 1, line.size());
 }
 
-/// The word. If the word is a number, leaves out underscores between digits.
+/// The word, without the underscores between its digits if it is a number.
 std::string without_underscores(std::string_view word) {
   constexpr std::string_view digits = "0123456789";
   if (word.find_first_not_of("0123456789_+-.eE") != std::string_view::npos) return std::string(word);
@@ -47,8 +47,8 @@ std::string without_underscores(std::string_view word) {
 }
 
 /// Translates TOML, line by line, into the part of TOML that CLI11 reads correctly: each list is on one line,
-/// without blanks around its commas and brackets, and without a comma after its last element. There are no
-/// comments, no underscores in numbers, and no byte order mark.
+/// without blanks around its commas and brackets, and without a comma after its last element. The translation
+/// has no comments, no underscores in numbers, and no byte order mark.
 class SimpleToml {
  public:
   void add(std::string_view line, long number) {
@@ -71,7 +71,7 @@ class SimpleToml {
     return std::move(text_);
   }
 
-  /// The lines on which options are set, by the option's name, known or not.
+  /// The line that sets each option, by the option's name. Includes names that no option has.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

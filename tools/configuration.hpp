@@ -17,7 +17,8 @@ class ConfigurationFile final : public CLI::ConfigTOML {
   /// Reads the options. The message of an Error begins with "--config:LINE: ".
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
-  /// The lines on which the file that was read last sets options, by the option's name, known or not.
+  /// For the file that was read last: the line that sets each option, by the option's name. Includes names
+  /// that no option has.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

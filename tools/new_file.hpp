@@ -12,7 +12,6 @@ namespace nearmiss::tools {
 /// Throws Error if the file exists.
 void expect_new(const std::filesystem::path& file);
 
-/// A new file, which has a temporary name until it is complete.
 class NewFile {
  public:
   /// Makes the file under a temporary name. Throws Error if `place` exists, or if the file cannot be made.

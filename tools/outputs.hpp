@@ -34,7 +34,6 @@ void expect_writable(const std::filesystem::path& file, std::string_view option,
 /// --json -, standard output gets the JSON and nothing else, and the command's text goes to standard error.
 class JsonOutput {
  public:
-  /// Adds --json.
   void add_to(CLI::App& command, const std::string& description);
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
@@ -76,16 +75,16 @@ class CiOutput {
   bool github_ = false;
 };
 
-/// The failures that count: the usual ones, and those that the user names.
+/// The failures for which the exit code is exit_found: the usual ones, and those that the user names.
 class FailOnOption {
  public:
-  /// Adds --fail-on. The option throws Error for the name of a failure that always counts, and for a name
-  /// that no failure has.
+  /// Adds --fail-on. The option throws Error for the name of a usual failure, and for a name that no failure
+  /// has.
   void add_to(CLI::App& command);
 
   [[nodiscard]] const Failures& failures() const { return failures_; }
 
-  /// exit_found if the statistics have a failure that counts, otherwise exit_fine.
+  /// exit_found if the statistics have a failure of failures(), otherwise exit_fine.
   [[nodiscard]] int exit_code(const Statistics& statistics) const;
 
  private:

@@ -60,8 +60,9 @@ std::string what_is_true(const Query& query) {
                      to_hex(hi));
 }
 
-/// The largest double that is not a late time. Throws Error if the distance reaches the separation h without
-/// falling below h right after that, because then some later times are not late, either.
+/// The largest double that is not a late time. A time is late if the distance is below h before it, or
+/// for contact (h = 0), if it is after t*. Throws Error if the distance does not fall below h > 0 right after
+/// t*, because then times just after t* are not late.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;

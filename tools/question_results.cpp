@@ -52,7 +52,7 @@ std::string table(const Distances& results) {
              100 * DistanceError::part_of_distance, DistanceError::part_of_size);
 }
 
-/// The lower end of a quantile's bin, as a percentage.
+/// The quantile `part` of a histogram, as a percentage: the lower end of the bin that has the quantile.
 std::string percentage(const Histogram& histogram, double part) {
   return fmt::format("{:.3g} %", 100 * std::min(histogram.quantile(part).from, 1.0));
 }
@@ -70,8 +70,8 @@ std::string table(const Steps& results) {
          "part of the motion before contact\n";
 }
 
-/// A line for each factor, such as an angle, if a subject is right in one range of the factor and fails
-/// elsewhere. `unsafe` is the word for a failure.
+/// A line for each property of the queries, such as an angle, if a subject is right in one range of the
+/// property and fails elsewhere. `unsafe` is the word for a failure.
 std::string ranges(const FactorTable& factors, const char* unsafe) {
   std::string lines;
   for (const RightRange& each : right_ranges(factors))
@@ -83,8 +83,8 @@ std::string ranges(const FactorTable& factors, const char* unsafe) {
   return lines;
 }
 
-/// The vertices of a query: "0 0 1, 1 0 0". If they move, "to" and their places at t = 1 follow. Numbers that
-/// are exact as decimals are printed as decimals.
+/// The vertices of a query: "0 0 1, 1 0 0". If the vertices move, "to" and their places at t = 1 follow.
+/// Numbers that are exact as decimals are printed as decimals.
 std::string places(const Query& query) {
   const auto at = [&](std::size_t time) {
     std::string text;
@@ -217,8 +217,7 @@ ordered_json json_of_results(const QuestionResults<Question>& results) {
   return json;
 }
 
-/// Copies the members `keys` of an object. Throws an exception of nlohmann if a member is missing or not of
-/// type T.
+/// Copies the members `keys` of an object.
 template <class T>
 void copy_members(const ordered_json& from, ordered_json& to, const std::vector<const char*>& keys) {
   for (const char* key : keys) to[key] = from.at(key).get<T>();

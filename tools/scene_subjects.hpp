@@ -27,9 +27,9 @@ struct SceneSubjects {
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene, const Stop& stop);
 
-/// A subject is accurate enough if its claimed bound on the distance of false positives is at most the
-/// thickness of contact. Keeps only the cheapest of these subjects. Prints the claim and the cost of each
-/// subject to `out`. Throws Error if no subject is accurate enough, or if the thickness is not a number.
+/// Keeps only the cheapest subject that is accurate enough: its claimed bound on the distance of false
+/// positives is at most the thickness of contact. Prints the claim and the cost of each subject to `out`.
+/// Throws Error if no subject is accurate enough, or if the thickness is not a number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects, std::FILE* out);
 

@@ -36,7 +36,6 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// Whether it is time to call show().
   [[nodiscard]] bool due() const;
   /// Shows a line. `done` is the finished fraction of the work, if it is known; a terminal shows it as a bar.
   void show(const std::string& line, std::optional<double> done = std::nullopt);

@@ -59,7 +59,8 @@ void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
     if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
 }
 
-/// Judges a subject's answers, on all processors, by the truth about the queries as the subject rounds them.
+/// Judges a subject's answers, on all processors: compares each with the truth about the query as the subject
+/// rounds it.
 Counts judge(const Subject& subject, std::span<const Query> queries, std::span<const Verdict> verdicts,
              const Stop& stop) {
   constexpr std::size_t at_once = 1024;

@@ -33,8 +33,8 @@ struct TrialOptions {
   /// subjects without their wrappers.
   Subjects keep_contracts(Subjects made) const;
 
-  /// Everything on which a run's results depend, including the digest and the version of each plug-in.
-  /// `what` is the subcommand with its own arguments. The fact `again` is the command that repeats the run.
+  /// The facts on which a run's results depend, including the digest and the version of each plug-in. `what`
+  /// is the subcommand with its own arguments. The fact `again` is the command that repeats the run.
   [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
 

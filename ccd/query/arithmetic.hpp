@@ -27,7 +27,7 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<doub
 
 namespace nearmiss {
 
-/// Whether this thread's arithmetic is plain. Takes about a nanosecond.
+/// Whether this thread's arithmetic is plain, as defined above. Takes about a nanosecond.
 inline bool is_arithmetic_plain() {
 #ifdef __SSE2__
   constexpr unsigned flags = 0x3f;    // exceptions raised so far

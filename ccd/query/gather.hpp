@@ -36,7 +36,7 @@ inline double separation_of(const nearmiss_queries& queries, std::size_t q) {
   return number_at<double>(queries.separation, static_cast<std::ptrdiff_t>(q) * queries.separation_stride);
 }
 
-/// Whether the queries `first` .. `first` + `count` - 1 all have the separation 0.
+/// Whether `count` queries, from number `first` on, all have the separation 0.
 inline bool ask_for_contact(const nearmiss_queries& queries, std::size_t first, std::size_t count) {
   if (queries.separation == nullptr) return true;
   if (queries.separation_stride == 0) count = std::min<std::size_t>(count, 1);
@@ -154,7 +154,8 @@ int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
 }
 
 /// Calls visit(block, first) for each block of queries. Copies the queries unless they lie in rows and ask
-/// for contact. Returns a status, and throws nothing. The caller must have made arithmetic plain.
+/// for contact. Returns a status, and throws nothing. The caller must have made arithmetic plain
+/// (arithmetic.hpp).
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;

@@ -46,7 +46,7 @@ extern "C" {
   2 /**< nothing is answered: a null pointer, a number out of range, or a separation that wang does not take */
 #define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
-/** Queries of one kind. Each has n vertices, the result of nearmiss_vertices(kind). Coordinate k (0 to 2) of
+/** Queries of one kind. Each has n = nearmiss_vertices(kind) vertices. Coordinate k (0 to 2) of
  * vertex i (0 to n - 1) of query q is at
  *
  *     start + q * query_stride + v * vertex_stride + k * coordinate_stride

@@ -50,7 +50,7 @@ struct Query {
   }
 };
 
-/// Sets the vertices that the query's kind does not have to its last vertex.
+/// Repeats the last vertex of the query up to x3.
 inline void repeat_vertices(Query& query) {
   for (int i = vertices(query.kind); i < 4; ++i) {
     query.set_start(i, query.start(i - 1));
@@ -82,7 +82,6 @@ inline std::vector<double> coordinate_list(const Query& query) {
   return list;
 }
 
-/// The query with another separation; 0 asks for contact.
 inline Query with_separation(Query query, double separation) {
   query.separation = separation;
   return query;
@@ -97,7 +96,7 @@ inline auto coordinates(const Query& query) {
 
 /// Whether all 24 coordinates are finite.
 inline bool is_finite(const Query& query) {
-  // Adding 1 to the exponent of an infinity or a NaN, all ones, carries into the sign bit.
+  // The exponent of an infinity or a NaN is all ones, so adding 1 to it carries into the sign bit.
   constexpr std::uint64_t sign = std::uint64_t{1} << 63;
   constexpr std::uint64_t one_more = std::uint64_t{1} << 52;
   std::uint64_t carries = 0;

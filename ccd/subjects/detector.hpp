@@ -51,8 +51,9 @@ bool decides(const DetectorInfo& info, Kind kind);
 bool gives_distance(const DetectorInfo& info, Kind kind);
 bool filters_step(const DetectorInfo& info, Kind kind);
 bool takes_separation(const DetectorInfo& info, Kind kind);
-/// The query that a detector decides in place of `query`. For a narrow detector, all numbers are rounded to
-/// float, and numbers beyond the range of float become the largest float of their sign.
+/// The query that a detector decides in place of `query`. If the detector takes floats (`is_narrow`), all
+/// numbers are rounded to float, and numbers beyond the range of float become the largest float of their
+/// sign.
 Query rounded_for(const DetectorInfo& info, const Query& query);
 /// Writes the coordinates of query i of a batch of n queries to the places in `x` from which a detector reads
 /// them.
@@ -82,7 +83,8 @@ class PluginLibrary {
   std::vector<const nearmiss_subject*> subjects_;  // `library_` owns them
 };
 
-/// A detector that is open, for one thread. Arithmetic is plain after each call, whatever the detector does.
+/// A detector that is open, for one thread. Arithmetic is plain (arithmetic.hpp) after each call, whatever
+/// the detector does.
 class Detector {
  public:
   /// Opens the detector that `subject` describes. `subject` must outlive this object. Throws Error if the
@@ -98,16 +100,17 @@ class Detector {
   [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
 
   /// Decides answers.size() queries of one kind. `x` and `separations` are as for decide() in
-  /// nearmiss_subject.h; for a narrow detector, the caller has rounded them to float.
+  /// nearmiss_subject.h; if the detector takes floats, the caller has rounded them.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;
-  /// The distance that the detector gives for the primitives at t = 0. It must give distances for this kind.
+  /// The distance that the detector gives for the primitives at t = 0. The detector must give distances for
+  /// this kind.
   [[nodiscard]] DistanceAnswer distance(Kind kind, const double* x) const;
-  /// The step that the detector makes of the query's step. It must filter steps for this kind.
+  /// The query's step as the detector filters it. The detector must filter steps for this kind.
   [[nodiscard]] StepAnswer step(Kind kind, const double* x) const;
   /// The time that the last decide() took without copies to and from a device, in ns; 0 if the detector does
-  /// not say it.
+  /// not give it.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const;
 
   /// A detector that answers every query with NEARMISS_NO_COLLISION and computes nothing.

@@ -14,11 +14,11 @@ namespace nearmiss {
 /// The number of queries decided before a batch is timed, to bring the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
-/// Measures the time since its construction by two clocks. Reading the wall clock takes only about 20 ns, but
-/// this clock also counts the time in which another process has the processor. The CPU time is only that of
-/// this thread, or of all threads of this process, but is known less precisely. So the result is the shorter
-/// of the two times. If the work itself waited for a device or a thread, the result is the time by the wall
-/// clock.
+/// Measures, by two clocks, the time since its construction. Reading the wall clock takes only about 20 ns,
+/// but this clock also counts the time in which another process has the processor. The CPU time is only that
+/// of this thread, or of all threads of this process, but is known less precisely. So the result is the
+/// shorter of the two times. If the work itself waited for a device or a thread, the result is the time by
+/// the wall clock.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID
@@ -40,9 +40,9 @@ class Stopwatch {
     long waits;         ///< the number of voluntary context switches
   };
 
-  /// The kernel's own sum over the threads of a process takes the place of CLOCK_PROCESS_CPUTIME_ID. That clock
-  /// only advances with the kernel's ticks while the process has a limit or a timer of CPU time, and a plug-in
-  /// or `ulimit -t` may set one. For a thread, it is the kernel's sum that only advances with ticks.
+  /// For a process, the CPU time is from getrusage(): CLOCK_PROCESS_CPUTIME_ID only advances with the
+  /// kernel's ticks while the process has a limit or a timer of CPU time, which a plug-in or `ulimit -t` may
+  /// set. For a thread, getrusage() only advances with ticks, so a clock gives the CPU time.
   [[nodiscard]] Usage usage() const {
     rusage usage{};
     getrusage(is_of_thread_ ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
@@ -70,8 +70,8 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
 }
 
 /// The shortest time of three tries of `work`, since a disturbance seldom affects all three. The CPU clock is
-/// too inaccurate for most decisions, and reading it takes longer than a decision. So only the wall clock
-/// times short work. If the first try takes long, a Stopwatch times three more tries.
+/// too inaccurate for most decisions, and reading it takes longer than a decision. So the time of short work
+/// is that of the wall clock. If the first try takes long, a Stopwatch times three more tries.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   constexpr std::uint64_t short_time = 5000;  // ns

@@ -54,7 +54,7 @@ struct BoundAnswer {
   Fault fault = Fault::none;                                ///< if not `none`, there is no bound
   std::int32_t fault_code = 0;                              ///< as in Verdict
 
-  /// The answer with this bound. A number that is not a distance is an error.
+  /// The answer with this bound. A bound that is negative or NaN is the fault `error`.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
   /// The bound; NaN if there is none because of a fault.
@@ -74,7 +74,7 @@ struct DistanceAnswer {
   Fault fault = Fault::none;    ///< if not `none`, there is no distance
   std::int32_t fault_code = 0;  ///< as in Verdict
 
-  /// The answer with this distance. A number that is not a distance is a fault.
+  /// The answer with this distance. A distance that is negative or not finite is the fault `invalid`.
   static DistanceAnswer given(double distance, const std::array<double, 4>& weights) {
     const bool is_distance = distance >= 0 && distance <= std::numeric_limits<double>::max();
     return {distance, weights, is_distance ? Fault::none : Fault::invalid};
@@ -89,7 +89,7 @@ struct StepAnswer {
   std::int32_t fault_code = 0;                                  ///< as in Verdict
 
   /// The answer with these positions of `vertices` vertices, and this clearance. A number that is not finite,
-  /// or a negative clearance, is a fault.
+  /// or a negative clearance, is the fault `invalid`.
   static StepAnswer given(const std::array<double, 12>& y, double clearance, int vertices) {
     constexpr double most = std::numeric_limits<double>::max();
     bool is_finite = clearance >= 0 && clearance <= most;
@@ -107,7 +107,7 @@ struct BatchTime {
   std::size_t queries = 0;  ///< the timed queries, without parts of the batch in which a process failed
   std::uint64_t nanoseconds = 0;
   std::uint64_t kernel_nanoseconds =
-      0;  ///< the time without copies to and from a device; 0 if the subject does not say it
+      0;  ///< the time without copies to and from a device; 0 if the subject does not give it
 };
 
 /// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic
@@ -139,8 +139,8 @@ class Subject {
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
   /// The bound that the subject claims: if it reports the query falsely, the smallest distance exceeds the
-  /// separation by at most this length, in the query's unit. Infinity if the subject claims nothing or more
-  /// than the largest double, NaN if it fails to answer.
+  /// separation by at most this length, in the query's unit. Infinity if the subject claims no bound, or one
+  /// above the largest double; NaN if it fails to answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
   /// The distance bound, or the fault because of which there is none.
@@ -148,7 +148,6 @@ class Subject {
     return BoundAnswer::given(distance_bound(query));
   }
 
-  /// bounds[i] = ask_bound(queries[i]); both spans have the same length.
   virtual void ask_bounds(std::span<const Query> queries, std::span<BoundAnswer> bounds) const {
     for (std::size_t i = 0; i < queries.size(); ++i) bounds[i] = ask_bound(queries[i]);
   }
@@ -197,25 +196,24 @@ class Subject {
   /// not be loaded; "" for any other verdict.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
-  /// The last lines on standard error of the process that last ended with a fault like that of the verdict,
-  /// and the stack of the crash if it is known. "" if nothing is known.
+  /// The last lines that a process wrote to standard error before it ended with the verdict's fault, and the
+  /// stack of the crash if it is known. "" if nothing is known.
   [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
 
-  /// How near the query is to the opposite answer: the least factor for the accepting tolerances, taken as
-  /// lengths (D, ψ^½, S, μ^⅓), with which the subject reports the query. The factor is at most 1 if the
-  /// subject reports the query, and larger otherwise. It guides directed search. It is accurate to a few
-  /// bits, and NaN if the subject does not say it.
+  /// How near the query is to the opposite answer: the least factor by which the accepting tolerances, as
+  /// lengths (D, √δ, √ψ, S, ∛μ), must be multiplied so that the subject reports the query. The factor is at
+  /// most 1 if the subject reports the query, and larger otherwise. It guides directed search. It is accurate
+  /// to a few bits, and NaN if the subject does not give it.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that is called as this one, but computes nothing. Its run time is subtracted from that of this
-  /// subject.
+  /// A subject that is called like this one, but computes nothing. Its run time is subtracted from that of
+  /// this subject.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 
-/// The name of a subject, and a description in one line.
 struct SubjectInfo {
   std::string_view name;
   std::string_view about;
@@ -228,7 +226,7 @@ std::vector<SubjectInfo> subjects();
 inline constexpr std::string_view of_scene = "@scene";
 
 /// Makes a built-in subject from its name, or a Plugin from a name with a '/'. NAME may end in options,
-/// :KEY=NUMBER. NAME@B gives the subject the bound B, NAME and NAME@scene give it `given_bound`, in the
+/// :KEY=NUMBER. NAME@B gives the subject the bound B; NAME and NAME@scene give it `given_bound`, also in the
 /// queries' unit of length. This bound replaces every pair's own bound B (§5 of the paper); subjects without
 /// B ignore it. Throws Error for an unknown name or option, or an unusable plug-in.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,

@@ -44,8 +44,8 @@ struct DifferencePolygon {
   }
 };
 
-/// The polygon in a frame in which computations with the polygon neither overflow nor underflow. If X needs
-/// scaling and is not 0, it is in [1, 2) in this frame.
+/// The polygon in a frame in which computations with the polygon neither overflow nor underflow. If the
+/// largest component X of a corner needs scaling and is not 0, it is in [1, 2) in this frame.
 template <Kind kind, class T>
 DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   DifferencePolygon<kind, T> polygon(query);
@@ -105,20 +105,20 @@ template <Kind kind, class T, std::size_t size>
   return nearest;
 }
 
-/// The bound of a step's rounding errors, as a distance in units of εX.
+/// The bound of a step's rounding errors, as a distance in units of εX (X: see DifferencePolygon).
 ///
 /// Let every operation have a relative error of at most u = ε/2. A component of a corner x + t v has an error
 /// of 8uX: uX from x, 4uX from v, 2uX from the product and uX from the sum. (v = y - x, where y is the corner
 /// at t = 1, has an error of u(|x| + |y| + |v|), and |v| <= 2X.) The computed direction n (`beyond_until`)
 /// has a length of at most 1 + 4u: it is a vector whose largest component is 1, divided by its length. The
-/// magnitudes of the components of n add up to at most √3. So a dot product of n and a vector has √3 times
-/// the error of the vector's components, and an error of 3u · √3 times the largest component from its own
-/// operations.
+/// magnitudes of the components of n add up to at most √3. So a dot product of n and a vector has two errors:
+/// √3 times that of the vector's components and, from its own operations, 3u · √3 times the vector's largest
+/// component.
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
-/// - The step is a quotient whose numerator has two roundings. So it has a relative error of 3u, in which
-///   n·corner changes by at most 3u · √3 X <= 6uX.
-/// - t + step has an error of u, in which a corner moves by at most 2√3 uX <= 4uX.
+/// - The step is a quotient whose numerator has two roundings. So it has a relative error of 3u; in 3u of the
+///   step, n·corner changes by at most 3u · √3 X <= 6uX.
+/// - t + step has an error of u; in the time u, a corner moves by at most 2√3 uX <= 4uX.
 /// The sum is 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
@@ -137,8 +137,8 @@ inline constexpr int advance_reach = 128;
 /// the sum is 165εX.
 inline constexpr int advance_bound = 192;
 
-/// The largest number of steps. Primitives that slide past each other at a tiny distance could need any
-/// number.
+/// The largest number of steps. Primitives that slide past each other at a tiny distance could take any
+/// number of steps.
 inline constexpr int advance_iterations = 1000;
 
 namespace detail {

@@ -84,8 +84,7 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
   }
 }
 
-// The nodes, and the values of F at the nodes. The nodes are 0, the critical points of F in (0, 1), and 1.
-// Interval i is between the nodes i and i + 1.
+// The nodes of `solve_cubic`, and the values of F at the nodes. Interval i is between the nodes i and i + 1.
 template <class T>
 struct Nodes {
   std::array<T, 4> time{0}, value;

@@ -22,9 +22,9 @@ T fourth_root_of_epsilon() {
 }
 
 /// The tolerances of §4 for pairs with the bound B. VV and VE are the tests of Algorithms 1 and 2. According
-/// to the paper, its closed forms for the tolerances are failure-proof if μ >= 33492 B³ε. With e = ε^¼, this
-/// holds for double (64 e³ = 64/2^39 > 33492/2^52) and not for float. According to constraints.hpp, the
-/// closed forms are failure-proof for every scalar of 13 bits or more.
+/// to the paper, its closed forms for the tolerances are failure-proof if μ >= 33492 B³ε. Its μ, 64 B³e³ with
+/// e = ε^¼, is large enough for double (64/2^39 > 33492/2^52) and not for float. According to
+/// constraints.hpp, the closed forms are failure-proof for every scalar of 13 bits or more.
 template <class T>
 struct Tolerances {
   T delta;    ///< δ, a length²: the rounding error of the squared distance in VV (§4.2)

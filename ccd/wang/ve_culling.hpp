@@ -1,5 +1,5 @@
-// The culling of vertex-edge (VE) tests (§5): decides whether the computed roots prove that a pair needs
-// none.
+// The culling of vertex-edge (VE) tests (§5): decides whether the computed roots prove that a pair needs no
+// such tests.
 #pragma once
 
 #include <algorithm>
@@ -27,24 +27,24 @@ enum class VeCulling : std::uint8_t {
 ///
 /// The positions have an error of ε B. The velocities have one of 3ε B, or 4ε B for the p of edges, which may
 /// be within only 2B at one end. By Theorem 4.1, a value bounded by B_f has an error of at most
-/// ((1 + ε)^k - 1) B_f. For a, B_f is 6 B³ and k is 15; for b, 18 B³ and 15; for c, 18 B³ and 12; for d, 6 B³
-/// and 8: together 624 ε B³. In Horner's rule, the terms of a, b, c and d have 6, 5, 3 and 1 roundings:
-/// 36 + 90 + 54 + 6 = 186 ε B³. The sum is 810 and, with all terms of higher order, at most 865 for
-/// ε <= 2^-10 (tests/proofs/). For rounding to nearest, 334 is proven (proven.hpp).
+/// ((1 + ε)^k - 1) B_f. For the coefficient a, B_f is 6 B³ and k is 15; for b, 18 B³ and 15; for c, 18 B³ and
+/// 12; for d, 6 B³ and 8: together 624 ε B³. In Horner's rule, the terms of a, b, c and d have 6, 5, 3 and 1
+/// roundings: 36 + 90 + 54 + 6 = 186 ε B³. The sum is 810 and, with all terms of higher order, at most 865
+/// for ε <= 2^-10 (tests/proofs/). For rounding to nearest, 334 is proven (proven.hpp).
 inline constexpr int evaluation_error = 865;
 
-/// The m of `solve_cubic` in units of B³ε. Between two times in an interval between nodes, F with its
-/// computed coefficients leaves the range of its values at these two times by at most m: 3 · 18, plus terms
-/// of second order, for ε <= 2^-10.
+/// The m of `solve_cubic` in units of B³ε. If s and t are in one interval between two nodes, F with its
+/// computed coefficients stays between F(s) and F(t) from s to t, up to an error of m: 3 · 18, plus terms of
+/// second order, for ε <= 2^-10.
 inline constexpr int node_error = 60;
 
-/// The bound of the error of comparing a weight with N·N, in units of B⁴ε, by Theorem 4.1 and in every
-/// rounding mode. x + t v has B_f = B and k = 6, or 7 for the p of edges. N, p × q and p × r have B_f = 2 B²
-/// and k = 14, or 15 for products with the p of edges. A weight, the dot product of N and such a product, has
-/// B_f = 12 B⁴ and k = 14 + 14 + 1 + 2 = 31, or 32 for edges. N·N has 12 B⁴ with k = 31. For vertex-triangle,
-/// the sum of two weights has 24 B⁴ with k = 32, so the bound is 24 · 32 + 12 · 31 = 1140. For edges, it is
-/// only 12 · 32 + 12 · 31 = 756. The constant has room for terms of second order, for ε <= 2^-10. For
-/// rounding to nearest, 423 is proven.
+/// The bound of the error of comparing a weight with N·N, in units of B⁴ε, by Theorem 4.1 (B_f and k as
+/// above) and in every rounding mode. x + t v has B_f = B and k = 6, or 7 for the p of edges. N, p × q and
+/// p × r have B_f = 2 B² and k = 14, or 15 for products with the p of edges. A weight, the dot product of N
+/// and such a product, has B_f = 12 B⁴ and k = 14 + 14 + 1 + 2 = 31, or 32 for edges. N·N has 12 B⁴ with
+/// k = 31. For vertex-triangle, the sum of two weights has 24 B⁴ with k = 32, so the bound is
+/// 24 · 32 + 12 · 31 = 1140. For edges, it is only 12 · 32 + 12 · 31 = 756. The constant has room for terms
+/// of second order, for ε <= 2^-10. For rounding to nearest, 423 is proven.
 inline constexpr int weight_error = 1160;
 
 /// The bound of the error of `weight_spread`, ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h, in units of B⁴ε, for h <= 1. Here

@@ -102,7 +102,7 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 /// x_0i × x_ji without the replaced terms, each with the c' of `solve_quadratic` in place of c. Let G be the
 /// sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). Start at t_E, and go
 /// in a direction in which G does not rise, until it would rise. The kinks of -S‖x_ji‖∞ are concave, and G
-/// does not begin to rise at a concave kink. So the end is a time t' of one of these kinds:
+/// does not begin to rise at a concave kink. So this walk ends at a time t' of one of these kinds:
 /// - 0 or 1 (case 1).
 /// - A kink of some |Q_k|, which is a root of Q_k (case 4). The candidate for this root, or 1 if its computed
 ///   time is beyond 1, is within 6ω of the root, and G changes at a rate of at most 30 B² + SB.

@@ -49,7 +49,7 @@ inline std::string too_small(double given, double own) {
   return message.str();
 }
 
-// The pair with a given B in place of its own, in a frame in which the given B is in range. Throws Error if
+// The pair with a given B in place of its own, in a frame in which the given B is in_range(). Throws Error if
 // the given B is smaller than the pair's own.
 template <Kind kind, class T>
 Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double given) {
@@ -69,11 +69,11 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 // Sets the pair's B to its own bound, or to the given B. Returns whether `wang_tests` can decide the pair as
 // it is. If not, the caller must call `wang_careful`, which throws Error if the given B is too small.
 //
-// The function returns true if both bounds are in range, the given one is at least as large as the pair's
+// The function returns true if both bounds are in_range(), the given one is at least as large as the pair's
 // own, and all vectors are within B. Then `wang_careful` would give the same verdict, since it would change
 // neither the frame nor the order of end points. It would change the frame if a vector were not finite, but
-// all are: if an edge or a velocity were infinite, the pair's own B would not be in range; p is within B; and
-// a velocity is NaN only if a position is infinite.
+// all are: if an edge or a velocity were infinite, the pair's own B would not be in_range(); p is within B;
+// and a velocity is NaN only if a position is infinite.
 template <Kind kind, class T>
 auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
   form_bound(pair);
@@ -110,7 +110,7 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 // within √s, and velocities have errors of 4ε √s. So the errors of F and of the clearance are together below
 // 1000 ε s^(3/2) in every rounding mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The
 // order of end points does not matter either, since it only changes the sign of F*. The code compares the
-// squares of both sides, to avoid a square root. If s is not in range, s³ might overflow or underflow, and
+// squares of both sides, to avoid a square root. If s is not in_range(), s³ might overflow or underflow, and
 // the answer is false.
 template <Kind kind, class T, class Rule>
 auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {

@@ -86,8 +86,8 @@ class WangLanes {
     return points;
   }
 
-  /// Calls visit(lane) for each lane that has an element, if the lanes hold the elements first, first + 1,
-  /// ... of a list with `size` elements.
+  /// The lanes hold the elements first, first + 1, ... of a list with `size` elements. Calls visit(lane) for
+  /// each lane that has an element.
   template <class Visit>
   static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
     const std::size_t count = std::min<std::size_t>(n, size - first);
@@ -134,8 +134,8 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. Of the other pairs,
-  /// keeps F, W and B of those that need no other frame and no other order of end points.
+  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. Keeps F, W and B of
+  /// the other pairs, except those that need another frame or another order of end points.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;
@@ -169,7 +169,7 @@ class WangLanes {
             take(columns_[4]),
             take(columns_[5])};
   }
-  /// The polynomials of the queries at the places place(lane) in `left_`.
+  /// The polynomials of the queries left_[place(lane)], one in each lane.
   template <class PlaceOfLane>
   Polynomial polynomial_at(const PlaceOfLane& place) const {
     return polynomial([&](const auto& column) {
@@ -297,7 +297,7 @@ class WangLanes {
     }
   }
 
-  /// The verdict on a query whose candidates are `first` .. `end` - 1.
+  /// The verdict on a query with the candidates from `first` to `end` - 1.
   [[nodiscard]] Verdict verdict(std::size_t first, std::size_t end) const {
     bool culled = true;
     for (std::size_t i = first; i < end; ++i) {

@@ -104,13 +104,13 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
                      T(residual / 2));
 }
 
-/// A time before which there is no contact. There must be none before `from`.
+/// A time before which there is no contact. There must be no contact before `from`.
 ///
 /// The time t0 of a contact is a root of the exact F. The claim of `solve_cubic` holds for each interval
 /// between two nodes, and for a part of an interval: if t0 is in the interval, `root_in_interval` represents
 /// t0. So an interval has no contact if `root_in_interval` finds no time, or if `excludes_collision` is true
-/// for this time. In the first of the other intervals, there is no contact before the time that `before_root`
-/// gives.
+/// for this time. In the first interval without such a proof, there is no contact before the time that
+/// `before_root` gives.
 template <Kind kind, class T>
 T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);

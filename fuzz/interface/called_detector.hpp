@@ -15,7 +15,7 @@ namespace nearmiss {
 /// a fault.
 class CalledDetector final : public DescribedSubject {
  public:
-  /// The detector's functions get `state`. With `at_once`, several threads may call them at the same time.
+  /// The detector's functions get `state`. With `at_once`, several threads may call these functions at once.
   CalledDetector(const nearmiss_subject& detector, void* state, bool at_once);
 
   using DescribedSubject::decide;

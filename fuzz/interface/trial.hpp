@@ -74,7 +74,6 @@ class TrialReport {
 
   /// Whether the CCD was asked, and never failed.
   [[nodiscard]] bool clean() const { return result_->is_clean != 0; }
-  /// Counters of all answers.
   [[nodiscard]] const nearmiss_trial_counts& counts() const { return result_->all; }
   /// Counters of the answers to queries of a kind.
   [[nodiscard]] const nearmiss_trial_counts& counts(Kind kind) const {

@@ -1,4 +1,4 @@
-// libFuzzer target: a late time of impact of a subject that promises lower bounds.
+// libFuzzer target: a time of impact that is too late, from a subject that promises lower bounds.
 #include <algorithm>
 #include <cmath>
 

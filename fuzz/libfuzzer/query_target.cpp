@@ -106,7 +106,6 @@ std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   return query;
 }
 
-/// The query that `asked` returns, or a default query if it returns nothing.
 Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
 
 /// Throws Error if the subject on trial does not exist, or if the target cannot test it.

@@ -32,19 +32,19 @@ enum class Signal {
   filter_stage,  ///< the stage of the oracle's filter
   true_stage,    ///< the stage at which the subject decided a query that collides
   false_stage,   ///< the stage at which the subject decided any other query
-  margin,        ///< the part of the subject's tolerance that a collision needs
+  margin,        ///< the share of its tolerance that the subject needs to report a collision
   distance,      ///< the distance of a false positive, divided by the bound that the subject claims
   agreement,     ///< how many digits the subject's time has in common with the exact earliest time
   answers,       ///< the answer of each exact method of the oracle
   details,       ///< what else each exact method reports (`Answer::detail`)
 };
 
-/// Shows libFuzzer a value. Each signal and each kind of query has values of its own, from 0 to 127. Larger
-/// values count as 127.
+/// Shows libFuzzer a value from 0 to 127; larger values count as 127. Each pair of a signal and a kind of
+/// query has values of its own.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows libFuzzer how near a factor below 1 is to 1. The steps between factors become finer towards 1, so
-/// that every approach reaches a new step. NaN shows nothing.
+/// Shows libFuzzer how near `factor`, a number below 1, is to 1, as the number of a step. The steps become
+/// finer towards 1. NaN shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
 /// Writes the query as a case of the failure `what` into the folder that the variable NEARMISS_CASES names,

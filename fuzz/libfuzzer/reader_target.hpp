@@ -18,8 +18,8 @@ void expect(bool condition, const char* what);
 /// Checks that a case is the same to the last bit after it is written as text and read again.
 void expect_round_trip(const Case& each);
 
-/// Checks that a mesh has at least one point, finite coordinates, and primitives that only join existing
-/// points.
+/// Checks that a mesh has at least one point, finite coordinates, and no primitive with a point that does not
+/// exist.
 void expect_sound(const Mesh& mesh);
 
 }  // namespace nearmiss::libfuzzer

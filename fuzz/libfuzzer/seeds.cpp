@@ -216,7 +216,7 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     write("read_store", name + ".sql", statements_of(each, folder / "store.db"));
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
-  constexpr std::size_t one_in_with_meshes = 10;  // few meshes, since mesh files have equal parts
+  constexpr std::size_t one_in_with_meshes = 10;  // few meshes, since mesh files differ little
   for (std::size_t number = 0; const Case& each : make_cases(cases)) {
     for (const char* target : {"false_negative", "late", "refuted_bound", "oracle_disagreement"})
       write(target, each.name, bytes(each.query));

@@ -29,20 +29,20 @@ Mesh read_mesh(const std::filesystem::path& file);
 Mesh parse_obj(std::string_view text, const std::string& name);
 
 /// Reads an OFF text file with a vertex or a face on each line. Comments, normals, colours and textures are
-/// skipped. Throws Error as parse_obj does, and also if the file is too short or too long, is binary, is a
-/// SKEL file, or has another dimension than 3.
+/// skipped. Throws Error as parse_obj does, and also if the file has fewer or more lines than it announces,
+/// is binary, is a SKEL file, or has another dimension than 3.
 Mesh parse_off(std::string_view text, const std::string& name);
 
 /// Reads a PLY file, text or binary in either byte order: the element vertex with x, y and z of type float or
 /// double, and the element face with lists of int or uint. Other elements and properties are skipped, except
 /// the elements edge, halfedge and tristrips, which are refused because they contain primitives. Throws Error
-/// as parse_off does.
+/// as parse_obj does, and also if the file is shorter or longer than its header says.
 Mesh parse_ply(std::string_view text, const std::string& name);
 
 /// Reads an STL file, text or binary; several solids become one mesh. In this format, each triangle has three
 /// points of its own. Equal points (0 and -0 are equal) become one point, with the coordinates of the first
-/// of them. Two frames have the same primitives only if the same corners coincide in both. Throws Error as
-/// parse_off does.
+/// of them. So two frames have the same primitives only if the same corners of triangles coincide in both.
+/// Throws Error as parse_ply does.
 Mesh parse_stl(std::string_view text, const std::string& name);
 
 }  // namespace nearmiss

@@ -36,8 +36,7 @@ class Lines {
   /// The text after this line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
-  /// The number of this line, from 1. A line that continues in the next ones has the number of its first
-  /// part.
+  /// The number of this line, from 1; that of its first part, if this line continues in the next ones.
   [[nodiscard]] long number() const { return number_; }
 
   /// "NAME:LINE", for messages.

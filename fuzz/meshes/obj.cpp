@@ -36,7 +36,7 @@ Vector3<double> coordinates(const Lines& lines) {
   return {parse_number(words[1], where), parse_number(words[2], where), parse_number(words[3], where)};
 }
 
-/// Adds the vertices of a face or polyline to a list, numbered from 0. `points` is the number of points that
+/// Adds the vertices of a face or polyline, numbered from 0, to a list. `points` is the number of points that
 /// are defined before this line.
 void add_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
   const auto& words = lines.words();

@@ -26,7 +26,7 @@ int parse_count(std::string_view word, int largest, std::string_view what, const
   return *count;
 }
 
-/// The words after the keyword; if no word follows the keyword, the words of the next line.
+/// The words after the keyword OFF; if its line has no more words, the words of the next line.
 Words after_keyword(Lines& lines) {
   const bool here = lines.next();
   const std::string_view keyword = here ? lines.words()[0] : std::string_view();

@@ -20,7 +20,7 @@ namespace {
 
 // --- the header, which lists the numbers in the file and their order --------------------------------------
 
-/// A type of numbers. A double can represent each of its values.
+/// A type of numbers. A double can represent each number of this type.
 struct NumberType {
   std::string_view name, other_name;
   std::size_t bytes;
@@ -215,13 +215,12 @@ class TextNumbers {
   Lines& lines_;
 };
 
-/// The numbers after the header, as bytes.
+/// The numbers after the header, as bytes. The functions are those of TextNumbers.
 class BinaryNumbers {
  public:
   BinaryNumbers(std::string_view bytes, Encoding encoding, std::string_view name)
       : bytes_(bytes), encoding_(encoding), name_(name) {}
 
-  /// The next number; nothing at the end of the file.
   std::optional<double> next(const NumberType& type) {
     if (bytes_.size() < type.bytes) return std::nullopt;
     std::uint64_t bits = 0;
@@ -235,7 +234,6 @@ class BinaryNumbers {
     return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
   }
 
-  /// Skips `count` numbers of this type. Returns false if the file has fewer.
   bool skip(const NumberType& type, std::uint64_t count) {
     if (count > bytes_.size() / type.bytes) return false;
     bytes_.remove_prefix(count * type.bytes);

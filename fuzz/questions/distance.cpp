@@ -184,7 +184,7 @@ std::string DistanceQuestion::signature(const Subject& subject, const Judged& ju
 
 namespace {
 
-/// The query of a search point, with its vertices at rest where they are at t = 0.
+/// The query of a point of the search space, with its vertices at rest where they are at t = 0.
 Query query_at_rest(Kind kind, SearchPoint point) {
   point.q.end = point.q.start;
   point.r.end = point.r.start;

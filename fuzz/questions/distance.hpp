@@ -48,11 +48,11 @@ struct DistanceError {
   [[nodiscard]] double under_by_size() const;
 };
 
-/// Judges an answer without a fault. The query must be at rest, and rounded as the subject rounds it.
+/// Judges an answer that has no fault. The query must be at rest, and rounded as the subject rounds it.
 DistanceError error_of(const Query& query, const DistanceAnswer& answer);
 
-/// A distance minus the error that the judge tolerates. The result is rounded, and may be negative. The
-/// distance is over-reported if the result is positive and at least d; this comparison is exact.
+/// The answer `distance` minus the error that the judge tolerates. The result is rounded, and may be
+/// negative. The answer is over-reported if the result is positive and at least the exact distance.
 double over_limit(const Query& query, double distance);
 
 /// DistanceError::over_reported for the answer `distance`, in less time than error_of(). The query must be at
@@ -74,7 +74,7 @@ struct DistanceQuestion {
     [[nodiscard]] std::string_view word() const;
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;
-    /// For an over-reported distance, a proof that the primitives come within a smaller distance.
+    /// For an over-reported distance, a proof that the primitives are closer than the subject says.
     [[nodiscard]] std::string certificate() const;
   };
 

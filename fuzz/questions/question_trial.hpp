@@ -1,5 +1,5 @@
-// Trials of two further questions: the distance of primitives at rest (distance.hpp), and the step that a
-// filter permits (step.hpp).
+// Trials of two questions other than collision: the distance of primitives at rest (distance.hpp), and the
+// step that a filter permits (step.hpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -50,8 +50,8 @@ struct QuestionFinding {
 template <class Question>
 struct QuestionResults {
   std::map<std::pair<std::string, Kind>, typename Question::Counts> counts;  ///< by subject and kind
-  /// Answers by factors such as the angle. In this table, every answer counts as a collision, and an unsafe
-  /// answer as a missed collision.
+  /// Answers by the value of a factor (a property that a family varies, such as the angle). In this table,
+  /// every answer counts as a collision, and an unsafe answer as a missed collision.
   FactorTable factors;
   std::vector<QuestionFinding> findings;  ///< one of each kind (see take()), ordinary ones first
 
@@ -216,7 +216,7 @@ class QuestionTrial {
     work.results.findings.push_back(std::move(finding));
   }
 
-  /// Adds results, but only the first finding of each failure, subject, signature and class.
+  /// Adds results, but no finding whose failure, subject, signature and class are those of an earlier one.
   void take(Results&& results) {
     for (const auto& [key, each] : results.counts) asked_ += each.queries;
     std::erase_if(results.findings, [&](const QuestionFinding& each) {
@@ -277,8 +277,8 @@ std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 std::vector<Family> search_families(std::string name, std::string about,
                                     std::function<Query(Random&, Kind)> make);
 
-/// The families among which a user can choose: with `at_rest`, first the families at rest; then those of
-/// campaigns.
+/// The families among which a user can choose: those of campaigns, and before them, with `at_rest`, the
+/// families at rest.
 std::vector<Family> families_of_questions(bool at_rest);
 /// The families that are asked by default: families_of_questions() without the extreme families, in which
 /// even careful functions overflow.

@@ -144,7 +144,7 @@ std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
   const auto sink_meeting = [&](const Candidate& candidate) {
     if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
   };
-  // Primitives with a common vertex need no exact test, since their boxes meet; the passer counts them.
+  // Pairs with a common vertex need no exact test, since their boxes meet; `passer` only counts them.
   CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
   const bool edges = !has_triangle(kind_);
   const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());

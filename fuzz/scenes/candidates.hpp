@@ -43,7 +43,7 @@ inline const IsOver never_over = [] { return false; };
 /// axis (oracle/filter/box.hpp). Boxes that only touch also meet. Pairs come in the order of rows (pair_rows
 /// below). Within a row, they come in the order of the second primitive: a triangle, or an edge after the
 /// row's edge. A part consists of consecutive rows; the division into parts depends only on the number of
-/// rows. Any thread may search any part at any time.
+/// rows. Any thread may search any part.
 class CandidateFinder {
  public:
   /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` returns
@@ -51,8 +51,8 @@ class CandidateFinder {
   CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
   CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh. A new CandidateFinder would find the same pairs, but
-  /// takes longer to make. After an exception, the object must not be used any more.
+  /// Goes on to `mesh`, another step of the same scene. After an exception, the object must not be used any
+  /// more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;

@@ -76,7 +76,7 @@ class CellTree {
   /// Throws Stopped when `is_over` returns true.
   CellTree(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// Turns this into the tree of another step of the same mesh. Throws Stopped when `is_over` returns true.
+  /// Goes on to `boxes`, those of another step of the same scene. Throws Stopped when `is_over` returns true.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
   /// The median size of the bounds of the lowest level's groups. If there are many groups, the median over a
@@ -106,7 +106,7 @@ class CellTree {
 
   void choose_groups(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
   /// Computes the boxes of all levels. Returns, for each level, the sum of the sizes of the level's boxes,
-  /// divided by that sum for level 0.
+  /// divided by that sum for level 0, which has the primitives' boxes.
   std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
 
   std::size_t count_;

@@ -14,8 +14,8 @@ namespace nearmiss {
 
 struct ClaimedPrecision {
   std::string subject;
-  /// The largest bound on the distance of a false positive that the subject claims for an asked pair, in the
-  /// scene's unit of length; infinity if the subject claims no bound.
+  /// The largest bound that the subject claims on the distance of a false positive, over the pairs about
+  /// which it is asked, in the scene's unit of length; infinity if the subject claims no bound.
   double claimed = 0;
   double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
 };

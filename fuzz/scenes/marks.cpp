@@ -23,7 +23,7 @@ constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
 constexpr std::uint32_t missed_by(std::size_t subject) { return 8U << (2 * subject); }
 
-/// The mark of the primitive with the vertices `primitive`; 0 if it has none.
+/// The mark (a set of the bits above) of the primitive with the vertices `primitive`; 0 if it has none.
 template <class Key>
 std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& primitive) {
   const auto found = marks.find(primitive);

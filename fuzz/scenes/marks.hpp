@@ -18,7 +18,8 @@ namespace nearmiss {
 class Marks {
  public:
   void add_collision(const Candidate& candidate);
-  /// Marks a pair by the outcome of the subject with this index. The 16th and later subjects leave no mark.
+  /// Marks a pair that collides, or that the subject with this index misses or falsely reports. The 16th and
+  /// later subjects leave no mark of their own.
   void add(const Candidate& candidate, std::size_t subject, const Outcome& outcome);
   /// Marks an edge and a triangle that pass through each other.
   void add_tangled(const std::array<int, 2>& edge, const std::array<int, 3>& triangle);

@@ -14,15 +14,15 @@
 
 namespace nearmiss {
 
-/// Queries by kind, without entries for kinds that have none.
+/// Queries by kind; a kind without queries has no entry.
 using QueriesByKind = std::map<Kind, std::vector<Query>>;
 
-/// A random query of a kind. All queries of this kind have the same probability.
+/// A random query of a kind; all queries of this kind are equally likely.
 const Query& drawn(Random& random, const QueriesByKind& queries, Kind kind);
 
 /// A random sample of pairs. Each pair gets a random number. For each kind, the pairs with the smallest
-/// numbers are kept. The random number depends only on the pair's vertices and on the number of its motion,
-/// so the sample does not depend on the order of the pairs.
+/// numbers are kept. The random number depends only on the pair's vertices and on the number of the motion
+/// (a moving mesh), so the sample does not depend on the order of the pairs.
 class PairSample {
  public:
   /// Keeps at most `most` pairs of each kind.
@@ -46,9 +46,9 @@ class PairSample {
 };
 
 /// Families that draw from the given queries. Half of the drawn queries get contact: one primitive is moved
-/// so that the primitives touch at a random time, up to rounding. Then a query stays as it is, is perturbed,
-/// or has some coordinates moved by ulps. `near` has the vt and ee queries that ask for contact, and
-/// `near-within` has the vt and ee queries with separations. v-near and v-near-within have the vv and ve
+/// so that the primitives touch at a random time, up to rounding. Then each query stays as it is, is
+/// perturbed, or has some coordinates moved by ulps. `near` has the vt and ee queries that ask for contact,
+/// and `near-within` has the vt and ee queries with separations. v-near and v-near-within have the vv and ve
 /// queries. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 

@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The time spent on these decisions and in `ask`.
+  /// The time to decide what to do with the pairs, and the time in `ask`.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();

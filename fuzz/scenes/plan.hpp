@@ -39,8 +39,7 @@ using AskSink = std::function<void(const AskedPairs&)>;
 /// collides.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
-/// Divides the pairs of a step into parts. Any thread may process any part at any time. The parts do not
-/// depend on the number of threads.
+/// Divides the pairs of a step into parts, which any thread may process.
 class Plan {
  public:
   /// The mesh must outlive this object, unless `move` replaces it. `jobs` threads make the parts. Throws
@@ -48,7 +47,7 @@ class Plan {
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 
-  /// Replaces the mesh by another step of the same mesh. Making a new Plan would give the same result, but
+  /// Goes on to `mesh`, another step of the same scene. Making a new Plan would give the same result, but
   /// takes longer. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
@@ -61,8 +60,8 @@ class Plan {
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                  const IsOver& is_over) const;
 
-  /// The funnels of the pairs that are in no part, because their boxes do not meet. The time in these funnels
-  /// is the time to make the parts. `parts` is the sum of the funnels of all parts.
+  /// The counts of the pairs that are in no part, because their boxes do not meet, and the time to make the
+  /// parts. `parts` is the sum of the counts of all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:

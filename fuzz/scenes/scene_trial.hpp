@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// Runs trials over the steps of a scene. Holds the results of only a few parts of a step at a time.
+/// Runs trials over the steps of a scene. Has the results of only a few parts of a step in memory at a time.
 class SceneTrial {
  public:
   SceneTrial(const Scene& scene, LeaveOut leave_out, Trials& trials)

@@ -25,8 +25,8 @@ struct Verification {
 
 /// Asks the subjects and the oracle about every pair of a step that the plan leaves out. If the boxes of a
 /// pair do not meet, the oracle must find no collision; if the pair is at relative rest or in relative
-/// translation, the oracle must agree with the plan. The plan's tree must find exactly the pairs whose boxes
-/// meet. `progress` receives the completed share, and returns whether to continue.
+/// translation, the oracle must agree with the plan. The plan must find exactly the pairs whose boxes meet.
+/// `progress` receives the completed share, and returns whether to continue.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 

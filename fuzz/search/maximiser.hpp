@@ -24,7 +24,7 @@ class Maximiser {
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// With `touching`, points keep their gap. Step sizes are drawn between `finest_step` and 0.5. With
+  /// With `touching`, the gap is not changed. Step sizes are drawn between `finest_step` and 0.5. With
   /// `moves_vertices`, about half of the optimisations move vertices instead of the coordinates of
   /// SearchPoint::visit(); such moves break contacts.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective,

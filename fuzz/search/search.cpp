@@ -49,8 +49,7 @@ class Searched {
     return answer.fault == Fault::time ? if_slow() : value(answer);
   }
 
-  /// Counts a search that ended because the subject exceeded its time limit. After a few such searches, the
-  /// subject is not asked any more.
+  /// Counts a search that ended because the subject exceeded its time limit.
   void count_slow_search() const { ++slow_searches_; }
 
  private:
@@ -69,9 +68,9 @@ double reach(const Subject& subject, const Query& query) {
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives in a search. It is smaller than usual if the subject's reach is small,
-/// except among vv and ve queries: their reach is a distance minus the separation h, and may be small for
-/// every subject.
+/// The smallest size of primitives in a search. It is smaller than usual if reach() is small, except for vv
+/// and ve queries, for which reach() is a distance minus the separation h, and may be small for every
+/// subject.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
@@ -106,8 +105,8 @@ struct Mixture {
   }
 };
 
-/// A point near `point` whose primitives meet. With `exactly`, it is on a grid, and the primitives touch
-/// exactly. Otherwise, they come within h, up to rounding errors.
+/// A search point near `point` whose primitives meet. With `exactly`, it is on a grid, and the primitives
+/// touch exactly. Otherwise, the primitives come within h of each other, up to rounding errors.
 SearchPoint meeting(const SearchPoint& point, bool exactly, double h) {
   return exactly ? on_grid(point) : with_gap_within(point, h);
 }
@@ -141,7 +140,7 @@ Query search_miss(const Searched& subject, Random& random, Kind kind) {
 
 Query search_far(const Searched& subject, Random& random, Kind kind) {
   const double h = subject.separation(random, kind);
-  // The objective of a collision, from -1 to 0. It grows as the smallest distance approaches the separation.
+  // The value of a query that collides, from -1 to 0. It grows as the smallest distance approaches h.
   const auto depth_of = [&](const Query& query) {
     return h == 0 ? 0 : std::min(minimum_distance(query).hi / h - 1, 0.0);
   };
@@ -178,8 +177,8 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// time - t*. The accuracy of t* is `rough_time`, or `least` if the two times cannot be told apart with
-  /// that.
+  /// time - t*. t* has the accuracy `rough_time`, or `least` if `rough_time` does not show which of the two
+  /// times is earlier.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);
@@ -189,8 +188,9 @@ struct GivenTime {
   static constexpr double least = 0x1p-50;
 };
 
-/// The value of a time for SearchFor::late. Any late time has a higher value than any other time, and later
-/// times have higher values. Among the other times, a smaller (t* - time) / t* gives a higher value.
+/// The value of a time for SearchFor::late. A late time (EarliestTime::makes_late) has a larger value than
+/// every other time. The value of a late time grows with time - t*; any other time has a larger value, the
+/// smaller (t* - time) / t* is.
 double lateness(const GivenTime& given) {
   constexpr double late = 200;
   const double least = GivenTime::least;
@@ -239,7 +239,7 @@ Query search_time(const Searched& subject, Random& random, Kind kind) {
 
 // --- families -------------------------------------------------------------------------------------------
 
-/// A directed search. The searches below are in the order of SearchFor.
+/// A directed search. `all_searches` is in the order of SearchFor.
 struct Search {
   std::string_view prefix;  ///< the start of the family's name
   std::string_view about;

@@ -21,7 +21,7 @@ enum class SearchFor {
   misses,
   /// "search-far-NAME": the farthest false positive, relative to the subject's claimed bound, or to wang's
   /// bound if the subject claims none. A false positive that refutes the bound ends the search. If a search
-  /// finds no false positive, it returns another query.
+  /// finds none, it returns a query that is no false positive.
   far,
   /// "search-late-NAME", for a subject that gives times: the collision with the latest time, compared with
   /// t*, the exact earliest time. If the search found a time after t*, it returns the query with the largest
@@ -38,15 +38,14 @@ enum class SearchFor {
 /// the primitives still meet. The search for misses maximises Subject::needed_tolerance(). If the subject
 /// does not know this tolerance, the search maximises a random mixture of properties that make a contact
 /// hard: a grazing motion, a small angle between the primitives, a small barycentric weight, unequal edges, a
-/// time near 0 or 1. The search for far false positives also moves single vertices: a change of a contact or
-/// gap moves most vertices, after which wang's plane culling rejects nearly every far pair. A search starts
-/// at random points and continues from the best point so far. A query over the subject's time limit ends the
-/// search; after a few such searches, the subject is not asked any more. Making a query throws Stopped when
-/// `stop` is due. The subject and `stop` must outlive the family.
+/// time near 0 or 1. The search for far false positives also moves single vertices (README.md). A search
+/// starts at random points and continues from the best point so far. A query over the subject's time limit
+/// ends the search; after a few such searches, the subject is not asked any more. Making a query throws
+/// Stopped when `stop` is due. The subject and `stop` must outlive the family.
 ///
 /// With a separation (parse_family_separation), the name ends with ~SEPARATION. Each search has one
-/// separation h > 0. It moves among queries in which two points of the primitives come within h; a smallest
-/// distance near h is a further property that makes a query hard.
+/// separation h > 0, and moves among queries in which two points of the primitives come within h of each
+/// other. A smallest distance near h is a further property that makes a query hard.
 Family search_for(SearchFor what, const Subject& subject, const Stop& stop = Stop::never(),
                   std::string_view separation = {});
 
@@ -55,7 +54,7 @@ Family among_vertices(Family search);
 
 /// All searches for a subject: for misses, far false positives, and, if it gives times, late and early ones.
 /// If the subject decides vv or ve, the searches also run among vv and ve queries. If `separation` is empty,
-/// each of these searches draws one: "v-search-miss-NAME~drawn".
+/// each search among vv and ve queries draws a separation: "v-search-miss-NAME~drawn".
 std::vector<Family> searches(const Subject& subject, const Stop& stop = Stop::never(),
                              std::string_view separation = {});
 

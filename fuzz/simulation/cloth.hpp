@@ -17,8 +17,8 @@ namespace nearmiss {
 ///
 /// A step uses the backward Euler method. Its equations are solved by alternating between the directions of
 /// all springs and the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
-/// mass-spring systems"). The equations for the positions alone have a constant, positive definite matrix.
-/// The implicit step is stable for any stiffness; a stiff cloth only converges more slowly.
+/// mass-spring systems"). The equations for the positions alone have a constant, positive definite matrix. A
+/// stiffer cloth converges more slowly.
 class Cloth {
  public:
   /// `held` says for each point whether the caller moves it. `step` is in seconds. Throws Error if the

@@ -10,23 +10,24 @@
 namespace nearmiss {
 
 /// Changes the positions at the end of a step, so that primitives near each other do not come nearer. The
-/// motion of a point in the step is its velocity times the length of the step. Held points are never moved:
-/// their mass is infinite.
+/// motion of a point in the step is its velocity times the length of the step. Held points, which follow the
+/// frames of the scene, are not changed: their mass is infinite.
 class Response {
  public:
   Response(std::vector<bool> held, const Material& material) : held_(std::move(held)), material_(material) {}
 
   /// Repels a pair that is nearer than the thickness at the start of the step (§7.2 of the paper). Stops the
-  /// approach of the pair by an inelastic impulse, and pushes the pair apart by a tenth of the missing
-  /// distance. Leaves primitives that touch as they are, since no direction separates them.
+  /// approach of the pair by an inelastic impulse, and moves the primitives apart by a tenth of (thickness -
+  /// distance). Leaves primitives that touch as they are, since no direction separates them.
   void repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const;
 
   /// Ends the approach of a pair that collides at a time in [0, 1], by friction and an inelastic impulse
   /// along the normal (§7.4 of the paper). If the time is NaN, uses the end of the step.
   void stop_approach(const Candidate& pair, double time, const PointVectors& start, PointVectors& end) const;
 
-  /// Moves the points of a zone rigidly, with their common linear and angular momentum (§7.5 of the paper). A
-  /// zone with held points moves by the mean motion of its held points.
+  /// Moves the points of a zone (connected pairs that still collide) rigidly, with their common linear and
+  /// angular momentum (§7.5 of the paper). If some of the points are held, the zone moves by their mean
+  /// motion.
   void move_rigidly(const std::vector<int>& zone, const PointVectors& start, PointVectors& end) const;
 
  private:

@@ -22,9 +22,9 @@ bool is_apart_at_start(const Query& query, double by) {
   return distance_exceeds(at_rest, std::max(by, query.separation));
 }
 
-/// Whether the signs of F's Bernstein coefficients are certain, and change at most once. If so, F has at most
-/// one root in [0, 1], counted with multiplicity: no root at t = 0 or t = 1, and in between no more roots
-/// than the coefficients have changes of sign.
+/// Whether the Bernstein coefficients of F, the volume of the vertices, exceed their rounding errors, and
+/// change sign at most once. If so, F has at most one root in [0, 1], counted with multiplicity: none at t =
+/// 0 or t = 1, and in between at most as many as there are changes of sign.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);

@@ -71,7 +71,7 @@ class Contracted final : public ForwardingSubject {
     }
   };
 
-  /// Whether the subject is asked this query. Decided for the query as the subject rounds it.
+  /// Whether the subject is asked this query. The contract is tested on the query as the subject rounds it.
   [[nodiscard]] bool asks(const Query& query) const {
     return keeps_contract(subject_->rounded(query), subject_->contract()) == keeps_;
   }

@@ -23,7 +23,7 @@ struct RecordedAnswer {
   Query query;
   int answer;     ///< as in nearmiss_subject.h
   double time;    ///< in the unit of the query's step; NaN if none
-  bool in_float;  ///< whether the program takes the step to that time in float
+  bool in_float;  ///< whether the recorded program computes the step to that time in float
 };
 
 /// Counts of records that are left out.
@@ -33,7 +33,7 @@ struct LeftOut {
                               ///< the decision
 };
 
-/// Passes those records of a file that can be judged to `sink`, in order. If tmax is 1, or if tmax < 1 and
+/// Passes to `sink`, in order, those records of a file that can be judged. If tmax is 1, or if tmax < 1 and
 /// the answer is a collision with a time, the answer is judged on the recorded query: a time is late in the
 /// whole step if and only if it is late in the part up to tmax. (If the primitives collide only after tmax,
 /// such an answer counts as right.) Any other answer is judged on the query that ends at tmax. If doubles

@@ -21,8 +21,8 @@ certificates::Statement statement_about(const Query& query, std::string_view cla
 /// What a certificate proves; nothing if there is no certificate, or if the checker refuses it.
 std::optional<certificates::Statement> proved(const std::optional<std::string>& certificate);
 
-/// Whether certificates prove a decision. If the smallest distance is exactly h > 0 and is reached only at an
-/// irrational time, no certificate can prove that. So for every tie, certificates need only prove that the
+/// Whether certificates prove a decision. No certificate can prove that the smallest distance is exactly
+/// h > 0 if it is reached only at an irrational time. So for every tie, certificates need only prove that the
 /// smallest distance is above the largest double below h, and at most the smallest double above h.
 bool is_proved(const Query& query, const Decision& decision);
 
@@ -34,7 +34,8 @@ bool is_proved(const Query& query, const Decision& decision);
 /// smallest double above h. Returns "" if the checker accepts the certificates, else what is not proved, such
 /// as "time (not proved: before)".
 ///
-/// Certificates of bounds of the smallest distance are not checked, because they take several times as long.
+/// Certificates of bounds of the smallest distance are not checked, because they take several times as long
+/// as the others.
 std::string time_disagreement(const Query& query, const Decision& decision);
 
 /// How the answers of all methods and the decision contradict each other. If they agree, the result says

@@ -1,5 +1,4 @@
-// The table of methods that decide a query. The comparison of answers and the command line use this table.
-// README.md repeats the table, and says how to add a method.
+// The table of methods that decide a query. README.md repeats the table, and says how to add a method.
 #pragma once
 
 #include <cstddef>
@@ -24,13 +23,13 @@ struct Answer {
   /// Whether the method knows anything about the query.
   [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
 
-  std::size_t detail = 0;  ///< feedback for a fuzzer, below 32: the bit length of a certificate's size
+  std::size_t detail = 0;  ///< feedback for a fuzzer: the bit length of a certificate's size, below 32
 };
 
 /// What a method promises to know.
 enum class Claim {
   complete,  ///< whether there is a collision, unless the smallest distance is exactly h > 0
-  parity,  ///< whether the contact is on the boundary, else whether the number of roots is odd; only if h = 0
+  parity,    ///< the members `on_boundary` and `odd` of Answer; only for h = 0 and four vertices
 };
 
 Answer to_answer(const Query& query, const Decision& decision);

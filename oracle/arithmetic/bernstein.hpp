@@ -81,8 +81,8 @@ inline constexpr double end_rounding = 0x1p-54;  ///< half the distance between 
 inline constexpr double upper_halves =
     0x1p-52;  ///< error of a difference of upper halves, relative to `largest`
 
-/// A polynomial of degree n - 1, given by its Bernstein coefficients. `error` bounds the error of each
-/// coefficient, and of each value and each coefficient on a part of [0, 1] that the functions below compute.
+/// A polynomial of degree n - 1, given by its Bernstein coefficients. `error` bounds the errors of these
+/// coefficients, and of all values and coefficients that the functions below compute.
 template <class Real, std::size_t n>
 struct Bernstein {
   std::array<Real, n> b;

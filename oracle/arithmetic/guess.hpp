@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// a if the mask is true, else b. Lanes have a function with the same name.
+/// Lanes have a function with the same name.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 /// c[0] + c[1] t + c[2] t² + c[3] t³.

@@ -69,7 +69,7 @@ Polynomial without_root(Polynomial p, const Number& t) {
   return p;
 }
 
-/// The only root of a polynomial in an interval; nothing if it is not known to have only one.
+/// The only root of a polynomial in an interval; nothing unless it is known to have exactly one root there.
 std::optional<Root> only_root(const Polynomial& p, const Interval& in) {
   if (p.sign_at(in.lo) == 0 || p.sign_at(in.hi) == 0) return std::nullopt;
   if (OnInterval(p, in.lo, in.hi).changes() != 1) return std::nullopt;
@@ -211,9 +211,9 @@ class Separator {
     return nullptr;
   }
 
-  /// The only root in a part of an obstacle or, if there is no such root, of its first, second ...
-  /// derivative: a time at which the obstacle changes its sign or has an extremum, or the centre of several
-  /// such times. Roots at the ends of the part do not count.
+  /// The only root of an obstacle in a part or, if the obstacle has none or several there, that of the first
+  /// of its derivatives with only one. This is a time at which the obstacle changes its sign or has an
+  /// extremum, or the centre of several such times. Roots at the ends of the part do not count.
   [[nodiscard]] static std::optional<Root> time_of_change(const Polynomial& obstacle, const Interval& in) {
     Polynomial p = without_root(without_root(obstacle, in.lo), in.hi);
     for (; p.degree() >= 1; p = p.derivative())

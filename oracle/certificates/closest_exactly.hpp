@@ -36,8 +36,7 @@ Real squared_distance(Kind kind, const std::array<Vec<Real>, 4>& x, const Weight
   return dot(d, d);
 }
 
-/// Finds the closest points of two primitives, by comparing the closest points of all pairs of features. In
-/// floating-point arithmetic, the result is only approximate.
+/// Finds the closest points of two primitives, by comparing the closest points of all pairs of features.
 template <class Real>
 class ClosestWeights {
  public:

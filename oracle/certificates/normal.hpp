@@ -20,7 +20,7 @@ using exact::PolynomialVector;
 
 /// The gaps of a query: the difference of each vertex of the first primitive and each vertex of the second. A
 /// direction separates the primitives if the length of each gap along this direction is above h or, unless
-/// `is_strict`, equal to h > 0. Exact vectors are computed on first use.
+/// `is_strict`, equal to h > 0.
 class Gaps {
  public:
   Gaps(const Query& query, bool is_strict);

@@ -1,5 +1,5 @@
-// The smallest distance of two primitives, and the first time of a small one, by floating-point arithmetic
-// with proven bounds.
+// The smallest distance of two primitives, and the first time at which it is below a bound, in floating-point
+// arithmetic.
 #pragma once
 
 #include "ccd/query/query.hpp"

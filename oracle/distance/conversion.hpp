@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// above(x) is the next double above x >= 0, and below(x) the next one below, but at least 0. The bits of
+/// above(x) is the next double above x >= 0, and below(x) the next smaller one, but at least 0. The bits of
 /// positive doubles, read as integers, are in the order of the doubles.
 inline double above(double x) {
   return x < std::numeric_limits<double>::infinity()

@@ -1,4 +1,4 @@
-// The two neighbouring doubles between which the distance first falls to a bound.
+// The two neighbouring doubles between which the distance first falls to the separation.
 #pragma once
 
 #include <optional>

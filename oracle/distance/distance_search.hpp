@@ -1,4 +1,5 @@
-// The search for the smallest distance over the step, and for the first time at which the distance is small.
+// The search for the smallest distance over the step, and for the first time at which the distance is below a
+// bound.
 #pragma once
 
 #include <algorithm>
@@ -70,8 +71,8 @@ class DistanceSearch {
   };
 
   /// Two neighbouring sampled times between which bounds do not cover all of the step. `before` is the index
-  /// of the first one, `width` the time between the two. Bounds around the first one cover `covered_before`
-  /// of this time, and bounds around the second one `covered_behind`.
+  /// of the earlier time, `width` the time between the two. Bounds around the earlier time cover
+  /// `covered_before` of this width, and bounds around the later time `covered_behind`.
   struct Gap {
     std::size_t before;
     double width, covered_before, covered_behind;
@@ -110,8 +111,8 @@ class DistanceSearch {
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
   }
 
-  /// Whether the errors of a moment are small compared with its distance or, for the lower bound, with the
-  /// required distance.
+  /// Whether the errors of a moment are small: for the distance, compared with the distance; for the lower
+  /// bound, compared with the required distance.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
     if (separation.products.empty()) return false;
@@ -251,8 +252,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds separations to a sampled time. If the time already has all separations but covers nothing, looks
-  /// precisely at it. Returns false if nothing is left to do.
+  /// Adds lower bounds of the distance to a sampled time. If the time already has all of them but covers
+  /// nothing, looks precisely at it. Returns false if nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)
@@ -273,10 +274,10 @@ class DistanceSearch {
     if (low != times_.end()) times_.erase(low + 1, times_.end());
   }
 
-  /// An interval that contains the first time at which the distance is low, if there is one. The interval
-  /// begins where the uncovered part of the first gap begins, and ends at a time at which the distance is
-  /// certainly low, or at the end of the step. (Times are at most 1, so `slack` is more than the rounding
-  /// error of the sum.)
+  /// An interval that contains the first time at which the distance is below `low_`, if there is one. The
+  /// interval begins where the uncovered part of the first gap begins, and ends at a time at which the
+  /// distance is certainly below `low_`, or at the end of the step. (Times are at most 1, so `slack` is more
+  /// than the rounding error of the sum.)
   [[nodiscard]] Enclosure time_in(const Gap& gap) const {
     constexpr double slack = 0x1p-95;
     const SampledTime& end = times_.back();
@@ -292,10 +293,11 @@ class DistanceSearch {
     return time.hi - time.lo <= width || std::nextafter(time.lo, 2.0) >= time.hi;
   }
 
-  /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives
-  /// the next time. Once Newton's step is short, it is doubled, or set to 0.4 of `width` if that is longer.
-  /// So the next time lies beyond the crossing, and the crossing is enclosed from both sides. If `halve`, the
-  /// next time is the middle of the uncovered part. Returns false if nothing more can be done.
+  /// Looks into a gap before a time at which the distance is below `low_`. Newton's method from one end of
+  /// the gap gives the next time. Once Newton's step is short, it is doubled, or set to 0.4 of `width` if
+  /// that is longer. So the next time lies beyond the crossing, and the crossing is enclosed from both sides.
+  /// If `halve`, the next time is the middle of the uncovered part. Returns false if nothing more can be
+  /// done.
   bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];
@@ -320,7 +322,7 @@ class DistanceSearch {
     const bool needs_precision = step * std::abs(a.moment.rate) < rough * differences_.total_reach();
     SampledTime next = needs_precision ? look_precisely(t) : look_between(a, t, b);
     if (!is_resolved(next)) {
-      // The distance is certainly low a little later, unless it hardly changes.
+      // The distance is certainly below `low_` a little later, unless it hardly changes.
       const Real later = next.t + Real(2 * resolution * low_ / std::abs(next.moment.rate));
       if (!(later < b.t)) return false;
       next = look_precisely(later);
@@ -347,7 +349,7 @@ class DistanceSearch {
   const VertexDifferences& differences_;
   const NeededDistance& needed_;
   boost::container::stable_vector<SampledTime> times_;  ///< in order; they stay where they are in memory
-  std::size_t covered_times_ = 0;  ///< the step is covered up to this time, as the required bound never rises
+  std::size_t covered_times_ = 0;  ///< covered up to times_[this]; stays so, as `required_` never rises
   double upper_ = std::numeric_limits<double>::infinity();
   double required_ = std::numeric_limits<double>::infinity();
   double best_time_ = 0;

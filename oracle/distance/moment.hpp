@@ -24,7 +24,7 @@ struct Moment {
   double rate = 0;           ///< derivative of the distance, estimated
   Vec<double> direction{};   ///< unit vector from the second primitive's closest point to the first's, or 0
 
-  /// First the separation that fits the features best; then, if `has_all`, the others.
+  /// Lower bounds of the distance: first the one that fits the features best; then, if `has_all`, the others.
   boost::container::small_vector<Separation, 1> separations;
   bool has_all = false;
 };
@@ -79,8 +79,8 @@ double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& 
          least_distance;
 }
 
-/// The separation that fits the features of the closest points best; `direction` is the direction of their
-/// difference.
+/// The lower bound that fits the features of the closest points best; `direction` is the direction between
+/// these points.
 template <class Real>
 Separation separate_by_features(const VerticesAt<Real>& x, const ClosestFeatures& features,
                                 const Vec<double>& direction) {
@@ -124,7 +124,7 @@ Moment look(const VerticesAt<Real>& x) {
   return moment;
 }
 
-/// Adds the separations that fit the features less well at this time, but may hold for longer. If edges are
+/// Adds the lower bounds that fit the features less well at this time, but may hold for longer. If edges are
 /// nearly parallel, for example, the normal turns much faster than the direction between the closest points.
 template <class Real>
 void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
@@ -132,8 +132,8 @@ void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
   const ClosestFeatures& features = moment.features;
   Vec<double> direction = moment.direction;
   if (features.combination == ClosestFeatures::Combination::interiors) {
-    // The closest points may be so near that rounding changes the direction of their difference more than
-    // that of the normal.
+    // The closest points may be so near each other that rounding changes the direction of their difference
+    // more than that of the normal.
     const NormalPairs pairs = normal_pairs(x.differences().kind());
     direction = detail::direction_of(to_double(cross(x.position(pairs.q), x.position(pairs.r))));
     if (dot(direction, moment.direction) < 0) direction = -direction;

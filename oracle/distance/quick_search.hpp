@@ -16,8 +16,8 @@ namespace nearmiss::certified {
 /// matter.
 inline constexpr double time_rounding = 0x1p-53;
 
-/// Looks at a few times of the step in double. It keeps a list of gaps, which are the parts of the step that
-/// no certified bound covers, and looks into the first gap until none is left or the distance is below `low`
+/// Looks at a few times of the step in double. It keeps a list of gaps, the parts of the step that no
+/// certified bound covers. It looks into the first gap until no gap is left, or the distance is below `low`
 /// at some time. It gives up early, because DistanceSearch decides what remains.
 class QuickSearch {
  public:
@@ -59,8 +59,8 @@ class QuickSearch {
   /// below `low`. Moves the end of the gap to just after that time if the distance is certainly below `low`
   /// at the new end. Then chooses the next time to look at.
   void look_for_crossing();
-  /// With the same requirement, estimates the time in the first gap at which the distance falls below `low`;
-  /// 0 if the distance may be below `low` from the beginning of the step.
+  /// Estimates the time in the first gap at which the distance falls below `low`; 0 if the distance may be
+  /// below `low` from the beginning of the step.
   [[nodiscard]] Crossing crossing() const;
 
   const VertexDifferences& differences_;

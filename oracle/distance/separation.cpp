@@ -39,8 +39,8 @@ std::optional<double> first_root(const Powers<double>& p) {
   return 2 * c0 / (std::sqrt(discriminant) - c1);
 }
 
-/// An end in [0, most] up to which the cubic is certainly not negative. This end is usually near the first
-/// root; the search is kept short for speed.
+/// A number in [0, most] up to which the cubic is certainly not negative, usually near the first root. The
+/// search is kept short for speed.
 double not_negative_until(const Powers<double>& p, double most) {
   const auto holds_until = [&](double end) { return is_not_negative(on(p, end)); };
   if (!(p.c[0] > 0)) return 0;

@@ -17,7 +17,7 @@
 //
 // - A constant n gives linear products.
 // - n = edge(t) × k with a constant k gives quadratic products. Both vertices of that edge have the same
-//   product, so the turning of the edge loses nothing.
+//   products, so the bound does not weaken as the edge turns.
 // - n = N(t), the normal of the triangle or of both edges: all products are ±F, the coplanarity cubic.
 //
 // Errors of the coefficients. Each coefficient is a sum of products of components of two or three vectors.
@@ -26,9 +26,9 @@
 // magnitudes of the products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for
 // two vectors, to at most a b. For a cross product, the sums of the magnitudes in each component form a
 // vector of length at most 2/√3 a b. A vector x = x_i - x_j has a length of at most R = reach(i, j), and its
-// velocity w one of at most 2 R. The table has a number for each coefficient, from s^0 on. The lengths of
-// products are in units of the R of all factors and of |n| or |k|, and errors in these units times U. An
-// error is m times the length and, except in the first row, times 2/√3:
+// velocity w one of at most 2 R. The table has a number for each coefficient, from s^0 on. The unit of the
+// lengths is the product of the R of all factors and of |n| or |k|; the unit of the errors is U times as
+// large. An error is m times the length and, except in the first row, times 2/√3:
 //
 //               m                lengths        error                       taken
 //   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
@@ -40,10 +40,9 @@
 // tests/oracle/separation_test.cpp determines m with a scalar that counts roundings in the templates below.
 //
 // The column "taken" exceeds the error to cover terms of second order in U and the rounding of the bounds
-// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude, taken as 2^-52. In coefficients,
-// underflow adds at most 2^-1018 for each of less than 100 operations, times at most 2^100 for the length of
-// k; in the length of n, it adds at most 2^-536. This is far below `least_distance`, which is added to each
-// error.
+// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude, taken as 2^-52. Underflow adds at
+// most 2^-1018 to a coefficient for each of less than 100 operations, times at most 2^100 for the length of
+// k, and at most 2^-536 to the length of n. This is far below `least_distance`, which is added to each error.
 
 namespace nearmiss::certified {
 
@@ -56,8 +55,8 @@ struct Product {
   std::array<double, 4> errors{};
 };
 
-/// One direction n(s) with its products. At every s the distance is at least the smallest product divided by
-/// |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
+/// A lower bound of the distance by one direction n(s). At every s the distance is at least the smallest
+/// product divided by |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
 struct Separation {
   boost::container::static_vector<Product, 4> products;
   std::array<double, 3> length{};
@@ -75,7 +74,7 @@ inline double longest(const Vec<double>& v, double error) {
   return length(v) * (1 + 0x1p-48) + error + least_distance;
 }
 
-/// The separation with n = `direction`, which points from the second primitive to the first.
+/// The lower bound with n = `direction`, which points from the second primitive to the first.
 template <class Real>
 Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& direction) {
   const VertexDifferences& differences = x.differences();
@@ -90,7 +89,7 @@ Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& di
   return separation;
 }
 
-/// The separation with n = (x_to - x_from) × k, for the k that brings n as near to `direction` as possible.
+/// The lower bound with n = (x_to - x_from) × k, for the k that brings n as near to `direction` as possible.
 template <class Real>
 Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::size_t to,
                             const Vec<double>& direction) {
@@ -122,7 +121,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
   return separation;
 }
 
-/// The separation with the normal, n = N(t).
+/// The lower bound with the normal, n = N(t).
 template <class Real>
 Separation separate_by_normal(const VerticesAt<Real>& x) {
   const VertexDifferences& differences = x.differences();

@@ -14,7 +14,7 @@ namespace {
 
 /// Sorts times and removes duplicates.
 void sort_out(std::vector<Root>& times) {
-  // Not by std::sort, because a comparison may refine both times.
+  // std::sort cannot be used, because comparing two times may refine both.
   std::vector<Root> sorted;
   for (Root& each : times) {
     const auto place =

@@ -1,10 +1,10 @@
 // The distance at a time is at most b if and only if one of finitely many statements holds. Each is about a
 // pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the triangle, or two
-// edges. It says that the closest points of the lines or planes through the two features lie in the features
-// and are within b of each other. The statement holds at t iff the polynomials `excess` and `outside` are at
-// most 0 at t, and `extents` are positive. (An extent is 0 if the features are degenerate; then another
-// statement covers the same points.) If the distance is at most b, the statement about the closest pair of
-// features holds; if any statement holds, two points are within b of each other.
+// edges. A statement says that the closest points of the lines or planes through the two features lie in the
+// features and are within b of each other. The statement holds at t iff the polynomials `excess` and
+// `outside` are at most 0 at t, and `extents` are positive. (An extent is 0 if the features are degenerate;
+// then another statement covers the same points.) If the distance is at most b, the statement about the
+// closest pair of features holds; if any statement holds, two points are within b of each other.
 //
 // The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. First
 // case: at t0, the sign changes to or from -1. On the side of t0 with the sign -1, the statement about a
@@ -121,15 +121,15 @@ void Nearness::add_interiors(Interiors&& of) {
 }
 
 // For each pair of features, the constructor collects times at which the closest points of the lines or
-// planes lie in the features. The smallest distance is that of a pair at one of its times. Proof: Let the
-// smallest distance be reached at t0. Of the pairs of features that are at this distance at t0, take one of
-// the lowest dimension. If t0 is neither 0 nor 1, the closest points of the lines or planes through these two
-// features are strictly inside the features, which are not degenerate: otherwise the closest points would lie
-// in features of a lower dimension. So around t0, the features have the distance of the lines or planes. The
-// square of this distance is a quotient of polynomials with a minimum at t0, so its derivative is 0 at t0. If
-// the derivative is not identically 0, t0 is one of its roots. Otherwise the distance stays the same until t
-// is 0 or 1, or until the closest points leave the inside of the features; at that time, features of a lower
-// dimension are at the same distance.
+// planes lie in the features. The smallest distance is that of a pair at one of the pair's times. Proof: Let
+// the smallest distance be reached at t0. Of the pairs of features that are at this distance at t0, take one
+// of the lowest dimension. If t0 is neither 0 nor 1, the closest points of the lines or planes through these
+// two features are strictly inside the features, which are not degenerate: otherwise the closest points would
+// lie in features of a lower dimension. So around t0, the features have the distance of the lines or planes.
+// The square of this distance is a quotient of polynomials with a minimum at t0, so its derivative is 0 at
+// t0. If the derivative is not identically 0, t0 is one of its roots. Otherwise the distance stays the same
+// until t is 0 or 1, or until the closest points leave the inside of the features; at that time, features of
+// a lower dimension are at the same distance.
 SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
   const Interiors of = interiors(query.kind, moving_points(query, unit_));
   const Nearness contact(query, 0);  // b = 0, so that each excess is the numerator of a squared distance

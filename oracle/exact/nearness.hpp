@@ -81,7 +81,7 @@ class SmallestDistance {
 
  private:
   /// For a pair of features: the squared distance of their lines or planes is numerator / denominator, and
-  /// the closest points of these lie in the features at each of the times.
+  /// the closest points of these lie in the features at each of `times`.
   struct Minima {
     Polynomial numerator, denominator;
     std::vector<Root> times;

@@ -19,8 +19,8 @@ struct OnSegment {
 };
 
 /// The polynomials that decide a query (degree 3 for F, 2 for the others), computed on first use. The
-/// coordinates are those of the query times a power of two (`Unit`). The vectors p, q, r are the paper's:
-/// x0 - x1, x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
+/// coordinates are those of the query times a power of two (`Unit`). The vectors p, q, r are those of Wang
+/// (2014): x0 - x1, x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - If a component N_k of the normal is not zero, projecting along axis k loses nothing. The primitives

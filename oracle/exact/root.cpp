@@ -99,8 +99,8 @@ void shift(Numbers& c, const Multiply& times_shift) {
 
 /// Converts the coefficients of the powers of t, the leading one first, to those of OnInterval.
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
-  // First, the coefficients of the powers of s, the fraction of the interval, counted from the end with fewer
-  // bits.
+  // First computes the coefficients of the powers of s, a fraction of the interval that is counted from the
+  // end with fewer bits.
   constexpr std::size_t short_size = 4;  // up to this many coefficients, either end will do
   const bool from_hi = c.size() > short_size &&
                        exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));

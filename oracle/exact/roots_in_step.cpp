@@ -49,7 +49,6 @@ struct Part {
 
   [[nodiscard]] Number at(const Number& fraction) const { return lo + fraction * (hi - lo); }
 
-  /// Cuts near an extremum and in the middle, alternately.
   Cuts usual() {
     const double guess = at_extremum ? on.guess_extremum() : 0.5;
     const double around_it = at_extremum ? around : 0;
@@ -57,9 +56,9 @@ struct Part {
     return {0, 1, {Number(guess + around_it), Number(guess - around_it)}};
   }
 
-  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster, if all changes of
-  /// sign are in this neighbourhood; then there is no root elsewhere. Returns cuts that separate clusters,
-  /// if it finds any.
+  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster if the coefficients keep
+  /// all changes of sign; then there is no root elsewhere. Returns cuts that separate clusters, if it finds
+  /// any.
   std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     is_in_cluster = true;

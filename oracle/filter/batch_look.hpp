@@ -70,9 +70,10 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
   return {all & (!opposed), opposed};
 }
 
-/// What look() finds in a part [lo, hi] of the step, in each lane. With `before`, `middle` and `behind`, [lo,
-/// left], [left, right] and [right, hi] must be examined next. With `bracket`, there is a collision in [left,
-/// right]. With `precise`, F has a root in [left, right], but double does not show the signs of the weights.
+/// What look() finds in a part [lo, hi] of the step, in each lane. With `before`, [lo, left] must be examined
+/// next; with `middle`, [left, right]; with `behind`, [right, hi]. With `bracket`, there is a collision in
+/// [left, right]. With `precise`, F has a root in [left, right], but double does not show the signs of the
+/// weights.
 template <int n>
 struct Look {
   enum : std::int64_t {
@@ -89,8 +90,7 @@ struct Look {
 };
 
 /// The lanes in which F certainly rises through 0 from the left to the right end of a part, or changes its
-/// sign in either direction; and the lanes in which the sign of F is known at the left end, the right end or
-/// both.
+/// sign in either direction, and those in which the sign of F is known at one end or at both.
 template <int n>
 struct EndSigns {
   typename Lanes<n>::Mask rises, changes, left_known, right_known, known;

@@ -60,7 +60,7 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
 
 /// The neighbouring doubles around the first contact, or the double at which the contact happens; nothing if
 /// neither can be shown. `time` contains the first contact, if there is one. All calls are inlined, so that
-/// the compiler drops the computations that a single root does not need.
+/// the compiler drops computations whose results are not used.
 [[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
                                                              const Bernstein<double, 4>& F,
                                                              const Enclosure& time) {

@@ -67,8 +67,8 @@ FilterStage filter_for_time(const Query& query, KnownTime& time);
 void filter_for_times(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
                       Instructions instructions = chosen_instructions());
 
-/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. A query that
-/// is decided in this way is not near its error bounds.
+/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. Queries that
+/// are decided in this way are not near the error bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

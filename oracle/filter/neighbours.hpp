@@ -1,4 +1,5 @@
-// The two neighbouring doubles between which the time of a contact lies, in double or in lanes.
+// The two neighbouring doubles between which the time of a contact lies, for one query or for several in
+// lanes.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,8 @@
 
 namespace nearmiss::certified {
 
-/// When an interval becomes a part of its own, each of its ends moves outward by this length.
+/// When zoom() searches an interval as a part of its own, each end of the interval moves outward by this
+/// length.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
 /// What a search is asked: only whether there is a contact, or also when the first contact is, roughly or to
@@ -25,7 +26,7 @@ enum class Asked : std::uint8_t { whether, when, when_precisely };
 /// interval if F has one sign or two weights have opposite signs in the interval, and divides other
 /// intervals. If errors hide these signs in a small interval, the interval is searched as a part of its own
 /// (zoom()), in which the vectors and hence their errors are smaller. The search ends when all intervals are
-/// dropped, one contains a collision, or one remains unclear.
+/// dropped, when one contains a collision, or, unless a time is asked for, when one remains unclear.
 template <class Real>
 class ContactSearch {
  public:
@@ -107,8 +108,8 @@ class ContactSearch {
   }
 
   /// An estimate of the time at which F, given by its Bernstein coefficients, has an extremum in an interval;
-  /// the middle of the interval if no extremum is found. If the extremum is at an end to double precision,
-  /// the result is a time near that end.
+  /// the middle of the interval if no extremum is found. If double cannot tell the extremum from an end, the
+  /// result is a time near that end.
   [[nodiscard]] static double turn(const Enclosure& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
@@ -122,8 +123,8 @@ class ContactSearch {
   /// sign in this interval.
   FilterStage look_around(const Enclosure& interval, const std::array<double, 4>& f,
                           const Weights<Real>& weights, bool agree) {
-    // The root is computed relative to the end at which |F| is smaller. Near this end, the root is then as
-    // precise as F.
+    // The root is computed relative to the end of the interval at which |F| is smaller. Near this end, the
+    // root is then as precise as F.
     const double f_lo = f[0];
     const bool from_lo = std::abs(f[0]) <= std::abs(f[3]);
     const auto seen = from_lo ? f : backwards(f);

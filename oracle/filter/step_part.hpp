@@ -13,7 +13,7 @@
 //   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
 //   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
 //   W3 = (b - a) × (c - a) = W0 + W1 + W2.
-// At F = 0 the primitives meet only if, in every component, these agree in sign or are zero:
+// At F = 0 the primitives meet only if, in every component, the following agree in sign or are zero:
 //   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
 //   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, for x20 = α x10 - β x32.
 // The reason is that at a meeting point each weight is a number in [0, 1], and each W is that number times N,
@@ -40,19 +40,19 @@
 // - F is the dot product of such W_k, without the halving, and a third vector a. The errors from the factors
 //   are L = Σ (A_k l_k + e_a (w_k + l_k)). There are 3 roundings in W_k, 1 in its product with a_k, 2 in the
 //   two additions of the dot product, 1 in the sum of two dot products, and 2 in a division by 3 (in double
-//   words, a product with a rounded 1/3). These add 9 U M with M = Σ A_k w_k. Three levels of de Casteljau's
-//   algorithm add 9.1 U (M + L). In all, the error is at most 18.3 U M + (1 + 9.1 U) L (16 U M is proven, and
-//   17 U M in double words). The code uses 20 U M + 1.01 L.
+//   words, a product with a rounded 1/3). These 9 roundings add 9 U M with M = Σ A_k w_k. Three levels of de
+//   Casteljau's algorithm add 9.1 U (M + L). In all, the error is at most 18.3 U M + (1 + 9.1 U) L (16 U M is
+//   proven, and 17 U M in double words). The code uses 20 U M + 1.01 L.
 //
 // - w, l, M and L are computed in double and may be too small by a relative error of 12 · 2^-53. This is far
 //   less than the margins of the code's constants.
 //
 // - Underflow adds at most H, `product_underflow` times the smallest double, to the error of a product, a
 //   halving or a division by 3; sums are exact in that range. Underflow adds 2 H to a coefficient of W, or 3
-//   H to the middle one, and 2 H in each of two levels: at most 7 H. The products in the bound of W, with
-//   those of `error_near`, may lose 11 H. For F, the products of b and c add 2 H Σ A_k, and all other
-//   products add 9 H; L loses less than 10 H Σ (A_k + e_k), and the rest of the bound loses 10 H. The code
-//   uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
+//   H to the middle one, and 2 H in each of two levels of de Casteljau's algorithm: at most 7 H. The products
+//   in the bound of W, with those of `error_near`, may be too small by 11 H. For F, the products of b and c
+//   add 2 H Σ A_k, and all other products add 9 H; L may be too small by 10 H Σ (A_k + e_k), and the rest of
+//   the bound by 10 H. The code uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
 //
 // - Overflow: sums of products are at most 2 w in W and 3 M in F, up to rounding. The bounds are computed
 //   from 4 w and 4 M (`headroom`). If a coefficient or a result of `Bernstein` overflows, it is infinite or
@@ -141,7 +141,7 @@ Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bou
 }
 
 /// Bounds for one component of a cross product: w4 is `headroom` times w, and l is the error from the factors
-/// (w and l as above).
+/// (see the top of this file).
 template <class Real>
 struct CrossBound {
   Bound<Real> w4, l;

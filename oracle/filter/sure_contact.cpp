@@ -25,11 +25,10 @@ int orientation(const std::array<Point, 4>& x, int i, int j, int l, int k) {
   return CGAL::orientation(see(i), see(j), see(l));
 }
 
-/// Whether two signs are not opposite.
 bool agree(int first, int second) { return first * second >= 0; }
 
-/// The coordinates of the vertices at a time, and whether all of them are doubles; if not, `x` means nothing.
-/// two_product() is exact for products far above the smallest double.
+/// The coordinates of the vertices at a time, and whether all of them are certainly doubles; if not, `x`
+/// means nothing. two_product() is exact for products far above the smallest double.
 struct CoordinatesAt {
   std::array<double, 12> x;
   bool are_exact = true;
@@ -55,7 +54,7 @@ struct InPlane {
   Motion<double> from_start, to_end, along;  ///< start to vertex, vertex to end, and start to end of the edge
   std::size_t k;
 
-  /// Whether the vertex certainly crosses the edge near a time t at which `area`, of the triangle of the
+  /// Whether the vertex certainly crosses the edge near a time t at which `area`, that of the triangle of the
   /// vertex and the edge, is about 0. When the area changes its sign, the vertex is on the edge's line. If,
   /// in one coordinate, the vertex is also between the ends of the edge, it is on the edge.
   [[nodiscard]] bool cross_near(double t, const Bernstein<double, 3>& area) const {
@@ -100,7 +99,8 @@ bool touch_at(const Query& query, double time) {
       return agree(side, orientation(x, 0, 2, 3, k)) && agree(side, orientation(x, 1, 0, 3, k)) &&
              agree(side, orientation(x, 1, 2, 0, k));
     }
-    // Edges that are not parallel meet if each edge has its ends on both sides of the line of the other.
+    // Edges that are not parallel meet if the ends of each edge are on different sides of the other's line,
+    // or on it.
     const int of_0 = orientation(x, 2, 3, 0, k);
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);
@@ -108,7 +108,8 @@ bool touch_at(const Query& query, double time) {
     if (of_0 == of_1 && of_2 == of_3) continue;  // perhaps parallel, or projected onto one line
     return of_0 * of_1 <= 0 && of_2 * of_3 <= 0;
   }
-  // If no component has decided, the triangle is the union of its edges, or the two edges are parallel.
+  // If no component has decided, the triangle has no area and is the union of its edges, or the two edges are
+  // parallel.
   return std::ranges::any_of(topology(query.kind).vertices_and_edges, [&](const VertexAndEdge& each) {
     const Point& vertex = x[each.vertex];
     return CGAL::collinear(x[each.from], vertex, x[each.to]) &&

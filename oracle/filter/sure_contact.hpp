@@ -6,8 +6,9 @@
 
 namespace nearmiss::certified {
 
-/// Whether the primitives touch at a time in [0, 1], by exact predicates. The answer is exact if all vertices
-/// have doubles as coordinates at that time, as they have at t = 0 and t = 1; otherwise the answer is false.
+/// Whether the primitives touch at a time in [0, 1], by exact predicates. The answer is exact if the
+/// coordinates of all vertices at that time are certainly doubles, as at t = 0 and t = 1; otherwise it is
+/// false.
 bool touch_at(const Query& query, double time);
 
 /// Whether a vertex certainly crosses an edge of the other primitive while both stay in a plane perpendicular

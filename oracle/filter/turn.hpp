@@ -11,7 +11,8 @@
 namespace nearmiss::certified {
 
 /// Permutes the components of vectors cyclically, so that the component in which the normal is largest at
-/// some time comes first. Only the other two are kept, because they determine that component of the weights.
+/// some time comes first. Only the other two components are kept, because they determine the weights in that
+/// first component.
 template <int n, Kind kind>
 class Turn {
   using Real = Lanes<n>;
@@ -29,7 +30,6 @@ class Turn {
     second_ = !(normal[1] < normal[2]);
   }
 
-  /// The weights over a part of the step.
   template <class Number>
   [[nodiscard]] Weights<Number> weights(const StepPart<Number>& p) const {
     const auto turn = [&](const Motion<Number>& m) {

@@ -1,6 +1,6 @@
-// The oracle behind the interface that contact codes use for CCD: the positions of all points at the start
-// and the end of the step, a time of impact, a minimum distance, and the largest time. nearmiss::ExactCCD can
-// replace a class whose functions have the names and arguments below. C++20.
+// The oracle behind the interface that contact codes use for CCD. Its functions take the positions of all
+// points at the start and the end of the step, a minimum distance and the largest time, and give a time of
+// impact. nearmiss::ExactCCD can replace a class whose functions have the names and arguments below. C++20.
 #pragma once
 
 #include <array>

@@ -28,7 +28,6 @@ std::uint8_t decider(FilterStage stage) {
 /// The smallest number of queries that are decided faster side by side than one by one.
 constexpr std::size_t fewest_side_by_side = 4;
 
-/// The arrays of answers.
 struct Answers {
   std::int8_t* answers;
   std::uint8_t* decided_by;
@@ -74,7 +73,7 @@ int for_each_time(const nearmiss_queries* queries, double width, const Set& set,
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<FilterStage, block_size> stages;
     std::array<KnownTime, block_size> times;
-    // For a `width` above 0, the enclosure would depend on whether queries are searched side by side.
+    // For a `width` above 0, a search side by side may give another enclosure than a search one by one.
     const bool side_by_side =
         width == 0 && block.size() >= fewest_side_by_side && ask_for_contact(*queries, first, block.size());
     if (side_by_side) filter_for_times(block, stages, std::span(times).first(block.size()));

@@ -62,7 +62,7 @@ int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_
  *     NEARMISS_PROVE_DISTANCE    the distance is always at least lo, unless lo is 0; it is at most hi at some
  *                                time, unless hi is infinite. Separations are ignored
  *
- * Compare what a line states with what you asked: a line may prove something true about another query.
+ * Compare what a line states with what you asked: a line may be a valid proof about another query.
  * A statement without a proof is left out. This happens only if the distance touches h > 0 at an irrational
  * time, and neither falls below h nor stays at h at that time. If no statement is left, or there is no
  * answer, the text is empty.

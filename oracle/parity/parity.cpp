@@ -37,10 +37,10 @@ Integer determinant(const IntegerVector& a, const IntegerVector& b, const Intege
 
 // --- directions -------------------------------------------------------------------------------------------
 
-/// The direction of a ray: a vector or, if unset, the infinitesimally perturbed (1, ε, ε²).
+/// The direction of a ray: a vector or, if unset, (1, ε, ε²) for an infinitesimal ε > 0.
 using RayDirection = std::optional<IntegerVector>;
 
-/// The sign of n · d. For the perturbed direction it is that of n's first component that is not zero.
+/// The sign of n · d. For (1, ε, ε²), it is the sign of the first component of n that is not zero.
 int side(const IntegerVector& n, const RayDirection& d) {
   if (d) return sign(n * *d);
   for (int k = 0; k < 3; ++k)
@@ -141,8 +141,8 @@ bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h
   return false;
 }
 
-/// Whether the origin is on a flat patch whose plane contains it: on the segment, for some t, from a(t), on
-/// the side s = 0 of the patch, to b(t), on the side s = 1.
+/// Whether the origin is on a flat patch whose plane contains it: whether, for some t in [0, 1], it is on the
+/// segment between the points of the patch at s = 0 and s = 1.
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -161,7 +161,7 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
 
 /// The place of the origin relative to a patch. The barycentric coordinates λ of a point in the tetrahedron
 /// of the corners satisfy λ00 λ11 = λ10 λ01 only on the patch. The two faces of the tetrahedron with the edge
-/// p00 p11 are on the side of the patch on which λ00 λ11 is larger.
+/// p00 p11 are on the side of the patch on which λ00 λ11 > λ10 λ01.
 struct Position {
   bool on_patch = false;
   bool in_plane = false;    ///< the origin is in a flat patch's plane; rays out of the plane miss the patch
@@ -215,8 +215,8 @@ Crossings cross_patch(const BilinearPatch& patch, const Position& position, cons
 
 // --- the boundary of the domain ---------------------------------------------------------------------------
 
-/// The smallest powers of two, one for each axis, that make every coordinate an integer. Scaling an axis
-/// changes no answer.
+/// For each axis, the smallest k for which 2^k times every coordinate is an integer. Scaling an axis changes
+/// no answer.
 using Scale = std::array<int, 3>;
 
 Scale integer_scale(const Query& query) {
@@ -271,7 +271,7 @@ std::vector<BilinearPatch> boundary(const Query& query) {
     else
       faces.push_back({f(0, 2, time), f(1, 2, time), f(0, 3, time), f(1, 3, time)});
   }
-  // Across each of the other faces, one difference of vertices turns linearly into another one.
+  // Each of the other faces belongs to a vertex of one primitive and an edge of the other.
   for (const auto& [vertex, from, to] : of.first_to_second)
     faces.push_back({f(vertex, from, 0), f(vertex, to, 0), f(vertex, from, 1), f(vertex, to, 1)});
   for (const auto& [vertex, from, to] : of.second_to_first)
@@ -301,7 +301,7 @@ RootParity root_parity(const Query& query) {
     }
     if (told) return {.odd = sum % 2 == 1};
   }
-  return {};  // unreachable: the perturbed direction meets no edge
+  return {};  // unreachable: the direction (1, ε, ε²) meets no edge
 }
 
 }  // namespace nearmiss

@@ -204,9 +204,9 @@ bool any_name(const RunInfo& info, const std::string& of, const Condition& condi
   return false;
 }
 
-/// Whether a run may have asked the queries of a key, judged by three facts of the run. Examples of their
-/// values are "uniform,needle", "stiff in 17 steps" or "all, search" for the fact "families", "vt,ee" for
-/// "kinds", and "wang,x=wang,./plugin.so" for "subjects".
+/// Whether a run may have asked the queries that `key` identifies, judged by three facts of the run. Examples
+/// of their values are "uniform,needle", "stiff in 17 steps" or "all, search" for the fact "families",
+/// "vt,ee" for "kinds", and "wang,x=wang,./plugin.so" for "subjects".
 bool may_ask(const RunInfo& info, const CountsKey& key) {
   const FamilyName wanted(key.family);
   return any_name(info, "families",
@@ -253,7 +253,7 @@ class AskedQueries {
   void add(const Campaign& campaign, const std::string& name);
 
  private:
-  /// The queries that the runs of one task asked.
+  /// The queries that the runs of one task (task_of) asked.
   struct Asked {
     RunInfo task;
     std::string files;  ///< the files from which the families "mesh" and "near" were made, if any

@@ -1,5 +1,4 @@
-// A campaign: what was run, how far the runs got, and what they found. A store holds one campaign, and a
-// report shows one.
+// A campaign: what was run, how far the runs got, and what they found.
 #pragma once
 
 #include <cstdint>
@@ -28,15 +27,15 @@ using RunInfo = std::map<std::string, std::string>;
 /// The value of a fact; "" if `info` does not have the fact.
 std::string fact(const RunInfo& info, const std::string& name);
 
-/// Names of facts about a plug-in begin like this. A run has the facts "plug-in NAME sha256" and "plug-in
+/// Names of facts about plug-ins begin with this text. A run has the facts "plug-in NAME sha256" and "plug-in
 /// NAME version". If the user gave the plug-in this NAME, "plug-in NAME detector" is the plug-in's own name.
 /// The environment of a shard has "plug-in NAME build id" and "plug-in NAME"; the value of the latter is the
 /// argument of --subject that names the plug-in, with an absolute path.
 inline constexpr std::string_view about_plugin = "plug-in ";
 inline constexpr std::string_view its_digest = " sha256";
 inline constexpr std::string_view its_detector = " detector";
-/// Names of a run's facts about renamed built-in subjects begin like this: the fact "subject NAME" has the
-/// value "NAME=SUBJECT".
+/// Names of a run's facts about renamed built-in subjects begin with this text: the fact "subject NAME" has
+/// the value "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";
 
 /// Whether a fact of a run says which code ran, not what the code was asked to do. Such facts are the version

@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// The complexity of a query. Two complexities are compared member by member, in the order of declaration.
+/// The complexities of two queries are compared member by member, in the order of declaration.
 struct Complexity {
   /// How hard the query is to draw. Each distinct magnitude adds 0 if it is an integer of one digit, 1 if it
   /// is another multiple of 1/4 below 100, and 2 otherwise.

@@ -14,11 +14,12 @@ namespace nearmiss {
 /// ratio belongs to the original query.
 Finding of_shrunk(const Finding& finding);
 
-/// The case of a finding. The case records the truth if the finding implies it.
+/// The case with a finding's query. It records the truth if the finding implies it.
 Case to_case(const Finding& finding);
 
-/// A name for the file of a finding's case: what failed, the subject, and `id`. Subjects with similar names,
-/// such as "a b" and "a;b", get the same text in file names, so the ids of their cases must differ.
+/// A name for the file of a finding's case: the sort of the finding, the subject, and `id`. Subjects with
+/// similar names, such as "a b" and "a;b", get the same text in file names, so the ids of their cases must
+/// differ.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
 /// Turns a text into a part of a valid file name: keeps letters, digits, '-' and '.', and replaces every

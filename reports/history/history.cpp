@@ -19,10 +19,10 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Remembers which changes earlier nights have told. For each subject and topic, a sort of change ("new",
-/// "worse" and so on) is told once, until the subject's code changes or the opposite change is told. A rate
-/// or a way to fail that becomes significant only in a later night is further evidence of a change that was
-/// already told.
+/// Remembers which changes the history has told, that is, shown as an event of a night. For each subject and
+/// topic, a sort of change ("new", "worse" and so on) is told once, until the subject's code changes or the
+/// opposite change is told. A rate or a way to fail that becomes significant only in a later night is further
+/// evidence of a change that was already told.
 class Told {
  public:
   [[nodiscard]] bool is_news(const ReportedChange& change) const {
@@ -49,8 +49,8 @@ class Told {
   void end_night(const NightReport& night) {
     for (const auto& [subject, of_night] : night.subjects) {
       night_before_[subject].clear();
-      // After a clean night, a failure is news again, even if the subject's code seems to be the same: the
-      // code of a program is not known.
+      // After a clean night, a failure is news again, even if the subject's code seems to be the same:
+      // nearmiss does not know the code of a program (`pipe:`).
       if (of_night.clean)
         std::erase_if(told_, [&, name = subject](const Topic& each) {
           const auto& [of, what, topic] = each;
@@ -76,8 +76,8 @@ class Told {
 class Slowed {
  public:
   /// Adds an event for each subject that became slower in an earlier night and is fast again: its time is
-  /// below the geometric mean of the slow time and the time that was expected in that night. The report
-  /// itself does not show this once slow nights are part of its baseline.
+  /// below the geometric mean of the slow time and the time that was expected when it became slower. The
+  /// report itself does not show this once slow nights are part of its baseline.
   void add_events(Night& night, Told& told) {
     for (const auto& [name, subject] : night.report.subjects) {
       const double time = subject.ns_per_query.value_or(0);
@@ -125,8 +125,8 @@ const Sort& sort_of(std::string_view what) {
 }
 
 /// Adds the news in a night's report: one event for each subject and sort of change. The example in an event
-/// is the way to fail that the night saw most often; for failures that are gone, rates and times, it is the
-/// first change.
+/// is the way to fail that the night saw most often; for other changes (failures that are gone, rates,
+/// times), it is the first change.
 void add_changes(Told& told, Night& night) {
   struct Sum {
     std::size_t count = 0;

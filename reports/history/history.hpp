@@ -41,7 +41,7 @@ struct SubjectNight {
   std::map<std::string, std::pair<double, double>> missed = {};  ///< by class: misses and collisions
 };
 
-/// A night: its campaign, and what the report of the campaign says.
+/// The campaign of one night, and what its report says.
 struct NightReport {
   std::string name;     ///< name of the night's folder
   std::string page;     ///< the report's page, relative to the folder of all nights; "" if there is no report
@@ -75,7 +75,7 @@ struct NightEvent {
 struct Night {
   NightReport report;
   bool went_back = false;               ///< an earlier night has a later date, because the clock was set back
-  std::vector<NightEvent> events = {};  ///< changes that no earlier night has told
+  std::vector<NightEvent> events = {};  ///< changes that are not also events of an earlier night
 };
 
 /// A way to fail (a signature), and the nights that saw it, as indices into History::nights.
@@ -84,15 +84,15 @@ struct WayToFail {
   std::size_t first = 0, last = 0;
   std::size_t nights = 0;  ///< number of nights that saw this way to fail
   std::uint64_t seen = 0;  ///< number of queries in all nights
-  bool lasts = false;      ///< the last night that asked the subject saw this failure
+  bool lasts = false;      ///< seen in the last night in which the subject was asked
   std::size_t gone = 0;    ///< the night whose report says that the failure is gone; 0 if no report says so
   std::string fixed = {};  ///< "in version 2", if that report says so
 };
 
 struct History {
   std::vector<Night> nights;  ///< in the order of read_nights
-  /// Failures that last come first. Within both groups, the order is by the last night that saw the failure,
-  /// the latest first, then by the number of queries, the largest first.
+  /// Failures that last come first, then the others. Each of these groups is sorted by the last night that
+  /// saw the failure, the latest first, then by the number of queries, the largest first.
   std::vector<WayToFail> ways;
 };
 

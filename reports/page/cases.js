@@ -11,7 +11,7 @@ function failureTitle(finding) {
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** A short hash of a text. A text has the same hash in every report. */
+/** A short hash of a text, the same in every report. */
 function digest(text) {
   let [a, b] = [0x9e3779b9, 0x85ebca6b];
   for (const letter of text) {
@@ -89,8 +89,8 @@ const findingCard = (finding, attributes = { id: idOf(finding), tabindex: -1 }) 
 // --- findings -------------------------------------------------------------------------------------
 
 /**
- * The findings, each with its index and the text in which a filter looks for words. New findings come first.
- * Within both groups, findings are in the order of the report (Campaign::findings).
+ * The findings, each with its index and the text in which a filter looks for words. New findings come first,
+ * then the others; both groups are in the order of the report (Campaign::findings).
  */
 const findings = report.findings.map((finding, index) => ({ finding, index,
   words: [failureTitle(finding), finding.what, finding.signature, finding.kind, kindTitles[finding.kind], finding.family, finding.provenance,

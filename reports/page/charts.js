@@ -46,16 +46,13 @@ function logAxis(values, written = "digits(datum.value, 3)") {
 
 const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
-/** Whether a row is a step of a sweep of which the row's subject was asked; other charts show sweeps. */
+/** Whether a row is a step of a sweep that report.json has for the row's subject; drawSweeps draws these. */
 function isSweep({ subject, family }) {
   const swept = family.replace(/@[^~]*/, "");
   return swept !== family && Object.hasOwn(report.sweeps ?? {}, swept) && Object.hasOwn(report.sweeps[swept], subject);
 }
 
-/**
- * The rows with a rate of false positives: random families except sweeps. Cases and scenes are no random
- * samples.
- */
+/** The rows with false positives, except sweeps and queries that are no random samples (cases and scenes). */
 function rateRows() {
   return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row))
     .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],

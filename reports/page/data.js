@@ -10,8 +10,9 @@ const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
 
 /**
- * The folder of this page, if the page is a file; "" otherwise. Commands name this folder, because a report may
- * be copied together with its cases.
+ * The folder of this page, if the page is a file; "" otherwise. The commands that replay findings contain
+ * this path in front of `cases/`. So they work in any working directory, also after the report has been
+ * copied together with its cases.
  */
 const ownFolder = (() => {
   if (location.protocol !== "file:") return "";
@@ -23,7 +24,7 @@ const ownFolder = (() => {
 })();
 /** A text in the form that a shell reads as one word. */
 const shellQuoted = (text) => (/^[\w./@%+=:,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-/** The command that replays a finding. If the page is a file, the command works in any folder. */
+/** The command that replays a finding. */
 const replayCommand = ({ again }) => again.replace(/(?<= )cases\/\S+/, (file) => shellQuoted(ownFolder + file));
 
 /** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
@@ -51,7 +52,8 @@ const isNoRung = ({ subject, algorithm }) => subject === algorithm;
  */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
 /**
- * The mark of a distance that is not a fraction of a claimed bound; elements of the class "units" explain it.
+ * The mark of a distance: "**" unless it is a fraction of a claimed bound. Elements of the class "units"
+ * explain the mark.
  */
 const unitMark = (row) => (isOfClaim(row) ? "" : "**");
 /**

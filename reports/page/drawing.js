@@ -40,8 +40,8 @@ function withoutMembers(value) {
 }
 
 /**
- * Draws a chart in place of an earlier one. The page's content policy forbids code from strings, so Vega
- * interprets its expressions instead of compiling them.
+ * Draws a chart in place of an earlier one. The page's content security policy forbids code from strings, so
+ * Vega interprets its expressions instead of compiling them.
  */
 async function draw(id, description, spec) {
   const node = element(id);

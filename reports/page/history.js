@@ -37,8 +37,8 @@ function drawNights() {
 }
 
 /**
- * The nights that asked a subject, each with the subject's numbers. `is_other` says whether the subject's code
- * has changed since the previous one of these nights.
+ * The nightly campaigns that put `subject` on trial, each with the subject's counts of that night. `is_other`
+ * says whether the subject's code has changed since the previous one of these campaigns.
  */
 function nightsOf(subject) {
   const asked = nights.map((night, index) => ({ index, night, of: night.subjects[subject] })).filter(({ night }) => Object.hasOwn(night.subjects, subject));

@@ -2,8 +2,8 @@
 "use strict";
 
 /**
- * The charts of an option: the field that a chart shows, its title, and the format of numbers unless it is
- * the usual one.
+ * For each chart of an option: the field that the chart shows, its title, and the format of its numbers
+ * unless this is the usual one (logAxis).
  */
 const optionCharts = [
   ["false_negative_rate", "missed, among collisions", "share(datum.value)"],

@@ -59,7 +59,7 @@ void replace(std::string& text, std::string_view what, const std::string& by) {
   text.replace(text.find(what), what.size(), by);
 }
 
-/// A random word (nonce). The page's content policy lets only scripts with this word run.
+/// A random word (nonce). The page's content security policy lets only scripts with this word run.
 std::string make_nonce() {
   std::random_device random;
   std::string nonce;

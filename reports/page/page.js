@@ -330,7 +330,7 @@ const charts = [
 for (const [id] of charts) show(id);
 drawNavigation();
 
-// The keyboard reaches every box that scrolls.
+// Makes every box that scrolls reachable by keyboard.
 for (const box of document.querySelectorAll("main .scroll, main .chart")) {
   const title = box.closest("section").querySelector("h2")?.textContent ?? box.closest("section").getAttribute("aria-label");
   for (const [name, value] of Object.entries({ tabindex: "0", role: "group", "aria-label": title })) box.setAttribute(name, value);

@@ -68,7 +68,7 @@ function clipped(points, low, high) {
 /**
  * A picture that can be drawn again.
  * @param shown {kind, query, time: t* or when the primitives are closest, toi: the time that a subject gave for t*,
- * step: the step to toi, if its end matters}; toi and step may be missing
+ * step: the rounded step to toi, if it has contact}; toi and step may be missing
  * @param size [width, height]
  * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: the normal of a plane between the primitives}
  */

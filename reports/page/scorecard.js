@@ -66,10 +66,7 @@ const barScale = (() => {
 /** The median time of queries that were timed one by one; if no query was, the time of batches. */
 const usualTime = ({ counts, times }) => times.median_ns ?? counts.ns_per_query;
 
-/**
- * The run time: the median and the 99 % quantile of queries that were timed one by one; if no query was, the
- * time of batches.
- */
+/** The usual time, and the 99 % quantile of queries that were timed one by one. */
 const timeCell = (verdict) => {
   const { median_ns: median, q99_ns: q99 } = verdict.times;
   const usual = usualTime(verdict);
@@ -102,7 +99,7 @@ const againCell = ({ finding, clean }) => {
   return [button, " ", findingLink("show", finding)];
 };
 
-/** Whether the subject failed; beyond its contract, nothing is a failure. */
+/** Whether the subject failed. On queries beyond its contract, a subject cannot fail. */
 const markCell = ({ clean, beyond_contract: isBeyond }) => made("span", isBeyond ? "–" : clean ? "ok" : "FAIL",
   { class: "mark", ...(isBeyond ? { title: "does not count: the contract excludes these queries" } : {}) });
 

@@ -4,7 +4,7 @@
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
 /**
  * The encoding of a chart that distinguishes the two sorts of time by `looks`, such as two shapes or two
- * dashes.
+ * patterns of dashes.
  */
 const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
   legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
@@ -20,7 +20,7 @@ const earlinessRows = () => Object.entries(report.error_against_time.subjects)
   .map(([subject, row]) => ({ ...row, subject, sort: sortsOfTime[row.time_sort],
     median: row.median_time_error[1], q99: row.q99_time_error[1] }));
 
-/** Draws a mark for each subject. Only the subjects chosen in the picker have their own colours. */
+/** Draws a mark for each subject. */
 function drawEarliness() {
   show("earliness-part");
   const rows = earlinessRows();

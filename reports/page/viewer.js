@@ -1,5 +1,5 @@
-// A large picture of a query that the reader can turn, zoom in on the contact, and run through the step;
-// beside it are plots over time.
+// A large picture of a query. The reader can turn the picture, zoom in on the contact, and run through the
+// step. Beside the picture are plots over time.
 "use strict";
 
 /** A number of a certificate: a hexadecimal double, an integer or a fraction. */
@@ -32,7 +32,7 @@ function normalOf(certificate) {
 /**
  * The values that plots show for given places of a query's vertices. For vt and ee: F, the volume that the
  * vertices span, which is 0 when they are coplanar. For vv and ve: the distance of the closest points. For
- * all kinds except vv: the barycentric weights times `norm`.
+ * all kinds except vv: the barycentric weights multiplied by `norm`.
  */
 const curves = {
   vt: ([x0, x1, x2, x3]) => {

@@ -116,12 +116,12 @@ struct ComparedRates {
 
 /// Compares, by Fisher's exact test, the rates of all families that both a campaign and its baseline have.
 /// The earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
-/// differs from the last one's by no more than chance explains. Therefore campaigns in which a fault was
-/// absent do not make the fault new again. For each subject, the function also adds up the rates of those
-/// families and kinds that have few failures in the campaign and its baseline together, and compares these
-/// sums, to notice a new way to fail that is spread over many families. The steps of a sweep share their
-/// random draws, so a sum includes only the step with the most failures. Cases and meshes are left out,
-/// because they are no random samples.
+/// differs from that of the last campaign by no more than chance explains (for the reason given for
+/// compare_signatures). For each subject, the function also adds up the rates of those families and kinds
+/// that have few failures in the campaign and its baseline together, and compares these sums, to notice a new
+/// way to fail that is spread over many families. The steps of a sweep share their random draws, so a sum
+/// includes only the sweep's step with the most failures. Cases and meshes are left out, because they are no
+/// random samples.
 ///
 /// @param risk the probability of calling some rate changed although none has changed; each comparison has an
 /// equal part of this risk (Bonferroni)
@@ -197,13 +197,14 @@ inline constexpr double false_alarm_risk = 1e-3;
 /// Error if two of them have a shard of random queries in common, because its queries would count twice.
 Campaign add_up(std::span<const Campaign> campaigns);
 
-/// Compares a campaign with earlier campaigns, the oldest first: signatures with `compare_signatures`, rates
-/// with `compare_rates`, run times with `compare_times`.
+/// Compares the signatures, rates and run times of a campaign with those of earlier campaigns, the oldest
+/// first.
 Changes changes(const Campaign& now, std::span<const Campaign> baseline);
 
 Changes changes(const Campaign& now, const Campaign& baseline);
 
-/// A line for each new way to fail whose kind of failure is in `failing`, and for each rate that is worse.
+/// A line for each new way to fail whose kind of failure is in `failing`, and for each rate that has become
+/// worse.
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
 constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
 
-/// The rates of one subject, kind and family that a comparison of campaigns looks at.
+/// The rates of one subject, kind and family that campaigns are compared by.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
@@ -67,7 +67,7 @@ constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The proportions {now, before} of some pairs of family and kind, and the bits of these kinds.
+/// The proportions {now, before} of some pairs of family and kind, and the set of these kinds, as bits.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;
@@ -122,8 +122,7 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   return sums;
 }
 
-/// Renames the rate of false positives beyond the bound of each subject that claims no bound. The new name
-/// says that the bound is wang's.
+/// For each subject that claims no bound, renames the rate "false positives beyond the bound".
 void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
   std::set<std::string> claim_nothing;
   for (const auto& [key, counts] : now.counts)

@@ -21,8 +21,8 @@ namespace {
 /// kind.
 constexpr std::size_t fewest_families = 8;
 /// Assumed standard deviations of log(time now / time before) if nothing has changed. Their squares are added
-/// to the variance that follows from the spread among batches. `spread_of_family` is the least value for a
-/// family, which is compared with the subject's other families. `spread_of_subject` is for a subject that is
+/// to the variance that follows from the spread among batches. `spread_of_family` is a lower limit, for a
+/// family that is compared with the subject's other families. `spread_of_subject` is for a subject that is
 /// compared with other subjects, `spread_of_machine` for the only subject of a campaign.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
@@ -91,7 +91,7 @@ struct LogTime {
   Variance variance = {};
 };
 
-/// The mean over the batches in `times`; nothing for fewer than two batches.
+/// The mean over the batches in `times`; nothing unless two batches have different times.
 std::optional<LogTime> log_time(const SubjectTimes& times) {
   constexpr double ps_per_ns = 1000;
   double queries = 0;

@@ -16,7 +16,8 @@ struct Headline {
   bool clean;  ///< nothing failed, and there is no alarm
   std::string text;
   /// The reasons for an alarm, a line each: every failure that breaks a promise (`breaks_promise`), every
-  /// other failure that the baseline does not have, every new way to fail, and every rate that is worse.
+  /// other failure that the baseline does not have, every new way to fail, and every rate that has become
+  /// worse.
   std::vector<std::string> alarms;
 };
 
@@ -30,7 +31,7 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
 ///   the subject's place on the ladder of precisions (LadderPlace);
 ///   its rates over all kinds, for all classes together and for each class;
 ///   its run times, and the number of its changes since the baseline;
-///   the index of its simplest failure in `findings` (null without findings).
+///   the index of its simplest failure in `findings`, or null.
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                                       const std::optional<Changes>& since,
                                       const Failures& failing = usual_failures());

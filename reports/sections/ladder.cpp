@@ -41,8 +41,9 @@ struct Rung : LadderPlace {
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// A fit of the farthest distances of an algorithm's rungs by a power of ε: a line through the logarithms of
-/// ε and of the distances, by least squares. A fit uses the queries of one origin, or of all origins.
+/// A fit of the farthest distances, one for each scalar of an algorithm, by a power of ε: a line through the
+/// logarithms of ε and of the distances, by least squares. A fit uses the queries of one origin, or of all
+/// origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;

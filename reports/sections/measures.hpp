@@ -63,7 +63,7 @@ nlohmann::ordered_json or_null(const std::optional<double>& number);
 /// Adds measures of a sum of counters to an object, under their keys.
 void add_measures(nlohmann::ordered_json& json, const MeasureKeys& measures, const CountsSum& sum);
 
-/// An object with rate_measures(), which reports show for every sum.
+/// An object with rate_measures().
 nlohmann::ordered_json rates_json(const CountsSum& sum);
 
 /// The object of rates_json, with all other counters added.

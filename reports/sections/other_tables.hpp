@@ -1,4 +1,5 @@
-// Tables that other commands write and reports show: how soon hunts find defects, and CCDs in environments.
+// Tables that other commands write and reports show: how soon nearmiss finds known defects, and what CCDs
+// miss in environments.
 #pragma once
 
 #include <cstdint>

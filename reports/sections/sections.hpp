@@ -45,7 +45,7 @@ nlohmann::ordered_json versions_json(const Statistics& statistics);
 /// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line
 /// for each PairFate and a column for each kind.
 std::string funnel_tables(const Statistics& statistics);
-/// An object by step, then by kind, whose values are funnel_json (measures.hpp).
+/// An object by step, then by kind; its values are those of funnel_json (measures.hpp).
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 /// A table for each simulated scene, with a line for each subject.
@@ -61,7 +61,7 @@ std::string sweep_tables(const Statistics& statistics);
 /// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
 /// increasing order.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
-/// An object with a list for each pattern NAME:KEY=*, in the order of classes and values.
+/// An object with a list for each pattern NAME:KEY=*. The list is in the order of classes and values.
 nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
 nlohmann::ordered_json cliffs_json(const Statistics& statistics);
 
@@ -73,7 +73,8 @@ std::string decider_tables(const Statistics& statistics);
 nlohmann::ordered_json deciders_json(const Statistics& statistics);
 
 /// The ladder of precisions (one algorithm in several scalar types): a row for each subject on it, and fits
-/// of the farthest distances by a power of ε. "" unless an algorithm has at least two precisions.
+/// of the farthest false positives' distances by a power of the scalar's ε. "" unless an algorithm has at
+/// least two precisions.
 std::string ladder_table(const Statistics& statistics);
 nlohmann::ordered_json ladder_json(const Statistics& statistics);
 
@@ -84,7 +85,7 @@ nlohmann::ordered_json ladder_json(const Statistics& statistics);
 ///                         for a sound lower bound this magnitude is how early the time is
 ///   "front_by_distance"   the Pareto front by the farthest distance
 ///   "front_by_rate"       the Pareto front by the rate of false positives
-///   "front_by_earliness"  the Pareto front by the 99 % quantile of earliness, for times that are bounds
+///   "front_by_earliness"  the Pareto front by the 99 % quantile of earliness, for sound lower bounds
 ///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
 ///                         B, because fractions of different bounds cannot be compared, and the
 ///                         "paper_bound" of double

@@ -18,7 +18,6 @@ namespace nearmiss {
 
 namespace {
 
-/// The name in lower case: names that differ only in case become equal.
 std::string without_case(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -25,11 +25,12 @@ struct ShownFinding {
 
 /// The first findings of each signature and class (FirstFindings); findings.csv has all findings. The
 /// numbers in file names start at 1 for each kind of failure and each subject; subjects whose file names
-/// differ only in case share numbers.
+/// differ only in upper and lower case share numbers.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
-/// The command that replays a finding from within the report's folder, with the run's limits and bound. If
-/// the subject is a plug-in, the command has the path of the plug-in on the machine that found the failure.
+/// The command that replays a finding from within the report's folder, with the run's --bound and, for a
+/// plug-in, the run's limits. If the subject is a plug-in, the command has the path of the plug-in on the
+/// machine that found the failure.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
 struct ShownFarthest {

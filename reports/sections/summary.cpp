@@ -67,7 +67,7 @@ bool was_asked(const std::string& subject, Kind kind, const Statistics& statisti
 }
 
 /// "; ee not compared, because old was not asked about it", for each kind that only one of the two versions
-/// was asked.
+/// was asked about.
 std::string not_compared(const Versions& versions, const Parts& parts, const Statistics& statistics) {
   std::map<Kind, std::uint64_t> compared;
   for (const auto& [part, counts] : parts) compared[part.second] += counts.queries();

@@ -57,7 +57,7 @@ std::string title_of_sweep(std::string_view family) {
   return of.text();
 }
 
-/// A step for each option of the subject whose value is a number.
+/// A step for each of the subject's options that have a number as value.
 std::vector<Step> steps_of_options(std::string_view subject) {
   std::vector<Step> steps;
   for (auto at = subject.find(':'); at != std::string_view::npos; at = subject.find(':', at + 1)) {

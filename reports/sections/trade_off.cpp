@@ -26,8 +26,8 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over timed families. Rates are computed from this sum, too, because it leaves out the families
-  /// of directed searches, which have no meaningful rates and are not timed.
+  /// The sum over timed families. Rates, like run times, are computed from this sum, because it leaves out
+  /// the families of directed searches, which have no meaningful rates and are not timed.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -64,8 +64,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The subjects of the family that the most subjects were asked about. Among equally large sets of subjects,
-/// the set with the most families.
+/// The largest set of subjects that were asked about the same family. Among equally large sets, the set that
+/// shares the most families.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -98,7 +98,7 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics) {
 
 /// The Pareto front of the sound subjects, fastest first. A sound subject is on the front unless another
 /// sound subject is at least as fast and has at most the same error. If several subjects have equal times and
-/// errors, only the first by name is on the front. `error` computes the error of a subject.
+/// errors, only the first by name is on the front.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&)) {
   std::vector<const TradeOff*> sound;
   for (const TradeOff& each : all)
@@ -235,8 +235,7 @@ std::optional<double> time_over(const Statistics& statistics, const std::string&
   return ns && ns_of_other ? std::optional(*ns / *ns_of_other) : std::nullopt;
 }
 
-/// The row of a subject for a family, or for all families if `family` is "". `sum` has the counters of the
-/// row.
+/// The row of a subject for a family, or for all families if `family` is "".
 DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family,
                const CountsSum& sum) {
   const auto shown = [&](const CountsKey& key) { return family.empty() || row_family(key.family) == family; };

@@ -35,7 +35,7 @@ std::string of(std::uint64_t count, std::uint64_t total) {
   return fmt::format("{} of {}", with_separators(count), with_separators(total));
 }
 
-/// How often a subject failed in this way in families of a class, and how often it could have failed.
+/// How often a failure happened in families of a class, and how often it could have happened.
 std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Counts>& by_kind,
                                                         const FailureInfo& failure) {
   std::uint64_t count = 0;
@@ -47,10 +47,10 @@ std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Cou
   return {count, total};
 }
 
-/// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a subject failed in this way,
-/// for each class of families and, in the first of these classes, for each kind. Leaves out classes and kinds
-/// in which the subject did not fail, and the name of the class if all families are unclassified. If the
-/// subject did not fail in ordinary families, "; no ordinary one of 504" follows.
+/// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a failure happened, for each
+/// class of families and, in the first of these classes, for each kind. Leaves out classes and kinds without
+/// the failure, and the name of the class if only unclassified families have the failure. If ordinary
+/// families do not have it, "; no ordinary one of 504" follows.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   std::string no_ordinary_one;
@@ -74,8 +74,8 @@ std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   return fmt::format("{}{}", fmt::join(classes, "; "), no_ordinary_one);
 }
 
-/// "2 of 504 in ordinary families, 40 of 5,000 in extreme families": how often a subject failed in this way,
-/// for each class of families.
+/// "2 of 504 in ordinary families, 40 of 5,000 in extreme families": how often a failure happened, for each
+/// class of families.
 std::string by_families(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   for (const auto& [in, by_kind] : parts)
@@ -85,7 +85,7 @@ std::string by_families(const Parts& parts, const FailureInfo& failure) {
   return fmt::format("{}", fmt::join(classes, ", "));
 }
 
-/// The least exotic class of families in which a subject failed in this way.
+/// The least exotic class of families in which a failure happened.
 Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& failure) {
   const auto has_failed = [&](const auto& of_kind) { return failure.count(of_kind.second) > 0; };
   return std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
@@ -93,12 +93,12 @@ Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& f
   });
 }
 
-/// How often a subject failed in this way on queries of a class; 0 if the counters do not say.
+/// How often a failure happened on queries of a class; 0 if the counters do not say.
 std::uint64_t count_of(const Counts& counts, const FailureInfo& failure, QueryClass of) {
   return failure.by_class == nullptr ? 0 : (counts.*failure.by_class)[static_cast<std::size_t>(of)];
 }
 
-/// The least exotic class of the queries on which a subject failed in this way; nothing if it is not known.
+/// The least exotic class of the queries on which a failure happened; nothing if their classes are not known.
 std::optional<QueryClass> class_of_queries(const OfSubject& subject, const FailureInfo& failure) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(QueryClass::unclassified); ++i)
     if (const auto of = static_cast<QueryClass>(i); count_of(subject.all, failure, of) > 0) return of;
@@ -111,9 +111,9 @@ std::string class_and_kind(QueryClass of, Kind kind) {
                                         : fmt::format("{} {}", name(of), short_name(kind));
 }
 
-/// "53 of 504 ordinary vt collisions": how often a subject failed in families of the class `in`, for each
-/// kind with such failures. If the classes of the failed queries are `known`, only for kinds with failures on
-/// queries of the class `in`. Adds the kinds in the text to `said`. "" if there are none.
+/// "53 of 504 ordinary vt collisions": how often a failure happened in families of the class `in`, for each
+/// kind. If the classes of the failed queries are `known`, only for kinds with failed queries of the class
+/// `in`. Adds the kinds in the text to `said`. "" if there are none.
 std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
@@ -132,8 +132,8 @@ std::string said_of_families(const Parts& parts, const FailureInfo& failure, Que
   return fmt::format("{} {}", fmt::join(of_kinds, " and "), is_one ? failure.one : failure.many);
 }
 
-/// "12 ordinary vt collisions in degenerate families": on how many queries of the class `of` a subject
-/// failed, for each kind that is not in `said`. "" if the subject did not fail on such queries.
+/// "12 ordinary vt collisions in degenerate families": on how many queries of the class `of` a failure
+/// happened, for each kind that is not in `said`. "" if there are no such queries.
 std::string said_of_queries(const Parts& parts, const FailureInfo& failure, QueryClass of,
                             const std::set<Kind>& said) {
   std::map<Kind, std::uint64_t> by_kind;
@@ -156,9 +156,9 @@ std::string said_of_queries(const Parts& parts, const FailureInfo& failure, Quer
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// The least exotic class of the queries on which a subject failed in this way, and how often it failed on
-/// queries of this class: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in
-/// degenerate families". If the classes of the queries are not known, uses the classes of their families.
+/// The least exotic class of the queries on which a failure happened, and how often it happened on queries of
+/// this class: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate
+/// families". If the classes of the queries are not known, uses the classes of their families.
 std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const FailureInfo& failure) {
   const auto of_queries = class_of_queries(subject, failure);
   const QueryClass of = of_queries.value_or(least_exotic_part(subject.parts, failure)->first);
@@ -227,9 +227,9 @@ std::string unjudged_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
-/// How often a subject failed in this way, for each class of families. If the least exotic class of a failed
-/// query differs from the least exotic class of these families, the text begins with the queries of the
-/// former: "3 ordinary vt collisions in extreme families; in all 40 of 5,000 in extreme families".
+/// How often a failure happened, for each class of families. If the least exotic class of the failed queries
+/// differs from that of the families with the failure, the text begins with the queries of the former class:
+/// "3 ordinary vt collisions in extreme families; in all 40 of 5,000 in extreme families".
 std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
   const auto in_queries = class_of_queries(subject, failure);
   if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)

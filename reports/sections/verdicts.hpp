@@ -22,7 +22,8 @@ struct SubjectVerdict {
   std::map<FailureKind, std::string> said;
   QueryClass least_exotic = QueryClass::unclassified;  ///< the least exotic class with a failure that counts
 
-  /// In words, the gravest of the failures that count in the class `least_exotic`; "" if no failure counts.
+  /// In words, the gravest failure that counts and was seen in the class `least_exotic`; "" if no failure
+  /// counts.
   std::string first = {};
 };
 

@@ -41,8 +41,8 @@ struct Proportion {
   }
 };
 
-/// The one-sided p-values of a test whether two proportions, `now` and `before`, have the same rate:
-/// probabilities under the assumption that the rates are equal.
+/// The one-sided p-values of a test of two proportions, `now` and `before`: probabilities if both have the
+/// same rate.
 struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count

@@ -41,7 +41,7 @@ struct NamedCounts {
   std::string_view csv_prefix{};  ///< start of the names of the columns PREFIX_NAME in statistics.csv; only
                                   ///< for members of Counts
   std::size_t first = 0;          ///< index of the first entry that is counted and shown
-  bool shows_zeros = false;       ///< whether report.json shows zero entries
+  bool shows_zeros = false;       ///< whether report.json shows entries that are 0
 };
 
 /// Calls `use` with each declaration of `Owner`, in the order in which files show them.
@@ -62,7 +62,7 @@ constexpr bool declares_all_members() {
 /// The largest sum of counts, or of nanoseconds (36 years). A few sums of this size add up without overflow.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
-/// Adds a count to another count. Throws Error if the sum is greater than largest_count.
+/// Throws Error if the sum is greater than largest_count.
 inline void add_up(std::uint64_t& own, std::uint64_t other) {
   if (other > largest_count - std::min(own, largest_count))
     throw Error("found counts that add up to more than 2^60, expected fewer queries");

@@ -22,7 +22,7 @@
 namespace nearmiss {
 
 /// A query that is kept because its answer is among the most extreme: a false positive whose primitives are
-/// among the farthest apart, or a time that is among the earliest or the latest relative to t*.
+/// among the farthest apart, or a time that is among the earliest or the latest relative to t* (TimeError).
 struct FarCase {
   double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or |time - t*|
   Query query;
@@ -31,7 +31,7 @@ struct FarCase {
   bool operator==(const FarCase&) const = default;
 };
 
-/// Adds cases, and keeps the farthest of all: at most Counts::far_cases.
+/// Adds `other` to `own`, but keeps only the farthest cases of both, at most Counts::far_cases.
 void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 
 /// Adds a query to the kept cases if its ratio is among the largest.
@@ -64,8 +64,8 @@ struct Outcome {
   Verdict verdict;
   bool collision = false;
   /// For a false positive: the certified smallest distance over [0, 1] divided by the claimed bound, rounded
-  /// up within its Histogram bin. The relative error is at most 1/1000 for a ratio above the first bin if
-  /// the case may be among the farthest.
+  /// up within its Histogram bin. The relative error is at most 1/1000 if the ratio is above the first bin
+  /// and may be among the largest (Counts::farthest).
   double ratio = 0;
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   double bound = 0;            ///< the claimed bound, if it is refuted
@@ -113,7 +113,7 @@ struct Counts {
   std::vector<FarCase> earliest;  ///< times with the largest t* - time, at most far_cases
   std::vector<FarCase> latest;    ///< times with the largest time - t*, at most far_cases
 
-  /// Whether no counter of a part exceeds the counter of the whole, for example false_negatives <=
+  /// Whether the counter of each part is at most that of its whole, for example false_negatives <=
   /// collisions.
   [[nodiscard]] bool is_possible() const;
 
@@ -181,7 +181,6 @@ struct Counts {
   [[nodiscard]] double false_negative_rate() const {
     return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
   }
-  /// The unit of the distances: the bound by which they are divided.
   [[nodiscard]] DistanceUnit distance_unit() const {
     if (measured_by_wang == 0) return DistanceUnit::claimed_bound;
     return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
@@ -191,11 +190,11 @@ struct Counts {
   /// after t*).
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// The smallest ratio with which the list `kept` keeps a further case; 0 until the list is full.
+  /// The smallest ratio of a further case that the list `kept` would keep; 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
-  /// Queries that the subject reported because it could not tell.
+  /// Queries that the subject reported because it could not tell whether they collide.
   [[nodiscard]] std::uint64_t unknown() const {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
@@ -205,8 +204,8 @@ struct Counts {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
   }
-  /// The bin of a quantile of t* - time: of the times that are not after t*, a fraction `part` has an error
-  /// of at most the bin's upper end. The upper end is at most the largest error.
+  /// The bin of a quantile of t* - time, over the times that are not after t*: for a fraction `part` of
+  /// these, the error is at most the bin's upper end. The upper end is at most the largest error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
@@ -234,7 +233,7 @@ struct OracleCounts {
   std::uint64_t collisions = 0;
   std::array<std::uint64_t, filter_stage_count>
       by_stage{};                         ///< queries by the stage of the filter that decided
-  std::uint64_t near_bounds = 0;          ///< queries decided near the filter's bounds, if counted
+  std::uint64_t near_bounds = 0;          ///< queries that the filter decided near its bounds, if counted
   std::uint64_t compared = 0;             ///< queries decided by all exact methods
   std::uint64_t compared_collisions = 0;  ///< collisions among `compared`
   std::uint64_t missed_by_parity = 0;     ///< collisions among `compared` that have an even number of roots

@@ -1,4 +1,4 @@
-// The most extreme queries that were found, which show how much slack the tolerances have.
+// The most extreme queries that were found. They show how much slack the paper's tolerances have.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@ namespace nearmiss {
 /// The most extreme query that was found for one tolerance, or for one group of tests.
 struct Extreme {
   enum class Of : std::uint8_t {
-    /// The largest factor on the tolerance that makes the algorithm miss a collision; 0 if no factor does.
+    /// The largest factor on the tolerance with which the algorithm misses a collision; 0 if there is none.
     accepting_tolerance,
-    /// For a tolerance that keeps degenerate primitives out: the smallest factor on the tolerance that makes
-    /// the algorithm miss a collision; infinity if no factor does.
+    /// For a tolerance that keeps degenerate primitives out, the smallest factor with which the algorithm
+    /// misses a collision; infinity if there is none.
     keeping_tolerance,
-    /// The largest distance / bound of the tests' false positives; 0 without any.
+    /// The largest distance / bound of the tests' false positives; 0 if there are none.
     distance,
   };
 
   Of of{};
   std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< factor of the tolerance (the others are the paper's), or distance / bound
+  double value = 0;           ///< factor on the tolerance (the others as in the paper), or distance / bound
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried

@@ -160,8 +160,8 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
 }
 
 /// Whether chance may explain that none of the `collisions` in a run of levels is missed. `outside` has the
-/// levels on one side of the run, nearest first. The assumed rate of misses is that of the nearest of these
-/// levels, or of the nearest two together, and so on. False if the nearest level has no misses.
+/// levels on one side of the run, nearest first. Tries several rates of misses: that of the nearest level,
+/// that of the nearest two levels together, and so on. False if the nearest level has no misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

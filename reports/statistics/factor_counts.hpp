@@ -83,7 +83,7 @@ struct RightRange {
   /// Nothing if there is no such run, if the misses next to it are so rare that chance explains the run, or
   /// if `too_few`.
   std::optional<std::pair<int, int>> exponents;
-  bool too_few = false;    ///< whether there are fewer than two collisions for each value
+  bool too_few = false;    ///< whether the values have fewer than two collisions on average
   FactorCounts elsewhere;  ///< the answers at all other values
 };
 

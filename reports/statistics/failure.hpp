@@ -1,6 +1,6 @@
 // Says what counts as a failure, and how grave it is. Only this file decides about failures: findings, exit
-// codes, verdicts, the headline, the comparison with a baseline, nights, Pareto fronts and the power of a
-// hunt follow it.
+// codes, verdicts, the headline, the comparison with a baseline, the history of nights, Pareto fronts and
+// hunts for known defects follow it.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ enum class FailureKind : std::uint8_t {
   wrong_truth,          ///< the oracle disagrees with a recorded truth
   miss,                 ///< a collision was not reported
   late,                 ///< contact, or a distance below the separation h, before a promised lower bound
-  unsafe_step,   ///< contact in the rounded step to a sound lower bound, though the subject promised it free
+  unsafe_step,   ///< contact in the rounded step to a sound lower bound, though the subject promised none
   beyond_bound,  ///< a false positive is farther away than claimed
   fault,         ///< there is no answer, for a reason other than time or a contract
   unjudged,      ///< the subject was not asked any query, or did not answer any in time
@@ -74,8 +74,8 @@ std::optional<Finding::What> finding_of(FailureKind kind);
 inline constexpr std::string_view beyond_contract = " (beyond contract)";
 inline bool is_beyond_contract(std::string_view subject) { return subject.ends_with(beyond_contract); }
 
-/// The failures in a subject's counters. For a subject beyond its contract, queries that it was not asked
-/// are no failure.
+/// The failures in a subject's counters. For a subject with `beyond_contract` in its name, queries that it
+/// was not asked are no failure.
 Failures failures_of(const std::string& subject, const Counts& counts);
 
 /// The failures of each subject; a subject without failures has an empty set. If the oracle failed, its

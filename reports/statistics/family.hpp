@@ -25,8 +25,8 @@ std::string shown_family(std::string_view family);
 /// The origin of queries: "directed search", or their family.
 std::string_view origin(std::string_view family);
 
-/// The name that all steps of a sweep share, because the steps make the same random draws and differ only in
-/// the value of the parameter. For a family that is no step of a sweep, the family's own name.
+/// The name that all steps (NAME@VALUE) of a sweep share, because the steps make the same random draws and
+/// differ only in the value of the parameter. For a family that is no step of a sweep, the family's own name.
 std::string draws_of(std::string_view family);
 
 /// The largest number of a subject's queries that share one random draw: the number of steps of the longest

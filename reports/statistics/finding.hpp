@@ -1,4 +1,4 @@
-// Findings (queries that failed), and signatures (ways to fail).
+// Findings, and signatures (ways to fail).
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace nearmiss {
 
-/// A query that failed.
+/// A query on which a subject or the oracle failed.
 struct Finding {
   enum class What : std::uint8_t {
     false_negative,
@@ -25,7 +25,7 @@ struct Finding {
     fault,
     late,        ///< a time is too late, although the subject promised a lower bound
     committed,   ///< a promised lower bound is sound, but the rounded step to it has contact before its end
-    unsafe_step  ///< as `committed`, although the subject promises that this step is free
+    unsafe_step  ///< as `committed`, although the subject promises a step without contact
   };
 
   What what{};
@@ -73,8 +73,9 @@ constexpr bool has_step(Finding::What what) {
 /// Whether a finding of this sort has the subject's time.
 constexpr bool has_time(Finding::What what) { return what == Finding::What::late || has_step(what); }
 
-/// Whether reports only show a finding of this sort. Such a finding breaks no promise, so it is no failure of
-/// a version, no new way to fail since a baseline, and no reason for a user's test to fail.
+/// Whether reports show findings of this sort without counting them as failures. Such a finding breaks no
+/// promise, so it is no failure of a version, no new way to fail since a baseline, and no reason for a user's
+/// test to fail.
 constexpr bool is_only_shown(Finding::What what) { return what == Finding::What::committed; }
 
 /// A way to fail.

@@ -15,10 +15,9 @@ namespace nearmiss {
 enum class DistanceUnit : std::uint8_t {
   claimed_bound,
   wangs_bound,
-  both,  ///< runs with different versions of a subject were added up
+  both,  ///< both occur: versions of a subject with and without a claim were added up
 };
 
-/// The name of a unit in files.
 constexpr std::string_view name(DistanceUnit unit) {
   switch (unit) {
     case DistanceUnit::claimed_bound:

@@ -18,7 +18,7 @@ void CountsSum::add(const std::string& family, const Counts& each) {
 namespace {
 
 /// Adds each entry of the second map to the first. The keys of both maps are in the same order, so the place
-/// of a key is usually right after the place of the last key.
+/// of a key is usually right after that of the previous key.
 template <class Entries>
 void merge_entries(Entries& own, const Entries& other) {
   auto place = own.begin();

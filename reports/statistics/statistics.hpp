@@ -1,5 +1,5 @@
-// The counters of a campaign. Merging the statistics of its shards gives the same bytes for any number of
-// shards and in any order.
+// The counters of a campaign. The result of merging the statistics of its shards is the same to the last
+// byte, whatever the number and the order of the shards.
 #pragma once
 
 #include <cstdint>
@@ -44,8 +44,8 @@ struct VersionKey {
   }
 };
 
-/// Counts the queries that both versions were asked, by the versions that fail. A version fails if it misses
-/// a collision, gives a late time, exceeds its claimed bound, or gives no answer.
+/// Counts the queries that both versions were asked, by which of them fail. A version fails if it misses a
+/// collision, gives a late time, promises an unsafe step, exceeds its claimed bound, or gives no answer.
 struct VersionCounts {
   std::uint64_t fixed = 0;    ///< only the earlier version fails
   std::uint64_t broken = 0;   ///< only the later version fails

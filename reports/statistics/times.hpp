@@ -1,4 +1,5 @@
-// Run times of subjects. Merging times gives the same bytes in any order.
+// Run times of subjects. The result of merging run times is the same to the last byte, whatever the order in
+// which they are merged.
 #pragma once
 
 #include <array>
@@ -66,7 +67,7 @@ struct SlowCase {
   bool operator==(const SlowCase&) const = default;
 };
 
-/// Adds cases, and keeps the slowest of all: at most SubjectTimes::slow_cases.
+/// Adds `other` to `own`, but keeps only the slowest cases of both, at most SubjectTimes::slow_cases.
 void add_up(std::vector<SlowCase>& own, const std::vector<SlowCase>& other);
 
 using BatchesByFamily = std::map<std::pair<Kind, std::string>, BatchTimes>;

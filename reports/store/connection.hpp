@@ -29,8 +29,8 @@ class FileLock {
 /// the store; if that process is killed, the log remains.
 std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
 
-/// Opens a store to read it. Opening changes the store only if a process was killed while it wrote the file
-/// itself: SQLite then uses the journal beside the store to roll back the unfinished change.
+/// Opens a store to read it. Opening changes the store only if a process was killed while it wrote the store
+/// itself, not the log: SQLite then uses the journal beside the store to roll back the unfinished change.
 SQLite::Database open_to_read(const std::filesystem::path& file);
 
 /// A connection for writing.

@@ -79,7 +79,6 @@ Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint
   return rows;
 }
 
-/// Replaces all counters in a store.
 void write_statistics(Save& save, const Statistics& statistics) {
   Statistics whole;
   merge_counters(whole, statistics);
@@ -176,7 +175,7 @@ void check_structure(SQLite::Database& db) {
   if (found != "ok") throw Damage(found.substr(0, found.find('\n')));
 }
 
-/// Whether an error while reading means that the contents of a file are damaged, not that it cannot be
+/// Whether an error while reading means that the contents of a file are damaged, not that the file cannot be
 /// opened.
 bool is_damage(const std::exception& error) {
   if (dynamic_cast<const Damage*>(&error) != nullptr) return true;

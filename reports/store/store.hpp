@@ -42,10 +42,10 @@ class Store {
   /// file cannot be written, throws Error (for example StoreIsLocked) and leaves the file unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 
-  /// Replaces all findings. Throws Error if the file cannot be written, and then leaves it unchanged.
+  /// Replaces all findings. Throws Error as `save` does.
   void replace(std::span<const Finding> findings);
 
-  /// Adds a picture. Throws Error if the file cannot be written, and then leaves it unchanged.
+  /// Adds a picture. Throws Error as `save` does.
   void add(const ScenePicture& picture);
 
  private:

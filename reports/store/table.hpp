@@ -19,7 +19,7 @@
 namespace nearmiss {
 
 /// The version of the tables and of their contents. Only stores of this version are read. Every change of the
-/// tables or contents raises the version, except a new member that rows may lack.
+/// tables or contents raises the version, unless it only adds a member that rows may lack.
 inline constexpr int store_version = 25;
 
 /// Thrown if a store is not as it was written. The message says which part is damaged.
@@ -71,7 +71,7 @@ class Reader {
 
   /// The number of rows that were read.
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
-  /// The losses of each table that has any, in words such as "3 of 20 rows of counts".
+  /// What was lost, by table, in words such as "3 of 20 rows of counts".
   [[nodiscard]] const std::map<std::string, std::string>& lost() const { return lost_; }
 
  private:

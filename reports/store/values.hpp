@@ -23,7 +23,6 @@
 
 namespace nearmiss {
 
-/// The names of the kinds, in the order of Kind.
 inline constexpr auto kind_names = [] {
   std::array<std::string_view, kinds.size()> names;
   for (const Kind kind : kinds) names[static_cast<std::size_t>(kind)] = short_name(kind);

@@ -7,11 +7,11 @@
 
 namespace nearmiss {
 
-/// An argument as a shell reads it: in quotes if it needs them.
+/// An argument for a shell, in quotes if it needs them.
 std::string shell_quoted(const std::string& argument);
 
-/// An argument as bash, ksh or zsh read it, in printable text: bytes that are not printable are octal
-/// escapes, as in $'M\344.case'.
+/// An argument for bash, ksh or zsh, in printable text: bytes that are not printable are octal escapes, as in
+/// $'M\344.case'.
 std::string printable_argument(const std::string& argument);
 
 /// Whether a text is one command, and nothing else that a shell would run. The arguments must be quoted as

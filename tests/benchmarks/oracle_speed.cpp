@@ -1,6 +1,6 @@
 // Measures how long the oracle takes to judge a subject, in ns of processor time per query whose swept boxes
 // meet. The benchmark `decision` only decides the queries. The others also judge times that a subject gives
-// for collisions, as a trial does: is the given time later than the earliest time t*? The given times are
+// for collisions, as a trial does: is the time late, that is, after the earliest time t*? The times are
 //   early   t* - 1e-6, at least 0, like the times of a conservative CCD;
 //   exact   the largest double that is not after t*, like the times of the subject `exact`, which are the
 //           hardest to judge;
@@ -31,7 +31,7 @@
 namespace nearmiss {
 namespace {
 
-/// Queries of one kind and separation whose swept boxes meet.
+/// Queries of one kind, with one separation, whose swept boxes meet.
 struct Input {
   std::vector<Query> queries;
   std::vector<Enclosure> times;  ///< an enclosure of each t*, as narrow as doubles allow; made when needed
@@ -60,7 +60,7 @@ double processor_nanoseconds() {
 }
 
 /// Decides all queries. Unless `give` is null, also judges the times that `give` returns for collisions.
-/// Returns the number of late times.
+/// Returns how many of these times are late.
 std::size_t judge(const Input& input, GiveTime give, std::vector<Decision>& decisions) {
   decide(input.queries, decisions);
   std::size_t late = 0;

@@ -1,8 +1,8 @@
-// Searches for the queries that take each part of the oracle's work longest. The parts are the decision; the
-// earliest time of a collision; the distance of a false positive; the comparison of all exact methods; the
-// certificates. The search begins with queries of all families and with the cases in the files and folders
-// PATH. Then it mutates and crosses the slowest queries of each part. Prints ms of processor time, and writes
-// the slowest query of each part into FOLDER:
+// Searches, for each part of the oracle's work, for the queries that take longest. The parts are the
+// decision; the earliest time of a collision; the distance of a false positive; the comparison of all exact
+// methods; the certificates. The search begins with queries of all families and with the cases in the files
+// and folders PATH. Then it mutates and crosses the slowest queries of each part. Prints ms of processor
+// time, and writes the slowest query of each part into FOLDER:
 //   slowest_queries SECONDS SEED FOLDER [PATH...]
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@
 namespace nearmiss {
 namespace {
 
-/// A part of the oracle's work. `work` gets the decision of a query, and does not decide it again.
+/// A part of the oracle's work, which `work` does for a query that is already decided.
 struct Part {
   std::string_view name;
   std::string_view about;
@@ -41,7 +41,7 @@ struct Part {
   void (*work)(const Query& query, const Decision& decision);
 };
 
-/// Judges a false positive of a subject that claims no bound, which needs the smallest distance.
+/// Judges a false positive of a subject that claims no bound. This needs the smallest distance.
 void judge_report(const Query& query, const Decision& decision) {
   static const auto basic = make_subject("basic");
   static const Judge judge(*basic);

@@ -63,7 +63,7 @@ TEST(Advance, MeasuresTheDistanceOfEveryFeatureOfEdges) {
   expect_distance(edges_at(-3, 0.5, 1.5), 2.5);
 }
 
-// The vertex flies towards a corner at a right angle to one of the corner's edges.
+// The vertex flies towards a corner of the triangle, at a right angle to an edge that ends there.
 TEST(Advance, FindsACornerAtARightAngleToItsEdge) {
   const Vector3<double> a(0, 0, 0), b(0, 1, 0), c(-1, 0, 0);
   expect_just_before(make_query(Kind::vertex_triangle, {{1, 0, 0}, a, b, c}, {{-1, 0, 0}, a, b, c}), 0, 0.5);

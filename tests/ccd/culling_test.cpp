@@ -115,7 +115,7 @@ TEST(VeCulling, TimesOutsideTheStepNeedNotBeBracketed) {
   EXPECT_FALSE(detail::brackets_root(F, 0.75, 0.5, 1.0));
 }
 
-// h is at most 1, so four thresholds must be less than the slope.
+// Four thresholds must be less than the slope, so that h, their quotient, is less than 1.
 TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
   EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
   EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));

@@ -48,7 +48,7 @@ TEST(VertexVertex, ReportsWhatIsWithinD) {
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
 }
 
-// D² = 1, δ = 2^-10 and the squared distance are exact.
+// D² = 1, δ = 2^-10 and the squared distance, which is their sum, have no rounding errors.
 TEST(VertexVertex, AcceptsASquaredDistanceOfD2AndDelta) {
   Tolerances<double> unit{};
   unit.D2 = 1;
@@ -102,7 +102,7 @@ TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
 }
 
 TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
-  // The edge turns through a diagonal of two axes at t = 1/2, when the vertex crosses the edge's line.
+  // At t = 1/2, two components of the turning edge are equal, and the vertex crosses the edge's line.
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) {
       const auto turned = [&](const Vector& v) {
@@ -117,7 +117,8 @@ TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {
-  // The vertex passes at a third of D beyond the end xj, so the vertex's projection is never inside the edge.
+  // The vertex passes the end xj at a third of D, outside of the edge, so the vertex's projection is never
+  // inside the edge.
   const double d = std::sqrt(tol.D2) / 3;
   const auto pair = vertex_edge_pair(moving({0.5 + d, -0.5, 0}, {0, 1, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);

@@ -33,7 +33,7 @@ abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added
 missing=$(comm -23 constants.txt <(constants))
 [[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
 
-# Debian's list of symbols, which gives the first version with each function, must be complete.
+# Debian's list of symbols, which gives the first version that has each function, must be complete.
 known=$(sed -nE 's/^ (nearmiss_\w+)@NEARMISS_1 .*/\1/p' ../../tools/debian/symbols | sort)
 exported=$(nm -D --defined-only "$library" | sed -nE 's/.* T (\w+)@@NEARMISS_1$/\1/p' | sort)
 [[ $known == "$exported" ]] || fail "tools/debian/symbols has: $known; the library: $exported"

@@ -71,7 +71,7 @@ void ask(const nearmiss::Queries& queries, const Block& block, const char* layou
   compare("wang", answers, block.wang);
 }
 
-/// Checks that random queries are answered without allocating memory if they need no exact arithmetic.
+/// Checks that random queries, none of which needs exact arithmetic, are answered without allocating memory.
 void allocates_nothing() {
   using nearmiss::Queries;
   constexpr std::size_t n = 10000;

@@ -11,7 +11,6 @@ here=$(dirname "$script")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "FAILED: $*" >&2; exit 1; }
-# Runs a command, and shows its output only if it fails.
 quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
 quietly cmake --install "$build" --prefix "$folder/first"
@@ -48,7 +47,7 @@ check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 # With -march=native, clang 19 warns on some processors about a feature of their vector instructions.
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native -Wno-unknown-warning-option -Wno-invalid-feature-combination" -DWITH_TEMPLATES=OFF
 
-# The templates refuse unsafe flags. With clang++, headers can recognise only the first two flags below.
+# The templates refuse unsafe flags. Compiled with clang++, they can recognise only the first two flags below.
 refuse_flags() {
   local compiler=$1 flags
   shift

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from suite import run_tests
 
 KILLED = (-9, 128 + 9)  # exit codes of processes that were killed at a limit
-BUDGET = 300  # seconds of one core for the tests of one call, by their times without a mutant
 
 
 @dataclass
@@ -17,7 +16,6 @@ class Answer:
     how: str = ''  # 'failed', 'crashed' or 'too slow'
     cpu: float = 0
     asked: int = 0  # number of tests
-    unasked: list = field(default_factory=list)  # tests left out for lack of time
 
 
 def in_order(steps):
@@ -25,8 +23,8 @@ def in_order(steps):
 
 
 def batches(steps):
-    """Yields lists of steps, each of one executable. Quick steps come first: steps are taken in
-    batches, each of which takes about as long as all batches before it."""
+    """Divides steps, quick ones first, into batches, each of which takes about as long as all batches
+    before it together. Yields a list of steps for each executable in each batch."""
     batch, size, limit = {}, 0, 0.5
     for step in in_order(steps):
         if batch and size + step.cpu > limit:
@@ -35,18 +33,6 @@ def batches(steps):
         batch.setdefault(step.group, []).append(step)
         size += step.cpu
     yield from batch.values()
-
-
-def affordable(steps):
-    """The quickest steps that together fit the budget, and the names of the other steps."""
-    kept, left, total = [], [], 0
-    for step in in_order(steps):
-        total += step.cpu
-        if total <= BUDGET:
-            kept.append(step)
-        else:
-            left.append(step.name)
-    return kept, left
 
 
 def culprit(group, ended):
@@ -60,8 +46,8 @@ def culprit(group, ended):
 
 
 def run_steps(group, layer):
-    """Runs steps of one executable, with a time limit far above their times without a mutant. It limits
-    wall time, because limits of CPU time change how the kernel measures CPU time."""
+    """Runs steps of one executable, with a limit far above their times without a mutant. The limit is one
+    of wall time, because a limit of CPU time changes how the kernel measures CPU time."""
     return run_tests(
         group[0].group,
         [step.test for step in group],
@@ -73,9 +59,7 @@ def run_steps(group, layer):
 def ask(steps, answer, layer):
     """Runs tests with the mutant of a layer, which is built, and adds the result to `answer`. Runs a failed
     test again, since it may have failed because the machine was busy."""
-    kept, left = affordable(steps)
-    answer.unasked += left
-    for group in batches(kept):
+    for group in batches(steps):
         while group:
             ended = run_steps(group, layer)
             answer.cpu += ended.cpu

@@ -1,6 +1,6 @@
-"""The copy of the tree and its build, without a mutant. The copy has its own C++ files and headers; all
-other files are links. A mutant is a layer over both, so that a mutant changes neither of them, several
-mutants can be built at a time, and nothing is compiled again when a mutant is taken back."""
+"""A copy of the tree, without a mutant, and its build. The copy has its own C++ files and headers; all
+other files are links. A mutant is in a layer over the copy and the build, so it changes neither of them,
+several mutants can be built at a time, and nothing is compiled again when a mutant is taken back."""
 
 import os
 import shutil
@@ -35,8 +35,8 @@ def link(target, path):
 
 
 def mirror(source, target):
-    """Copies a folder. C++ files and headers become files; all other files become links. Removes from the
-    copy what the folder does not have."""
+    """Makes the folder `target` a copy of `source`: C++ files and headers are copied, all other files are
+    linked. Removes from `target` what `source` does not have."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -71,14 +71,14 @@ def make_copy():
 
 
 def configure():
-    """Configures the build of the copy, which optimises less than that of the product."""
+    """Configures the build of the copy, which optimises less than the product's build."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'NEARMISS_COMPONENTS': 'ccd;oracle;trial;tools;python;tests',
         'CMAKE_CXX_COMPILER': 'g++',
         # Mutants cause many warnings.
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w',
-        # The edits that make defective subjects do not fit a header that contains a mutant.
+        # Defective subjects are made by edits of headers, which may not fit a header with a mutant.
         'nearmiss_unedited': ROOT,
     }
     words = [f'-D{name}={value}' for name, value in options.items()]
@@ -89,8 +89,7 @@ def configure():
 
 @dataclass
 class Layer:
-    """A layer over the copy and its build, in a folder of its own: what commands write there stays in the
-    layer."""
+    """A layer over the copy and its build. What commands write to them is kept in `folder` instead."""
 
     folder: Path
 
@@ -108,7 +107,7 @@ class Layer:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def words(self):
-        """Words to put before a command that sees the layer."""
+        """Words to put before a command so that it sees the layer."""
         user = [] if os.geteuid() == 0 else ['--user', '--map-current-user', '--keep-caps']
         folders = f'lowerdir={BASE},upperdir={self.folder}/upper,workdir={self.folder}/work'
         mount = 'mount -t overlay overlay -o "$1" "$2" && cd "$PWD" && shift 2 && exec "$@"'

@@ -1,8 +1,7 @@
 """Draws mutants by a seed, evenly over folders and over operators.
 
 The operators are substitutions in lines that clang-format has laid out, with blanks around binary operators
-and none around the brackets of templates. The order of the draw depends only on the seed and each mutant's
-own text, so a change elsewhere in the sources does not change the draw."""
+and none around the brackets of templates."""
 
 import re
 from collections import Counter
@@ -49,7 +48,7 @@ SUBSTITUTIONS = [
     ('min for max', r'\blower_bound\(', 'upper_bound('),
     ('min for max', r'\bupper_bound\(', 'lower_bound('),
 ]
-# Lines that get no mutant, because no test can notice it, or because only the compiler reads them.
+# Lines without mutants, because no test can notice a change, or because only the compiler reads them.
 LEFT_ALONE = re.compile(
     r'\s*(#|//|/?\*|static_assert|template|using |throw |namespace )|.*\bError\('
 )
@@ -102,7 +101,7 @@ def chosen(mutations, seed, count):
 
 
 def draw(folders, seed, count):
-    """Draws the same number of mutants from each folder; their total is `count` or a few more."""
+    """Draws equally many mutants from each folder: in total, `count` or a few more."""
     known = equivalents.listed()
     drawn = []
     for folder in folders:

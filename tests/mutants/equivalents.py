@@ -1,4 +1,4 @@
-"""The list of mutants that change no answer, equivalent.txt, each with a reason.
+"""Reads equivalent.txt, which lists mutants that change no answer:
 
     oracle/root.cpp
     - the text of some lines of this file

@@ -17,7 +17,7 @@ class Stopped(Exception):
 
 @dataclass
 class Ended:
-    """How a command ended, and the time that the command and all of its children used."""
+    """How a command ended, its wall time, and the CPU time of the command and all of its children."""
 
     code: int  # exit code, or minus the number of the signal that ended it
     output: str
@@ -40,7 +40,7 @@ def kill(process):
 
 
 def wait(process, seconds):
-    """Waits for a process to end; kills it after some seconds. Returns a triple: whether the process
+    """Waits for a process to end, but kills it after `seconds`. Returns a triple: whether the process
     exceeded this time, its exit code, and the resources that it used."""
     begin = time.monotonic()
     late, pause = False, 0.002
@@ -78,7 +78,7 @@ def seal():
 
 
 def run(command, cwd, env=None, seconds=3600, before=()):
-    """Runs a command in its own process group. `before` are words from `seal` and `limits`."""
+    """Runs a command in its own process group, after the words `before`, or those of limits()."""
     if stopping.is_set():
         raise Stopped
     begin = time.monotonic()

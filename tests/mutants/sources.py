@@ -18,7 +18,7 @@ def sha(*parts):
 
 
 def shown(text):
-    """The text with single blanks, and without line ends."""
+    """The text in one line, with single blanks."""
     return ' '.join(text.split())
 
 

@@ -1,4 +1,4 @@
-"""The tests as steps. Each step has its time without a mutant."""
+"""The tests as steps, each with its time without a mutant."""
 
 import hashlib
 import json
@@ -20,7 +20,7 @@ MEMORY = 6 << 30  # bytes of address space for each process
 
 @dataclass
 class Step:
-    """One test of a group: a GoogleTest of an executable, or a command with its last argument, if any."""
+    """A GoogleTest of the executable `group`, or the command `group` with the argument `test`, if any."""
 
     group: str
     test: str
@@ -102,8 +102,8 @@ def state():
 
 
 def baseline(steps, jobs, say):
-    """Returns the steps with their times, which are measured once for each build, even if a call is
-    stopped. Says which steps are left out."""
+    """Returns the steps with their times. Measures only times that no earlier call has saved for this
+    build. Says which steps are left out."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}

@@ -37,9 +37,6 @@ def one(mutation, result):
         f'+ {mutation.after}',
         f'  {result["asked"]} tests pass in {result["cpu"]:.0f} s',
     ]
-    if left := result['unasked']:
-        dots = ' ...' if len(left) > 3 else ''
-        lines[-1] += f'; left out for lack of time: {", ".join(left[:3])}{dots}'
     return '\n'.join(lines)
 
 

@@ -86,7 +86,7 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The decision claims a tie where there is none, and no method is there to contradict it.
+// The decision claims a tie, but there is none, and there is no method that could contradict the decision.
 TEST(Agreement, AWrongDecisionIsNotProved) {
   const Query far = with_separation(miss, 0.5);  // miss has the distance 1
   const Query near = with_separation(miss, 2);
@@ -133,7 +133,6 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   EXPECT_FALSE(missed(true, {}));  // parity says nothing about this query
 }
 
-// A new method is a new entry of the table. If it gives a single wrong answer, it is caught and named.
 TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
   const Query lied_about = testing::falling_edge(1, -1);
   std::vector<Method> more(methods().begin(), methods().end());

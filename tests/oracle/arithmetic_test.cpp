@@ -1,4 +1,5 @@
-// The oracle gives the same answers in every arithmetic mode of its caller, and restores that mode.
+// The oracle gives the same answers in every rounding mode of its caller, also if the processor takes
+// subnormal numbers for zero, and restores the caller's mode.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -41,8 +41,8 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // Only lo = hi would be narrow enough, and no search ends with that. The exact comparisons then enclose the
-  // ratio as narrowly as doubles allow.
+  // Only an enclosure with lo = hi would be narrow enough, and no search finds one. So exact comparisons
+  // enclose the ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);
@@ -62,7 +62,7 @@ TEST(DistanceInUnits, IsRoundedOutward) {
 }
 
 TEST(ClosestRatio, IsFiniteWhereOnlyExactComparisonsResolveALargeDistance) {
-  // The distance equals the unit up to rounding.
+  // The distance is equal to the unit of closest_ratio(), up to rounding.
   const Query query{.kind = Kind::edge_edge,
                     .x = {0x1.50d02ca487f8ep-1,     -0x1.1c97712306c4bp-1,    -0x1.bac235c6917c2p+1023,
                           0x1.fffffffffffffp+1023,  0x1.0355da996823ap+1021,  -0x1.fffffffffffffp+1023,

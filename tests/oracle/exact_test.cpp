@@ -153,14 +153,14 @@ TEST(EarliestTime, EnclosesAnIrrationalTime) {
 }
 
 TEST(EarliestTime, IsTheFirstOfSeveral) {
-  // Planar motion along y = 1/4: the vertex is inside from t = 1/4 on, when x = 0.
+  // The vertex moves in the triangle's plane along y = 1/4, and enters the triangle at t = 1/4, when x = 0.
   auto time = earliest_time(vertex_against_unit_triangle({-1, 0.25, 0}, {3, 0.25, 0}));
   ASSERT_TRUE(time);
   EXPECT_EQ(time->enclosure().lo, 0.25);
   EXPECT_EQ(time->rational(), "1/4");
 }
 
-// A vertex rests in the plane of a triangle, so near an edge that only exact arithmetic sees the gap.
+// A vertex rests in the plane of a triangle, so near to an edge that only exact arithmetic sees the gap.
 TEST(EarliestTime, IsRefusedIfExactArithmeticFindsNoCollision) {
   constexpr double p = 8944394323791464, q = 5527939700884757, r = 3416454622906707;  // p r = q² - 1
   const testing::Points points{{q, r, 0}, {0, 0, 0}, {p, q, 0}, {0, p, 0}};

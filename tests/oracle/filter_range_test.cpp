@@ -1,5 +1,6 @@
 // Tests the filter where products of coordinates, or sums of products, overflow or underflow. Asks the filter
-// about single queries, and about many queries at once with every instruction set of this machine.
+// about single queries, and about many queries at once with every instruction set of this machine. F is the
+// polynomial whose roots are the times at which the vertices are coplanar.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,9 +98,9 @@ Query planar_edges(double size) {
                     {{0, 3 * size, size}, {0, size, 0}, {0, size, 3 * size}, {0, 0, 0}});
 }
 
-/// A contact. The coordinates along one axis are small. If `size` is 2^511, the components of the weights
-/// along this axis, which are sums of products of the other coordinates, have middle coefficients that
-/// overflow. F does not overflow.
+/// A contact. The coordinates along one axis are small. The weights' components along this axis are sums of
+/// products of the other coordinates, so if `size` is 2^511, their middle coefficients overflow. F does not
+/// overflow.
 Query flat_vertex(double size) {
   return make_query(Kind::vertex_triangle, {{0, 0, 1}, {0, 0, size}, {0, 1, 0}, {1, -2 * size, 0}},
                     {{0, 2.5, 1}, {0, 0, -1.5 * size}, {0, 1, 0}, {1, size, 0}});
@@ -141,7 +142,7 @@ TEST(FilterRange, IsRightWhereSumsOfProductsOverflow) {
   for (const Named& named : overflowing()) expect_right(named);
 }
 
-// Only F's change of sign could show these collisions, and F is unknown.
+// Only F's change of sign could show these collisions, and F is unknown, because it overflows.
 TEST(FilterRange, LeavesACollisionUndecidedWhereFOverflows) {
   expect_undecided({"crossing edges", scaled(crossing_edges(), 0x1p340)});
   expect_undecided({"two far points", two_far_points(0x1p511)});
@@ -188,8 +189,6 @@ Query neighbour(Random& random, Query query) {
   return query;
 }
 
-// Tests every exponent at which a product of two or three coordinates, or a sum of products, may leave the
-// range of double.
 TEST(FilterRange, IsRightAtEveryExponentNearTheEndsOfTheRange) {
   const auto expect_neighbours_right = [&](const std::string& name, const Query& query, int xy, int z) {
     for (std::size_t i = 0; i < 60; ++i) {

@@ -102,9 +102,9 @@ TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
   EXPECT_TRUE(time.makes_late(std::nextafter(0.5, 1)));
 }
 
-// At t = 1/2, the second edge shrinks to a point at a distance of exactly h, and its direction is reversed.
-// Before t = 1/2, the distance is exactly h, too, because the point is an end of the edge, and nearest to the
-// first edge.
+// At t = 1/2, the second edge is a point at a distance of exactly h; from then on, it has the opposite
+// direction. Before t = 1/2, the distance is exactly h, too, because this point is an end of the second edge,
+// and its nearest point to the first edge.
 TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   const Query query =
       with_separation(testing::make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {0, 0, 0}, {0, 1, -1}},

@@ -1,5 +1,5 @@
 // Tests what the functions of oracle/interface refuse, and what they leave unchanged. tests/installed
-// compares their answers with those of the harness.
+// compares the answers of an installed library with those of this source tree.
 #include "oracle/interface/nearmiss.hpp"
 
 #include <gmock/gmock.h>

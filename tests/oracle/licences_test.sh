@@ -9,8 +9,8 @@ options '' "$@"
 cd "${arguments[0]}"
 headers=$(ninja -t deps | awk '/^[^ ]/ { ours = /^(ccd|oracle)\// } ours && /^ / { print $1 }' | sort -u)
 fail() { echo "FAILED: another licence: $*" >&2; exit 1; }
-# of LIBRARY LEAST: sets `read` to those headers of a library that the compiler has read. Refuses if there are
-# fewer than LEAST.
+# of LIBRARY LEAST: sets `read` to those headers of a library that the compiler has read. Ends the test if
+# there are fewer than LEAST.
 of() {
   mapfile -t read < <(grep "^/usr/include/$1/" <<<"$headers")
   ((${#read[@]} >= $2)) || refuse "found only ${#read[@]} headers of $1, expected $2 (tools/setup builds)"

@@ -1,4 +1,5 @@
-// Double words find the same neighbouring doubles around the earliest time as exact arithmetic.
+// In double words, the filter finds the same two neighbouring doubles around the earliest time as exact
+// arithmetic does.
 #include "oracle/filter/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +103,7 @@ TEST(Ball, HasNoSignIfItOverflows) {
   return ::testing::AssertionFailure() << "not between " << std::hexfloat << time.lo << " and " << time.hi;
 }
 
-/// Random queries of which most are in contact.
+/// Random queries, some of which collide.
 std::vector<Query> contacts(std::uint64_t seed, std::size_t count) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < count; ++i) {
@@ -113,7 +114,7 @@ std::vector<Query> contacts(std::uint64_t seed, std::size_t count) {
   return queries;
 }
 
-/// Compares the known times of collisions with exact arithmetic. Returns the number of times compared.
+/// Compares `times`, as far as they are known, with exact times. Returns the number of times compared.
 std::size_t check(const std::vector<Query>& queries, const std::vector<KnownTime>& times) {
   std::size_t known = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -147,8 +148,8 @@ TEST(Neighbours, OfTheFirstContactAreThoseOfExactArithmetic) {
   }
 }
 
-// The first contact is a little before t = 1/4, by less than 2^-200. The signs of F at 1/4 and at the next
-// double do not show that.
+// The first contact is less than 2^-200 before t = 1/4. At 1/4 and at the next double, the signs of F, whose
+// roots are the times at which the vertices are coplanar, do not show whether the contact is before 1/4.
 TEST(Neighbours, AreNotFoundAroundADoubleNextToTheRoot) {
   const Query query{.kind = Kind::vertex_triangle,
                     .x = {0,

@@ -1,4 +1,5 @@
-// Tests root parity, and compares it with exact decisions and with the roots of F.
+// Tests root parity, and compares it with exact decisions and with the roots of F, which are the times at
+// which the vertices are coplanar.
 #include "oracle/parity/parity.hpp"
 
 #include <gtest/gtest.h>
@@ -60,8 +61,8 @@ TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   }
 }
 
-// If all vertices stay in a plane or on a line, every patch of the boundary is flat, and many patches touch
-// the origin only between t = 0 and t = 1.
+// If all vertices stay in a plane or on a line, the surface whose crossings root parity counts consists of
+// flat patches, many of which touch the origin only between t = 0 and t = 1.
 TEST(RootParity, IsThatOfTheRootsInSpaceInAPlaneAndOnALine) {
   for (const int largest : {1, 2, 3, 1000})
     for (std::size_t i = 0; i < 600 && !HasFatalFailure(); ++i) {

@@ -1,4 +1,4 @@
-// Planes that separate primitives by more than h: exact comparisons, at every size.
+// Tests whether a plane separates primitives by more than h. The comparisons are exact at every size.
 #include "oracle/filter/planes.hpp"
 
 #include <gtest/gtest.h>

@@ -156,7 +156,7 @@ TEST(OnInterval, PartsHaveTheSignsOfThePolynomialUnlessRoundingMayHaveChangedThe
     Number hi = 1;
     OnInterval on(p, lo, hi);
     for (int step = 0; step < 6; ++step) {
-      // A part with a change of sign, whose ends have many bits.
+      // A part of the interval in which the sign changes. The ends of the part have many bits.
       Number from = 0;
       Number to = 1;
       for (int k = 0; k < 16; ++k) {

@@ -22,7 +22,7 @@ TEST(RoughPolynomial, NeverContradictsTheExactOne) {
     exact::Polynomial p({Number(1)});
     RoughPolynomial rough{1.0};
     for (int degree = random.integer(1, 8); degree > 0; --degree) {
-      // Two of three roots are next to the double `root`, so that they nearly coincide.
+      // On average, two of three roots are next to the double `root`, so these two nearly coincide.
       const double to = random.one_in(3) ? random.uniform() : std::nextafter(root, random.integer(0, 2));
       const double scale = std::ldexp(random.one_in(2) ? 1 : -1, random.integer(-40, 40));
       p = p * exact::Polynomial({Number(-to) * Number(scale), Number(scale)});

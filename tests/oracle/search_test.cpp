@@ -1,4 +1,5 @@
-// Tests the search for contact in a part of the step, for a polynomial F with a known error.
+// Tests the search for contact in a part of the step, for a given F with a known error. F is the polynomial
+// whose roots are the times at which the vertices are coplanar.
 #include "oracle/filter/search.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,8 @@ Query sliding() {
 }
 
 /// The Bernstein form of 40 u + 450 u² + 1000 u³ with u = t - 3/4 and an error of 1. The polynomial rises
-/// from -1 to 1 around the root u = 0. Its other roots are u = -0.122 and u = -0.328; there, the vertex is
-/// outside the triangle.
+/// from -1 to 1 around the root u = 0. Its other roots are u = -0.122 and u = -0.328. The vertex is outside
+/// the triangle at the root u = -0.328, and inside at the other two.
 Bernstein<double, 4> three_roots() {
   constexpr double r = 0.75;
   constexpr std::array c{-40 * r + 450 * r * r - 1000 * r * r * r, 40 - 900 * r + 3000 * r * r,
@@ -31,8 +32,8 @@ FilterStage search(const Bernstein<double, 4>& F) {
   return ContactSearch<double>(query.kind, whole, whole, F, 0).run();
 }
 
-// Next to the guessed root, the computed F is negative, but by less than its error. The exact F may have no
-// root at which the vertex is inside the triangle.
+// Next to the guessed root, the computed F is negative, but by less than its error. So it is not certain that
+// the exact F changes its sign next to this root.
 TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }

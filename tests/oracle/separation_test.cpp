@@ -17,8 +17,8 @@
 namespace nearmiss::certified {
 
 /// A scalar that counts roundings. It stands for a sum of products; `count` is the largest number of
-/// roundings in any of these products. A vertex difference, here a sum of two doubles, counts as one
-/// rounding, as in double.
+/// roundings in any of these products. A difference of vertices, which VertexDifferences stores as a sum of
+/// two doubles, counts as one rounding.
 struct RoundingCount {
   int count = 0;
 
@@ -233,8 +233,8 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
     }
 }
 
-/// Expects each error to be at least the number of roundings (the coefficient) times `sizes`, an upper bound
-/// of the sum of the products' magnitudes.
+/// Expects the error of each coefficient to be at least the number of roundings, which the coefficient gives,
+/// times the element of `sizes`, an upper bound of the sum of the products' magnitudes.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
   constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)
@@ -268,8 +268,7 @@ TEST(Separation, ErrorsHaveRoomForAllRoundings) {
   }
 }
 
-// The tests above compare lengths of vectors with exact lengths. This test checks only the numbers of
-// roundings.
+// Checks the numbers of roundings; the tests above also check the lengths of vectors.
 TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
   const Query query = all_sorts(1)[0];
   const VertexDifferences differences(query);

@@ -62,8 +62,7 @@ Query with_some_separation(Random& random, const Query& query) {
   }
 }
 
-/// The smallest squared distance of two vertices over [0, 1]: the squared length of their difference at the
-/// time at which the difference is shortest.
+/// The smallest squared distance of two vertices over [0, 1].
 Rational least_squared_distance(const Query& vv) {
   std::array<Rational, 3> d, v;
   Rational dv, vv_squared;
@@ -148,8 +147,10 @@ TEST(VerticesAndEdges, AnEdgeThatShrinksToAPointIsDegenerateThere) {
 
 TEST(VerticesAndEdges, AContactMayBeAtAnIrrationalTime) {
   // The vertex is on the line of the edge when 2 t² = 1.
-  const Query query = complete(make_query(Kind::vertex_edge, {{0, 0, 1}, {-2, 0, 0}, {2, -1, 0}},
-                                          {{0, 0, -1}, {-2, 0, 0}, {2, 3, 0}}));
+  const Query query = complete(make_query(Kind::vertex_edge, {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
+                                          {{0, 0, 0}, {2, 1, 0}, {-1, -1, 0}}));
+  EXPECT_TRUE(collides(query));
+  EXPECT_EQ(earliest_time(query)->rational(), "");
   EXPECT_EQ(disagreement(query, decide(query), ask_all(query)), "");
 }
 

@@ -1,5 +1,5 @@
-// A plug-in that computes the distance of two primitives at rest as many solvers do. The option defect=N adds
-// mistake number N of those that such functions make; defect=0 adds none.
+// A plug-in that computes the distance of two primitives at rest, as many solvers do. The option defect=N
+// adds typical mistake number N; defect=0 adds none.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -82,7 +82,7 @@ class Distances {
     const double area = a * e - b * b;
     const bool has_lengths = a > 0 && e > 0;
     const auto at = [&](double s, double t) { return vv(p + s * d1, q + t * d2); };
-    // Edges count as parallel if `area` is below this threshold, which is absolute (17) or relative (18).
+    // Edges count as parallel if `area` is below a threshold: absolute in defect 17, relative in defect 18.
     const double parallel = is(17) ? 1e-12 : is(18) ? 1e-4 * a * e : 0;
     if (is(17) || is(18)) {
       if (!has_lengths) return best;

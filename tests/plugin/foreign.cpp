@@ -11,7 +11,6 @@ bool advance(const std::vector<std::array<double, 3>>& x, int split, double h, d
   for (int steps = 1; t <= 1; ++steps) {
     double step = 0;  // until t + step, the boxes stay farther apart than h
     for (std::size_t k = 0; k < 3; ++k) {
-      // The smallest and largest coordinates and velocities of each primitive along axis k.
       std::array<double, 2> lo{INFINITY, INFINITY}, hi{-INFINITY, -INFINITY}, slowest = lo, fastest = hi;
       for (std::size_t i = 0; i < n; ++i) {
         const double start = x[i][k], end = x[n + i][k], at = (1 - t) * start + t * end;

@@ -21,7 +21,7 @@
 #define KINDS (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
 #endif
 
-/* Exports the detector `text`, which answers test(x, toi), and claims `bound` unless that is NULL. */
+/* Exports a detector with the name `text`. It answers test(x, toi), and claims `bound` if that is not NULL. */
 #define EXPORT_DETECTOR(text, test, bound)                                                         \
   static void decide_one_by_one(void* state, int kind, size_t n, const double* x, const double* h, \
                                 int* answers, double* times) {                                     \

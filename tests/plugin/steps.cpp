@@ -1,5 +1,5 @@
 // A plug-in that filters steps, as planar filters of solvers do: it stops vertices at planes between the two
-// primitives. The option defect=N adds mistake number N of those that such filters make; defect=0 adds none.
+// primitives. The option defect=N adds typical mistake number N; defect=0 adds none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,9 +18,9 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"defect", &Settings::defect, 0, 100}}};
 
-/// Filters the step of one query. Of the gaps between the primitives' boxes at t = 0 along the three axes,
-/// the filter takes the largest. Each primitive may move up to its own plane in this gap, which is 40 %
-/// of the gap away from its box. If the boxes overlap, nothing moves.
+/// Filters the step of one query. The filter takes the largest of the gaps between the primitives' boxes at
+/// t = 0 along the three axes. Each primitive may move into this gap up to a plane, which is 40 % of the gap
+/// away from the primitive's box. If the boxes overlap, nothing moves.
 class Filter {
  public:
   Filter(const Settings& given, const Question& q)

@@ -1,6 +1,6 @@
-// A subject that throws an exception for a query with x > 0.9, throws an exception without text for x = 0.5,
-// crashes for x = -2, and answers other queries with the macro ANSWER. With WHILE_LOADED, it throws an
-// exception while it is loaded.
+// A subject that throws an exception if a query's first coordinate is above 0.9, throws one without text if
+// it is 0.5, crashes if it is -2, and answers other queries with the macro ANSWER. With WHILE_LOADED, the
+// subject throws an exception while it is loaded.
 #include <csignal>
 #include <exception>
 #include <stdexcept>

@@ -25,7 +25,7 @@ constexpr std::string_view exact = "Gappa, of exact vectors";
 constexpr std::string_view of_coefficients = "Gappa, of exact coefficients";
 constexpr std::string_view sum = "Gappa, sum of three (proven.hpp)";
 
-// For ε = 1, the printed errors equal their factors of ε.
+// With ε = 1, printed_errors() gives the factors of ε.
 const auto printed = printed_errors(1.0);
 // The factors of ε in `full_errors` are largest at the largest ε. They are computed for S = B.
 constexpr double largest_eps = 0x1p-10;

@@ -24,8 +24,8 @@ struct TracedPoints {
   std::array<Traced, 24> x;
 };
 
-/// Samples of a vertex that falls through a triangle, and of an edge that falls through another edge. F has a
-/// simple root far from both ends of the step, so that `excludes_collision` runs to its end.
+/// Sample coordinates of a vertex that falls through a triangle, and of an edge that falls through an edge. F
+/// has a simple root far from both ends of the step, so that `excludes_collision` runs to its end.
 constexpr std::array<double, 24> falling_vertex{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,
                                                 0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 constexpr std::array<double, 24> falling_edge{-1, 0, 1,  1, 0, 1,  0, -1, 0, 0, 1, 0,
@@ -311,8 +311,8 @@ Problem vertex_edge(Reach reach, EdgePart part) {
 Problem exact_vertices(Reach reach, VertexPart part) {
   Problem problem = begun();
   const auto ji = exact_vector(*problem.trace, 'x');
-  // These vectors are computed from exact vectors within the bounds. Rounding makes these vectors longer by
-  // at most a factor of 1 + 5u, and 5u <= 2^-8.
+  // `ji` stands for a vector that is computed from exact ones. Rounding makes it longer by at most a factor
+  // of 1 + 5u, and 5u <= 2^-8.
   constexpr double longer = 1 + 0x1p-8;
   const double most = (reach == Reach::far ? 2 : 1) * longer;
   problem.motions = {{ji, most, most, longer}};
@@ -327,7 +327,7 @@ Problem exact_vertices(Reach reach, VertexPart part) {
   if (part == VertexPart::vv) problem.left = vv;
   if (part == VertexPart::time) {
     problem.left = quotient;
-    // A component of v is 1. The quotient is at most ‖x‖/‖v‖ <= √3 ‖x‖∞.
+    // Since a component of v is 1, the quotient is at most ‖x‖/‖v‖ <= √3 ‖x‖∞.
     const double steepest = 1.7320508076 * most / longer;
     problem.facts = {{vv, 1, 3, 2}, {quotient, -steepest, steepest, 0}};
     problem.degree = 0;

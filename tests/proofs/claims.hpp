@@ -25,12 +25,12 @@ struct CcdClaim {
   int underflow = underflow_of_vectors;
   bool vectors_alone = false;  ///< as in `Arithmetic`: only the vectors are rounded
 
-  /// The exponent for products of vectors. In the frame (motion.hpp), B is in [2^-100, 2^100] or 0, and these
+  /// `underflow` for products of vectors. In the frame (motion.hpp), B is in [2^-100, 2^100] or 0, and these
   /// products have degree at most 4 in B. Their error by underflow is at most 2^-1075 (half the smallest
   /// double), so at most 2^(400 - 1075) if B is scaled to 1.
   static constexpr int underflow_of_vectors = -675;
-  /// The exponent for v·v, if ‖v‖∞ is scaled to 1 and was above 2^-400 B before. If ‖v‖∞ was at most 2^-400
-  /// B, any time is good enough, because the squared distance changes by less than 2^-390 B².
+  /// `underflow` for v·v, if ‖v‖∞ is scaled to 1 and was above 2^-400 B before. If ‖v‖∞ was at most 2^-400 B,
+  /// any time is good enough, because the squared distance changes by less than 2^-390 B².
   static constexpr int underflow_of_time = -1075 + 1000;
 };
 

@@ -113,7 +113,7 @@ class Expander {
     if (!is_plain) throw std::logic_error("found a magnitude of something other than a difference of inputs");
     return {{1, {{steepest, 1}}, 1, 0}};
   }
-  /// The expansion of a maximum of magnitudes, which equals one of these magnitudes.
+  /// The expansion of a maximum of magnitudes of differences: that of the one with more roundings.
   Expansion largest_magnitude(const Instruction& one) {
     const Expansion a = of(one.left);
     const Expansion b = of(one.right);

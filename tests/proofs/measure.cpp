@@ -117,7 +117,7 @@ double Measure::draw(Random& random, const std::string& name) const {
   }
 }
 
-// Sets the input B, if there is one, to the smallest bound or slightly more.
+// Sets the input B, if there is one, to the smallest B that the other inputs allow, or to slightly more.
 void Measure::choose_bound(Inputs& inputs) const {
   const auto B = inputs.find("B");
   if (B == inputs.end()) return;

@@ -19,20 +19,19 @@ constexpr double u = 0x1p-53;
 
 // --- the exact errors at given inputs ----------------------------------------------------------------------
 
-/// The relative error, in units of u, of a product of rounded leaves. There is one leaf, 1 - value, for each
-/// input.
+/// The relative error, in units of u, of the product of the rounded differences 1 - value of all inputs.
 double seen_leaves(const Inputs& inputs) {
   Rational exact = 1;
   Rational rounded = 1;
-  for (const auto& [name, value] : inputs) {  // the differences 1 - value
+  for (const auto& [name, value] : inputs) {
     exact *= Rational(1) - Rational(value);
     rounded *= Rational(1 - value);
   }
   return ratio(abs(exact - rounded), rounded * Rational(u));
 }
 
-/// The contribution of the leaves' errors to their product, divided by the term that `cross_bound` has for
-/// this contribution.
+/// The error of p q that the errors ep and eq of its factors cause, divided by the term that `cross_bound`
+/// has for it.
 double seen_growth(const Inputs& in) {
   const Rational p(in.at("p"));
   const Rational q(in.at("q"));
@@ -48,8 +47,7 @@ double seen_end(const Inputs& in) {
                                 : ratio(abs(Rational(in.at("t") - in.at("h")) - exact), Rational(0x1p-54));
 }
 
-/// The rounding error of b + x (e - b), the beginning of a part of the part [b, e] of the step, in units of
-/// 2^-52.
+/// The rounding error of b + x (e - b), a time in the part [b, e] of the step, in units of 2^-52.
 double seen_zoom(const Inputs& in) {
   const double b = in.at("b");
   const double e = in.at("e");
@@ -60,8 +58,8 @@ double seen_zoom(const Inputs& in) {
   return !is_in_step ? 0 : ratio(abs(Rational(end) + Rational(zoom_rounding) - exact), Rational(0x1p-52));
 }
 
-/// The change of a quadratic polynomial from 0 to h, divided by the bound of the change in `error_near`, for
-/// exact coefficients b.
+/// The change of a quadratic polynomial with exact coefficients b from 0 to h, divided by the bound that
+/// `error_near` has for it.
 double seen_spread(const Inputs& in) {
   const std::array<Rational, 3> b{Rational(in.at("b0")), Rational(in.at("b1")), Rational(in.at("b2"))};
   const Rational h(in.at("h"));
@@ -70,8 +68,8 @@ double seen_spread(const Inputs& in) {
   return h < 0 || h > 1 ? 0 : ratio(abs(moved), 2 * h * slope);
 }
 
-/// The amount by which a slope of exact coefficients exceeds the slope of computed coefficients, divided by
-/// the error of a coefficient.
+/// The amount by which |b1 - b0| of exact coefficients exceeds that of computed ones, divided by the error of
+/// a coefficient.
 double seen_slope(const Inputs& in) {
   const Rational e(in.at("e"));
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));
@@ -151,7 +149,7 @@ double seen_word_underflow(const Inputs& in) {
 
 // --- the claims --------------------------------------------------------------------------------------------
 
-/// A claim about the rounding errors of results, in units of U times `size`.
+/// A claim about the rounding errors of results, in units of the roundoff U times `size`.
 template <class Real, class Number>
 OracleClaim rounding(std::string name, double claimed, Results results, const std::string& vectors,
                      Rational (*size)(const Inputs&)) {

@@ -23,8 +23,8 @@ class ResultsAt {
 
   /// The largest |computed - exact| of all results, in units of `unit`.
   [[nodiscard]] double error(const Inputs& inputs, const Rational& unit) const;
-  /// The largest magnitude of all results, including those of single operations, that have a component of
-  /// every vector as a factor, in units of `unit`.
+  /// The largest magnitude, in units of `unit`, among the results of all operations that have a component of
+  /// every vector as a factor.
   [[nodiscard]] double reach(const Inputs& inputs, const Rational& unit) const;
 
  private:
@@ -35,16 +35,16 @@ class ResultsAt {
   std::vector<int> results_;
 };
 
-/// A of component x of a (step_part.hpp): the larger of its magnitudes at both ends.
+/// A_x (step_part.hpp): the larger of the magnitudes of component x of a at both ends.
 Rational A_of(const Inputs& inputs);
-/// w of component x of b × c (step_part.hpp).
+/// w (step_part.hpp) of component x of b × c: B_y C_z + B_z C_y, with the magnitudes B and C of b and c.
 Rational w_of(const Inputs& inputs);
-/// M of F (step_part.hpp).
+/// M (step_part.hpp): the sum of A_k w_k over all three components.
 Rational M_of(const Inputs& inputs);
 
-/// Draws components of some vectors in [-1, 1] and two times, of which t is the earlier one. The components
-/// are 0 or ±1, have nearly the same magnitude, or have any magnitudes. With `words`, each component also has
-/// a lower half within half an ulp.
+/// Draws components of some vectors in [-1, 1] and two times t <= s. The components are 0 or ±1, have nearly
+/// the same magnitude, or have any magnitudes. With `words`, each component also has a lower half within half
+/// an ulp.
 Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
 
 }  // namespace nearmiss::proofs

@@ -50,8 +50,9 @@ double proven_growth(int roundings) {
   return proven_upper_end(factors.script(quotient("1", factors.product(roundings, u)) + " in ?"));
 }
 
-/// How many times H must be added to a bound to cover underflow in the value and in the bound itself. The
-/// code computes `more` products for the bound in addition to those of the template.
+/// How many times H, the largest error of a product by underflow, must be added to a bound to cover underflow
+/// in the value and in the bound itself. The code computes `more` products for the bound in addition to those
+/// of the template.
 template <class Real>
 double proven_underflow(Results results, Leaves leaves, int more) {
   const ValuePrecision precision = precision_of<Real>();

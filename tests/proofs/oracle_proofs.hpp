@@ -1,23 +1,23 @@
 // For each rounding constant of oracle/, the least value that is proven to be enough, in the unit of the
-// constant.
+// constant. oracle/filter/step_part.hpp explains the letters U, w, M, l, L and H; u is U of double.
 #pragma once
 
 #include "tests/proofs/oracle_results.hpp"
 
 namespace nearmiss::proofs {
 
-/// The factor of U w or U M that a bound needs to cover the rounding errors of all results, if the leaves,
-/// the components of the vectors, are exact.
+/// The multiple of U w (for weights) or U M (for F) that covers the rounding errors of all results if the
+/// components of the vectors are exact.
 template <class Real>
 double proven_rounding(Results results);
-/// The factor of u w or u M that a bound needs if each product has this many leaves, each rounded once.
+/// The multiple of u w or u M that covers the errors of products of this many components, each rounded once.
 double proven_leaves(int leaves, Results results);
 /// The factor of l and L that compensates for the roundings of the bound that contains them.
 double proven_leaf_growth();
 /// How many times H must be added to a bound to cover underflow.
 double proven_underflow_products();
-/// The largest magnitude of an operation's result that has this degree in components, divided by the computed
-/// w or M, which may be rounded down.
+/// The largest magnitude of results of operations that have this degree in the components, divided by the
+/// computed w or M, which may be rounded down.
 double proven_headroom(Results results, int degree);
 
 /// The factor that compensates for the roundings in `error_near`.
@@ -38,7 +38,7 @@ double proven_slope_growth();
 /// The rounding error of a value beside t in `neighbours_of_root`, in units of U (|v| + |S| g).
 double proven_secant_rounding();
 
-/// The rounding error of the ends of a part of the part [b, e] of the step, in units of 2^-52.
+/// The rounding error of b + x (e - b), a time in the part [b, e] of the step, in units of 2^-52.
 double proven_zoom_rounding();
 
 /// The relative error of a rounding, in units of 2^-53.

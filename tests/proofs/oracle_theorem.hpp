@@ -33,7 +33,7 @@ struct Bounded {
 };
 
 /// The parts of a value's error and of its bound, as sums over monomials in the magnitudes and errors of the
-/// leaves.
+/// leaves (the components of the vectors).
 struct Needs {
   BoundTerms values;            ///< the value's terms in exact arithmetic, which roundings multiply by 1 + δ
   BoundTerms leaves;            ///< contribution of given errors of leaves, in exact arithmetic

@@ -1,5 +1,6 @@
 // Searches for problems that come near the bounds in the proof of solve_cubic. The coefficients are taken as
-// exact, so only the errors of the solver remain: the error m of the nodes, and the error h of Horner's rule.
+// exact, so only the errors of the solver remain: m, which the computed nodes cause, and h, that of Horner's
+// rule.
 #include "ccd/wang/cubic.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +61,7 @@ double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   return most;
 }
 
-/// The largest value of m that occurs for these coefficients, divided by the bound of m.
+/// The largest wrong_way() between two nodes, divided by its bound m.
 double nodes_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);
@@ -114,8 +115,8 @@ TEST(ProofsSolverCubic, NodesPartFWhereASearchComesNearTheBound) {
 }
 
 TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
-  // For u = 2^-4, the full formula has no meaning, because u is too large. The bound that has only its
-  // leading terms holds.
+  // For u = 2^-4, the full formula has no meaning, because u is too large. The bound with only its leading
+  // terms holds.
   constexpr int bits = 4;
   const MpfrFloat::PrecisionScope precision(bits);
   std::vector<double> all{0};

@@ -63,9 +63,9 @@ struct Checkpoint {
   double F;
 };
 
-/// The times 0 and 1, all computed candidates of cases 2 and 4, and all times at which the exact F turns, in
-/// order. Between two neighbours, F is monotonic. (Values in double stand for exact ones, because the tested
-/// numbers have far fewer bits.)
+/// In ascending order: the times 0 and 1, all computed candidates of cases 2 and 4, and all times at which
+/// the exact F turns. Between two neighbours, F is monotonic. (Values in double stand for exact ones, because
+/// the tested numbers have far fewer bits.)
 std::vector<Checkpoint> checkpoints_of(const EdgeProblem& p, double rho) {
   std::vector<Checkpoint> checkpoints;
   const auto add = [&](double t, bool candidate) { checkpoints.push_back({t, candidate, 0}); };

@@ -47,7 +47,7 @@ inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, co
 inline bool is_nonnegative(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b >= 0; });
 }
-/// Like is_nonnegative(), for a positive polynomial.
+/// Whether the Bernstein coefficients show that a polynomial is positive on [0, end].
 inline bool is_positive(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b > 0; });
 }

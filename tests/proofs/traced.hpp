@@ -59,7 +59,7 @@ class Trace {
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
 
-  /// Adds an exact number, whose sample decides comparisons.
+  /// Adds an exact number; its value `sample` decides comparisons.
   Traced input(std::string name, double sample);
 
   [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
@@ -69,9 +69,9 @@ class Trace {
   std::vector<Branch> branches_;
 };
 
-/// A scalar for the templates of ccd/ and oracle/. Each operation makes a node. Comparisons of expressions
-/// with inputs are recorded in their trace, and decided by the inputs' samples. `max`, `min` and `clamp`,
-/// found by argument-dependent lookup, make nodes and compare nothing; std::max itself would compare.
+/// A scalar for the templates of ccd/ and oracle/. Each operation makes a node. The trace records comparisons
+/// of expressions that contain inputs; the inputs' samples decide them. `max`, `min` and `clamp`, found by
+/// argument-dependent lookup, make nodes and compare nothing; std::max itself would compare.
 class Traced {
  public:
   Traced(double constant = 0)

@@ -35,7 +35,7 @@ def run_python(program, *arguments, **variables):
 
 
 def answered_queries(program, count, seed):
-    # CMakeLists.txt preloads the sanitizers' runtime for Python, which `program` already has.
+    # `program` has the sanitizers' runtime, which CMakeLists.txt preloads for Python.
     environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
     command = [program, str(count), str(seed)]
     data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout

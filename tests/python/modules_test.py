@@ -18,7 +18,8 @@ class WithoutModules(unittest.TestCase):
         self.package = self.build / 'python/nearmiss'
 
     def use(self, without):
-        """Uses a copy of the package without some files. Returns the output and the error's last line."""
+        """Imports a copy of the package without some files, and starts a trial. Returns the output and the
+        last line of the error."""
         package = pathlib.Path(nearmiss.__file__).parent
         ignored = shutil.ignore_patterns(without)
         shutil.copytree(package, self.package, ignore=ignored, dirs_exist_ok=True)

@@ -13,7 +13,7 @@ NOTEBOOK = pathlib.Path(__file__).resolve().parents[2] / 'tools/python/notebook.
 
 
 def shown(cell):
-    """What a cell prints and shows: only the type of a picture, since its pixels depend on versions."""
+    """What a cell prints and shows, with only the type of a picture: its pixels depend on versions."""
     for output in cell.get('outputs', []):
         if output.get('name') == 'stderr':  # the progress of trials
             continue

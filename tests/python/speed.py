@@ -65,7 +65,7 @@ def compare(name, count, ask_c, ask_python):
 
 def measure(name, kind, number, array, *rest, numbers=1, dtype=np.int8):
     """Compares functions that give `numbers` numbers for each query. `rest` are the arguments of the C
-    function before and behind the arrays for these numbers."""
+    function before and after the arrays for these numbers."""
     asked = queries_of(number, array)
     before, behind = rest or ([], [])
 

@@ -77,8 +77,8 @@ class Answers:
 
 def ask(nearmiss, seed, counts, subjects, kinds_of):
     """Collects answers to the first counts[kind][family] queries of each kind in each family.
-    `subjects` are names, or paths of shared objects with one subject each; `kinds_of` has the kinds
-    that each subject was asked, by name."""
+    `subjects` are names, or paths of shared objects with one subject each; `kinds_of` maps each
+    subject's name to the kinds that it was asked."""
     answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, {})
     for kind in KINDS:
         answers.within[kind] = nearmiss.within(kind, answers.queries[kind])
@@ -121,7 +121,8 @@ def _numbers(kind, count):
 
 
 def _factors(nearmiss, seed, counts):
-    """Maps kind, then (family, number) of a query, to its factors' values, for families with factors."""
+    """Maps kind, then (family, number) of a query, to the values of its factors, which are properties
+    that some families vary from query to query."""
     factors = {kind: {} for kind in KINDS}
     for kind in KINDS:
         for name, count in counts[kind].items():
@@ -159,7 +160,7 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
 
 
 class Known:
-    """Enclosures of a number of each query, such as its smallest distance, each computed only once."""
+    """Computes enclosures of a quantity, such as the smallest distance, once for each query."""
 
     def __init__(self, ask_about):
         self._ask_about, self._known = ask_about, {}
@@ -172,7 +173,7 @@ class Known:
 
 
 def ratios(lo, hi, bound):
-    """Lower and upper ends of distance / bound: infinite if the bound is 0, and 0 if it is infinite."""
+    """Enclosures of distance / bound, which is infinite if the bound is 0, and 0 if the bound is infinite."""
     slack = 1e-15  # more than the rounding error of one division
     with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
         ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)

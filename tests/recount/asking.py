@@ -73,7 +73,7 @@ class Nearmiss:
         return self.run('family', name, *options).splitlines()
 
     def factors(self, name, seed, kind, count):
-        """The values of the factors of the queries that family() returns, as lists."""
+        """For each query that family() returns, its factors' values, such as 'edge=2^-9'."""
         options = '--seed', seed, '--kind', kind, '--count', count
         return [
             line.split() for line in self.run('family', name, '--factors', *options).splitlines()
@@ -100,11 +100,11 @@ class Nearmiss:
         return found
 
     def distances(self, kind, queries):
-        """Lower and upper ends of the smallest distances, in the queries' unit of length."""
+        """Enclosures of the smallest distances, in the queries' unit of length: lower and upper ends."""
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Lower and upper ends of the earliest times of collisions: equal or neighbouring doubles."""
+        """Enclosures of the earliest times of collisions: equal or neighbouring doubles."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):

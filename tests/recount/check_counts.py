@@ -1,6 +1,6 @@
-"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies: the
-counters of each subject, kind and family, their sums in other sections, and the comparison of
-versions."""
+"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies of single
+answers: the counters of each subject, kind and family, their sums in other sections, and the
+comparison of versions."""
 
 import math
 from collections import Counter
@@ -51,7 +51,7 @@ def check_statistics(comparison, where, json, answers):
 
 
 def _check_sum(comparison, where, found, answers, subject, kind, families):
-    """Checks all counters of one subject for the queries of some families, except run times, and the
+    """Checks all counters (except run times) of one subject for the queries of some families, and the
     extreme cases among these queries."""
     tally = Tally.of(answers, subject, [kind], families)
     check_rates(comparison, where, found, tally)
@@ -76,8 +76,8 @@ def check_rates(comparison, where, found, tally):
 
 
 def measures(found, tally):
-    """Maps the key of each measure to its expected value. The bin of a quantile ends at most at the
-    largest number, which `found` gives."""
+    """Maps the key of each measure to its expected value. A quantile's bin may end at the largest
+    number, which is taken from `found`."""
     missed, false = tally.false_negatives, tally.false_positives
     of_negatives, of_positives = denominators(tally)
     times, by_wang = tally.times, 0 if tally.claims else false
@@ -147,7 +147,7 @@ def _check_truth(comparison, where, found, truth):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that each false negative, late time, committed step and refuted bound is in one signature."""
+    """Checks that the signatures of each failure of a subject together count as many as the tally."""
     sums = Counter()
     for each in found:
         sums[each['what'], each['subject']] += each['seen']
@@ -217,7 +217,7 @@ def check_ladder(comparison, where, report, answers):
 
 
 def fails(asked):
-    """For each query, whether the subject misses a collision, is late, or exceeds the bound it claims."""
+    """For each query, whether the subject misses a collision, gives a late time, or exceeds its bound."""
     refuted = asked.ratios.hi > 1 if asked.claims else False
     return asked.false_negative | asked.impact.late | refuted
 

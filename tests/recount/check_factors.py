@@ -1,4 +1,6 @@
-"""Checks the sections of report.json that count answers by the values of the queries' factors."""
+"""Checks the sections `common_factors` and `sizes` of report.json, which count answers by factors. A
+factor is a property that a family varies from query to query; `edge=2^-9` is a value of the factor
+`edge`."""
 
 import itertools
 import re
@@ -9,8 +11,8 @@ from check_numbers import ROUNDING
 
 
 def check_common_factors(comparison, where, report, answers):
-    """Checks the values of factors that a subject's misses have in common: the shares of misses and
-    of collisions with these values."""
+    """Checks how many of a subject's misses, and of all collisions, have the values of factors that
+    the misses have in common."""
     for found in report.get('common_factors', []):
         subject, kind, family = found['subject'], found['kind'], found['family']
         counts = _counts(answers, subject, kind, family)
@@ -25,7 +27,7 @@ def check_common_factors(comparison, where, report, answers):
 
 
 def check_sizes(comparison, where, report, answers):
-    """Checks the answers at all sizes outside the range at which a subject is right."""
+    """Checks the counts of answers at all sizes outside the range of sizes at which a subject is right."""
     for row in report.get('sizes', []):
         subject = row['subject']
         kinds = answers.kinds(subject) if row['kind'] == 'all' else (row['kind'],)
@@ -38,8 +40,8 @@ def check_sizes(comparison, where, report, answers):
 
 
 def _outside(counts, factor, first, last):
-    """The sum of the answers at all values 2^x of a factor with x < first or x > last. If there are
-    kinds with at least two collisions per value on average, the other kinds do not count."""
+    """Counts the answers at all values 2^x of a factor outside first <= x <= last. Leaves out kinds with
+    fewer than two collisions per value on average, unless all kinds have so few."""
     of_kinds = []
     for of_kind in counts.values():
         powers = {}
@@ -62,9 +64,8 @@ NAMES = ('collisions', 'false_negatives', 'others', 'false_positives')
 
 
 def _counts(answers, subject, kind, family=None):
-    """Counts the answers to the queries of a family, or of all families with factors: to all queries
-    (under ''), to the queries with each value of a factor, and to the queries with each pair of
-    values."""
+    """Counts the answers to the queries of a family, or of all families with factors. The keys of the
+    result are '' for all these queries, each value of a factor, and each pair of values."""
     asked = answers.asked[subject, kind]
     counts = {'': Counter()}
     for i, own in enumerate(answers.family[kind]):

@@ -13,8 +13,8 @@ from tally import Tally
 sys.path.append(str(Path(__file__).resolve().parents[2] / 'tools' / 'certificates'))
 from check import Refused, Statement, check  # pylint: disable=wrong-import-position
 
-# Maps each list of extreme cases to the histogram of the cases' numbers, and to the field in which
-# a case has its number.
+# Maps each list of extreme cases to the histogram of the quantity that is extreme, and to the field
+# of a case with this quantity.
 KEPT = {
     'farthest': ('fp_distance', 'ratio'),
     'earliest': ('early', 'error'),
@@ -23,7 +23,7 @@ KEPT = {
 
 
 def check_kept(comparison, where, found, tally, answers, kind):
-    """Checks the numbers and the queries of the extreme cases that are kept with counters."""
+    """Checks the quantities and the queries of the extreme cases that are kept with counters."""
     for name, (of, key) in KEPT.items():
         numbers = tally.enclosed[of]
         expected = (numbers if key == 'ratio' else numbers[numbers.hi > 0]).largest()
@@ -35,8 +35,8 @@ def check_kept(comparison, where, found, tally, answers, kind):
 
 
 def _check_case(comparison, where, case, answers, subject, kind, of, key):
-    """Checks the provenance, the number (in the field `key`) and the query of an extreme case. Returns
-    the index of the query, or None if the campaign has no such query."""
+    """Checks the provenance, the quantity (in the field `key`) and the query of an extreme case.
+    Returns the index of the query, or None if the campaign has no such query."""
     place, asked = answers.place(kind, case['provenance']), answers.asked[subject, kind]
     if place is None or not asked.enclosed(of).lo[place] >= 0:
         comparison.fail('provenances', where, case['provenance'], f'a query with a number {of}')

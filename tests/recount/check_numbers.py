@@ -1,4 +1,4 @@
-"""Checks queries, and quantiles and histograms of numbers that are known as enclosures."""
+"""Checks queries, and quantiles and histograms of numbers of which only enclosures are known."""
 
 import numpy as np
 
@@ -10,8 +10,8 @@ SOLVED = 1e-9  # relative error of an equation's solution, and of values compute
 
 
 def quantile(enclosed, part, largest):
-    """The ranges of the lower and of the upper end of a quantile's bin. A bin ends at its upper border
-    or, if that is less, at `largest`, the largest of the numbers."""
+    """The ranges in which the ends of a quantile's bin may be. The bin ends at its upper border, or at
+    the largest number, `largest`, if this is less."""
     bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))

@@ -86,7 +86,7 @@ class Comparison:
             self.fail('structure', where, repr(error), 'something to read')
 
     def allow(self, what, count=1):
-        """Counts values of which two results are allowed, because an enclosure contains a border."""
+        """Counts values for which two results are allowed, because an enclosure contains a border."""
         self.either_way[what] = self.either_way.get(what, 0) + count
 
     def print(self):

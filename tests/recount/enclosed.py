@@ -1,4 +1,4 @@
-"""Numbers that are known as enclosures, and their histograms."""
+"""Numbers of which only enclosures are known, and their histograms."""
 
 import functools
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class Enclosed:
 
     @classmethod
     def joined(cls, parts):
-        """The numbers of several objects together."""
+        """Joins the numbers of several Enclosed."""
         return cls(
             *(np.concatenate([getattr(part, end) for part in parts]) for end in ('lo', 'hi'))
         )

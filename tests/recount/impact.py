@@ -40,7 +40,7 @@ def sort_of(subject, description):
 
 @dataclass
 class Impact:
-    """The times of one subject for the queries of one kind. Arrays have one element for each
+    """The times that a subject gives for the queries of one kind. Arrays have one element for each
     query. An enclosure of `early`, `after` or `travelled` is NaN if the query has no such
     number."""
 
@@ -64,7 +64,7 @@ class Impact:
 
     @property
     def unsafe_step(self):
-        """Whether the step is committed, although it was promised to be free of contact."""
+        """Whether the step is `committed`, although it was promised to be free of contact."""
         return self.committed & (self.sort == 'free-step')
 
 
@@ -94,8 +94,8 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
 
 
 def _committed(times, judged, time, own, in_float):
-    """Whether the steps that end at x0 + time (x1 - x0), rounded to float or double, have contact
-    before their end, and whether they have contact only at their end."""
+    """For each query, whether the step to x0 + time (x1 - x0), rounded to float or double, has contact
+    before its end, and whether it has contact only at its end."""
     scalar = np.float32 if in_float else np.float64
     before, at_end = np.zeros(len(judged), bool), np.zeros(len(judged), bool)
     steps = {}
@@ -117,7 +117,7 @@ def _committed(times, judged, time, own, in_float):
 
 
 def _where(is_there, lo, hi):
-    """Enclosures of differences from t* where `is_there`, NaN elsewhere. The enclosures are cut off below
+    """Enclosures of differences from t* if `is_there`, otherwise NaN. The enclosures are cut off below
     0, and widened by the rounding errors of the differences."""
     return Enclosed(
         np.where(is_there, np.maximum(lo, 0) * (1 - ROUNDING), np.nan),
@@ -127,7 +127,7 @@ def _where(is_there, lo, hi):
 
 def _speeds(nearmiss, kind, queries):
     """For each query, the largest motion of a vertex of one primitive relative to a vertex of the
-    other in the whole step, divided by the pair's B. B is wang's bound / WANGS_BOUND."""
+    other in the whole step, divided by the pair's size B."""
     if not queries:
         return Enclosed(np.zeros(0), np.zeros(0))
     pairs = [coordinates(kind, query) for query in queries]
@@ -143,7 +143,7 @@ def _speeds(nearmiss, kind, queries):
         speed = relative.max(axis=(1, 2))
         speed[np.isinf(speed)] = 0  # as in the program that makes the report
 
-        # The quotients are rounded, and a subnormal bound has few digits.
+        # The quotients by B are rounded, and a subnormal bound has few digits.
         relative_error = 1e-12 + 1e-322 / bound
         slack = np.nan_to_num(
             1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf

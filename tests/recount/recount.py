@@ -2,8 +2,8 @@
 """Recomputes a report from single queries, and prints the differences.
 
 It runs a campaign and writes its report. Then it asks the same executable about the same queries
-one by one (nearmiss family, oracle and verdict), and recomputes everything except run times with
-NumPy and SciPy. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
+one by one (nearmiss family, oracle and verdict), and recomputes everything with NumPy and SciPy,
+except run times. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
 
 import argparse
 import sys
@@ -18,7 +18,6 @@ from asking import KINDS, Nearmiss
 from comparison import Comparison
 from tally import Tally
 
-# The checks of report.json, by the section that each of them is about.
 REPORT_CHECKS = {
     'report.json': check_counts.check_statistics,
     'verdicts': check_counts.check_scorecard,
@@ -59,7 +58,8 @@ def check_cases(comparison, found, cases, counts, seed):
 
 
 def note_either_way(comparison, answers):
-    """Counts enclosures that contain a bin's border or a distance bound: two results are allowed."""
+    """Counts enclosures that contain a bin's border or a distance bound, so that two results are allowed;
+    for comparison, also counts all false positives and times."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         for name, enclosed in tally.enclosed.items():

@@ -122,9 +122,8 @@ def failures_of(counts):
 
 
 def stages(subject, counts):
-    """Counts by accepting stage. For the subject `exact`, the stages filter and exact are added up: in a
-    campaign, it decides many queries at once, and its filter leaves other queries undecided than for
-    single queries."""
+    """Counts by accepting stage. For the subject `exact`, the stages filter and exact are added up: see
+    README.md."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}

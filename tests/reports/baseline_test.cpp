@@ -52,8 +52,7 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
   EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "mine", "d"}));
-  // The estimate of Good and Toulmin: signatures seen once (b and c) count 1, those seen 40 times (a) count
-  // -1.
+  // Good and Toulmin's estimate: b and c, seen once before, count 1 each; a, seen 40 times, counts -1.
   EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
@@ -96,8 +95,8 @@ Campaign night(const std::string& date, Seen seen, const std::string& version = 
   return made;
 }
 
-// The failure is seen about 1,000 times in four of five nights, and not at all in the third night. Chance
-// explains 1,005 failures in a sixth night, but not 1,300.
+// The failure is seen about 1,000 times in four of five nightly campaigns, and not at all in the third one.
+// Chance explains 1,005 failures in a sixth campaign, but not 1,300.
 TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   const auto misses = [](std::uint64_t times) {
     Campaign made = campaign(std::to_string(times), {{key, counts(200000, 100000, times, 0)}});
@@ -111,7 +110,7 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   EXPECT_THAT(found.rates, IsEmpty());
   EXPECT_THAT(changes(misses(1300), nights).new_signatures, ElementsAre(inside));
   EXPECT_THAT(changes(misses(1300), nights).rates, SizeIs(1));
-  // If the last night has the failure once, the night without it stays in the baseline.
+  // If the fourth night has the failure only once, the third night stays in the baseline.
   nights.resize(3);
   nights.push_back(misses(1));
   EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
@@ -250,8 +249,8 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
-// The later campaign asks twice as many queries of the family `parallel`, which may have the signature, and
-// equally many of `uniform`. Then twice as many failures are no change.
+// The failures may be in the family `parallel`. If the later campaign asks twice as many queries of this
+// family, twice as many failures are no change.
 TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
   const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
     Campaign made = night(date, {{inside, seen}});
@@ -277,7 +276,7 @@ TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
 }
 
-// Of the 40 failures with each signature, 38 were in cases, which the later campaign does not replay.
+// 38 of the 40 failures with each signature were in cases, which the later campaign does not replay.
 TEST(Gone, DoesNotCountFailuresInCases) {
   const Signature late{Finding::What::late, "mine", "ee inside"};
   const Signature crash{Finding::What::fault, "mine", "ee crash"};

@@ -170,7 +170,7 @@ TEST(Campaign, ANameStandsForOneSubject) {
   campaigns[0].runs[0].info["plug-in x detector"] = "boxes";
   EXPECT_REFUSED(merge(campaigns[0], campaigns[1]), "for the plug-in x, but for the plug-in boxes in a.db");
   for (Campaign& each : campaigns) each.runs[0].info["plug-in boxes:t=0 sha256"] = "1";
-  campaigns[0].runs[0].info["plug-in boxes:t=0 detector"] = "boxes";  // the user gave it as boxes=...
+  campaigns[0].runs[0].info["plug-in boxes:t=0 detector"] = "boxes";  // for --subject boxes=...
   campaigns[1].runs[0].info["plug-in x detector"] = "boxes";
   campaigns[1].runs[0].info["plug-in sha256"] = "1";  // names no plug-in
   EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
@@ -259,7 +259,7 @@ TEST(Campaign, CountsThatDoNotFitAreRefused) {
                "found counts that add up to more than 2^60, expected fewer queries");
 }
 
-/// Shards 0 and 1 of a run, with different values of a fact.
+/// Shards 0 and 1 of a run, with different values of a fact about the run.
 std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
   campaigns[0].runs[0].info[fact] = "a";

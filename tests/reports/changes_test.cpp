@@ -162,8 +162,8 @@ double noise(const std::string& text) {
   return static_cast<double>(std::hash<std::string>{}(text) % 2001) / 1000 - 1;
 }
 
-/// A campaign in which each family's time differs from the usual one by up to 2 %, and the times of the
-/// family's 40 batches differ from that by up to 20 %.
+/// A campaign in which each family's time differs from `slowness` times the usual one by up to 2 %, and the
+/// times of the family's 40 batches differ from the family's time by up to 20 %.
 Campaign night(const std::string& seed, const Slowness& slowness,
                std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
   std::map<CountsKey, Counts> all;
@@ -243,8 +243,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
 }
 
-// If a family's times differ by a factor of 1.5 among the nights of the baseline, a difference of 1.5 now is
-// no change.
+// If a family's times differ by a factor of 1.5 between the nights of the baseline, the same factor now is no
+// change.
 TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   std::vector<Campaign> nights;
   for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
@@ -264,7 +264,7 @@ TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
   EXPECT_THAT(changed(night("2", usual), {before}), IsEmpty());
 }
 
-// A single family does not show how much the times of families differ.
+// A single family does not show how much the times of families usually vary.
 TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   const auto few = [](double factor) {
     return [factor](const CountsKey& key) {
@@ -278,7 +278,7 @@ TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   EXPECT_EQ(found[0].kind, "ee");
 }
 
-// Four families show only roughly how much the times of families differ.
+// Four families show only roughly how much the times of families usually vary.
 TEST(ChangedTimes, OfAFewFamiliesSayLittle) {
   const auto slower = [](double factor) {
     return [factor](const CountsKey& key) {
@@ -291,7 +291,7 @@ TEST(ChangedTimes, OfAFewFamiliesSayLittle) {
   EXPECT_THAT(changed(night("2", slower(1.5), subjects, 4), before), SizeIs(1));
 }
 
-// The expected numbers were computed with SciPy. Each family has two batches; there are two earlier nights.
+// The expected numbers are from SciPy. There are two earlier campaigns. Each family has two batches.
 TEST(ChangedTimes, AreComparedByWelchsTest) {
   constexpr int last = 8;
   const auto night_of = [](const std::function<std::pair<int, int>(int)>& ns_of) {

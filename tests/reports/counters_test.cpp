@@ -67,7 +67,7 @@ Owner filled(std::uint64_t last = 0) {
   return owner;
 }
 
-/// Counters with distinct values. A counter that counts a part of another one does not exceed it.
+/// Counters with distinct values that fit together: for example, collisions do not exceed queries.
 Counts filled_counts(std::uint64_t last = 0) {
   auto counts = filled<Counts>(last);
   counts.queries = 1000000;

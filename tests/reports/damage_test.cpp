@@ -72,8 +72,8 @@ class DamageTest : public testing::TemporaryFolder {
  protected:
   DamageTest() { write_campaign(whole, file("a.db")); }
 
-  /// Expects that loading a file gives the whole campaign, or an error message of one line. In the second
-  /// case, expects that a salvage gives only parts of the campaign. Returns whether loading fails.
+  /// Expects that loading a file gives the whole campaign, or an error message of one line. If there is
+  /// an error, expects that a salvage gives only parts of the campaign. Returns whether loading fails.
   bool is_refused(const std::string& name) const {
     try {
       EXPECT_TRUE(is_same(load_campaign(file(name)), whole));
@@ -168,7 +168,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
         Change{nested_views(), "found other tables than those of a store", ""},
         Change{"CREATE TRIGGER t INSERT ON run BEGIN DELETE FROM run; END",
                "found other tables than those of a store", ""},
-        // In place of the table `seen`: endlessly many rows, and a column with large computed values.
+        // In place of the table `seen`: a view with endlessly many rows; a table with large computed values.
         Change{"DROP TABLE seen; CREATE VIEW seen AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n "
                "FROM r) "
                "SELECT n AS rowid, n AS key, n AS value, n AS checksum FROM r",
@@ -213,12 +213,12 @@ TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
 
 TEST_F(DamageTest, RowsDoNotShareALongValue) {
   constexpr std::size_t page_size = 4096;
-  // All but 489 bytes of the row are on other pages.
+  // SQLite stores 489 bytes of the row on the table's page, and the others on other pages.
   const std::string key = R"([0,"scene:cloth"])";
   const std::string value = R"({"points":")" + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + "\"}";
   write_campaign({{{{}, {}, {}, {{"scene:cloth", value}}}}, {}}, file("b.db"));
-  // The page has one cell, which begins with the row's size (three bytes) and the row's id. Three copies of
-  // the cell, with other ids, share the other pages of the row.
+  // The table's page has one cell, which begins with the row's size (three bytes) and the row's id. Three
+  // copies of the cell, with other ids, share the other pages of the row.
   std::string bytes = read("b.db");
   const std::size_t page = bytes.find(key + value.substr(0, 9)) / page_size * page_size;
   std::size_t start =

@@ -1,5 +1,5 @@
-// Factors of queries: which values the missed collisions have in common, and at which sizes a subject is
-// right.
+// Factors (properties that a family varies): which values the missed collisions have in common, and at which
+// sizes a subject is right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -96,7 +96,7 @@ TEST(CommonFactors, CountsMergeInAnyOrder) {
   EXPECT_EQ(forward.factors.at(basic), (FactorCounts{128, 20}));
 }
 
-/// Answers to `each` collisions and `each` other queries for each length 2^-30, 2^-29 .. 2^30 of edges.
+/// Answers to `each` collisions and `each` other queries with edges of each length 2^-30, 2^-29 .. 2^30.
 template <class Missed, class Reported>
 FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
   FactorTable table;
@@ -145,7 +145,7 @@ TEST(RightRange, NeedsEvidence) {
   const auto always = [](int /*x*/, int /*i*/) { return true; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it always says yes
 
-  // A size without an answer ends a range.
+  // A size without answers ends the range.
   FactorTable table = answers(Kind::edge_edge, 8, never, never);
   std::erase_if(table, [](const auto& each) { return each.first.values == "edge=2^10"; });
   EXPECT_THAT(range_of(table).exponents, Optional(Pair(-30, 9)));

@@ -1,4 +1,4 @@
-// The history of nights, from their reports.
+// The history of nightly campaigns, from their reports.
 #include "reports/history/history.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 
 const std::string contact = "vt simple-root inside in-face";
 
-/// What a night's report says about the plug-in `mine`.
+/// What the report of a nightly campaign says about the plug-in `mine`.
 struct Said {
   std::string version;
   std::vector<std::string> seen = {}, created = {}, gone = {};  // signatures
@@ -39,7 +39,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
     return list;
   }
 
-  /// Writes the report of a night. Unless `baseline_until` is 0, a run of that day is the baseline.
+  /// Writes the report of a night. Its baseline is a run of the day `baseline_until`, or none for 0.
   void write_night(int day, const Said& said, int baseline_until = 0) {
     const auto date = [](int of) { return fmt::format("2026-11-{:02}T22:00:00Z", of); };
     ordered_json report{
@@ -84,7 +84,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
     write(fmt::format("2026-11-{:02}/report/report.json", day), report.dump());
   }
 
-  /// The events of all nights, as texts such as "05 new 1": on day 5, one thing was new.
+  /// The events of all nights, as texts such as "05 new 1": on day 5, one way to fail was new.
   [[nodiscard]] std::vector<std::string> events() const {
     std::vector<std::string> all;
     for (const Night& night : make_history(read_nights(file(""))).nights)
@@ -98,8 +98,8 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1"}, 1);
   write_night(3, {.version = "2", .seen = {"a", "b"}, .created = {"a", "b"}, .worse = {"uniform"}}, 2);
-  // In night 4, another way to fail and another worse rate come from the change of night 3: they are no
-  // events.
+  // The new way to fail and the worse rate of `sliver` in night 4 are no events: they come from version 2,
+  // which is an event of night 3.
   write_night(4, {.version = "2", .seen = {"a", "c"}, .created = {"c"}, .worse = {"uniform", "sliver"}}, 3);
   write_night(5, {.version = "3", .gone = {"a", "b"}, .slower = 4, .ns = 400}, 4);
   write_night(6, {.version = "3", .gone = {"a", "b", "c"}, .slower = 3.5, .ns = 390}, 5);

@@ -18,7 +18,7 @@ const browser = await chromium.launch({
   args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync"],
 });
-/** The tests. Later tests open reports that earlier tests have made. */
+/** Later tests open reports that earlier tests have made. */
 const tests = [
   showsFindings, showsVerticesAndEdges, showsThatNothingWasFound, showsStandardError, showsVersions,
   showsTheBaseline, showsWhatIsNewSinceTheBaseline, showsTheNights, showsTimesOfImpact, showsSeparations,

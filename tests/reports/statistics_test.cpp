@@ -242,7 +242,7 @@ TEST(Confidence, TheTailHasFivePercent) {
   EXPECT_NEAR(tail, 0.05, 1e-9);
 }
 
-// P(X <= count) is half of the risk at the upper end of the interval, and P(X >= count) at the lower end.
+// At the upper end of the interval, P(X <= count) is half of the risk; at the lower end, P(X >= count) is.
 TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
   const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9 trials
   const ConfidenceInterval interval = clopper_pearson(1, 9, 0.01);
@@ -271,8 +271,8 @@ TEST(PooledTest, IsABinomialOne) {
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
-  // If nothing has changed, 3/4 of the 4 failures in one family and 1/2 of the 2 in the other are expected in
-  // the later campaign.
+  // If nothing has changed, the later campaign is expected to have 3/4 of the 4 failures in one family, and
+  // 1/2 of the 2 failures in the other.
   EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
               std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
   EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);

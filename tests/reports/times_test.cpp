@@ -86,8 +86,8 @@ TEST(Times, StandInTheReport) {
   for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
 }
 
-// Of six equally slow cases, the five whose provenances come first are kept, in whatever order they are
-// added.
+// Five of six equally slow cases are kept: those whose provenances come first in the alphabet, in whatever
+// order the cases are added.
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;
@@ -114,7 +114,7 @@ constexpr TimeError too_late{.after = 0.125, .promised = true, .late = true};
 
 const Query hit = testing::falling_vertex(0.25, 0.25, 1, -1);
 
-/// Counters of a subject that reports a collision for each error in `times`, and takes `ns` for each query.
+/// Counters of a subject that reports a collision with each of the time errors `times`, at `ns` per query.
 Counts counts_of(const std::vector<TimeError>& times, std::uint64_t ns = 100) {
   Counts counts;
   for (const TimeError& time : times)

@@ -96,7 +96,7 @@ TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
   EXPECT_EQ(subjects["wang:float"]["epsilon"], 0x1p-23);
 }
 
-/// Statistics in which the farthest false positive of each subject is at a given fraction of its bound.
+/// Statistics in which each subject's farthest false positive is at a given fraction of the subject's bound.
 Statistics farthest_at(const std::map<std::string, double>& parts) {
   Statistics statistics;
   for (const auto& [subject, part] : parts) {
@@ -106,7 +106,7 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-/// The fit of a ladder's distances over all families; null if the ladder has no fit.
+/// The power of ε that is fitted to a ladder's distances over all families; null if there is none.
 nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
   const auto all = ladder_json(farthest_at(parts))["fits"];
   return all.empty() ? nlohmann::ordered_json() : all[0];
@@ -164,7 +164,8 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
       ladder_table(farthest_at(parts)),
       HasSubstr(
           "\nwang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions\n"));
-  // The claimed distances go as ε^(1/4). If the parts of these distances go as ε, the exponent is 1/4 + 1.
+  // The claimed distances go as ε^(1/4). If the farthest distances, divided by the
+  // claimed ones, go as ε, the exponent is 1/4 + 1.
   EXPECT_NEAR(fit({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})["exponent"], 1.25, 1e-4);
   for (const char* no_third : {"wang:p200", "wang:float"})
     EXPECT_TRUE(fit({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}}).is_null());
@@ -252,8 +253,8 @@ Statistics some_statistics() {
   return statistics;
 }
 
-// Only subjects that pass queries on have rows. `wang` was not asked about edges, so only times for vertices
-// and triangles are divided by its times.
+// Only subjects that pass queries on to finer stages have rows. `wang` was not asked about edges, so only
+// times for vertices and triangles are divided by its times.
 TEST(Deciders, AreCountedByFamilyOverBothKinds) {
   const auto json = deciders_json(some_statistics());
   ASSERT_EQ(json.size(), 3);

@@ -241,7 +241,7 @@ TEST(Headline, ASubjectOfWhichNothingWasAskedHasNotPassed) {
   EXPECT_FALSE(headline(of, std::nullopt).clean);
 }
 
-// A fault that lasts raises an alarm only in its first night; a broken promise raises one in every night.
+// A fault raises an alarm only in the first campaign that has it; a broken promise does so in every campaign.
 TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   const CountsKey key{"a", Kind::vertex_triangle, "uniform"};
   const Campaign good = campaign("1", {{key, counts(9, 5, 0, 0)}});

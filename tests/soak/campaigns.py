@@ -10,8 +10,7 @@ import sqlite3
 FAMILIES = ['uniform', 'sliver', 'parallel', 'needle', 'stiff', 'near-underflow-planted']
 SWEEPS = ['stiff', 'needle', 'aspect', 'offset']
 
-# Plug-ins that misbehave at queries chosen by the queries' coordinates, and the names of their
-# subjects.
+# Plug-ins that misbehave at queries with certain coordinates, and the names of their subjects.
 CHOSEN_BY_QUERY = {
     'crash': 'misbehaving',
     'leave': 'misbehaving',
@@ -40,7 +39,7 @@ class Failure(Exception):
 
 
 def without(value, subject):
-    """A report without times, and without everything about a subject, if one is given."""
+    """A report without times, and without everything about `subject`, unless this is None."""
     if isinstance(value, dict):
         return {
             key: without(each, subject)
@@ -107,7 +106,7 @@ class Campaign:
         return [store.with_name(name) for name in names if store.with_name(name).exists()]
 
     def check_progress(self):
-        """Checks a copy of the store: it must be sound, and have all cases that it had before."""
+        """Checks, in a copy, that the store is sound, and has all cases that it had before."""
         copy = self.machine.folder / 'copy'
         shutil.rmtree(copy, ignore_errors=True)
         copy.mkdir()

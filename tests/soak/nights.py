@@ -40,7 +40,7 @@ class Machine:
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
             # Python ignores SIGXFSZ, the signal for a file that is too large. If file sizes are
-            # limited, nearmiss ignores it too, so a write fails, but no signal ends nearmiss.
+            # limited, nearmiss inherits this, so that a write fails, but no signal ends nearmiss.
             return subprocess.Popen(
                 [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
                 stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,
@@ -127,7 +127,7 @@ class Night:
         return text + (', a clock that jumps' if self.jumps else '')
 
     def run(self, campaign, machine):
-        """Runs the night. Returns the exit code; raises Failure if a night cannot end with it."""
+        """Runs the night, and returns the exit code. Raises Failure if `end` cannot give this code."""
         if self.end == 'full disk':
             largest = max([file.stat().st_size for file in campaign.files()] + [0]) + self.room
             process = machine.start(

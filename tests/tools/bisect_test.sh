@@ -57,8 +57,8 @@ code=0
 said=$("$root/tools/bisect" --from HEAD~2 --build "$build" --subject ./mine.so ../q.vt) || code=$?
 ((code == 1)) && [[ $said == *'commit 2'*'commit 3'* || $said == *'commit 3'*'commit 2'* ]] || fail "skipped: code $code: $said"
 
-# finds WHAT BUILD NUMBER: expects that tools/bisect finds commit NUMBER as the first of the last four commits
-# with which the CCD fails.
+# finds WHAT BUILD NUMBER: expects that tools/bisect searches the last four commits, and finds that the CCD
+# first fails with commit NUMBER.
 finds() {
   local before said
   before=$(git rev-parse HEAD; git symbolic-ref HEAD)

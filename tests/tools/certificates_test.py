@@ -1,5 +1,5 @@
-"""Tests that both checkers of certificates accept what `nearmiss certify` prints, and that they
-agree which changed certificates are wrong. Usage: certificates_test.py NEARMISS CHECKER_IN_CPP"""
+"""Tests that both checkers of certificates accept what `nearmiss certify` prints, and agree on
+which changed certificates are wrong. Usage: certificates_test.py NEARMISS CHECKER_IN_CPP"""
 
 import json
 import random

@@ -89,7 +89,7 @@ TEST_F(Ci, AFileDescribesACampaign) {
   };
   const auto expected = results(campaign);
   EXPECT_EQ(results("fuzz --config trial.toml"), expected);
-  // An option on the command line overrides the file.
+  // An option on the command line overrides the configuration file.
   EXPECT_EQ(json_of(0, "fuzz --config trial.toml --subject wang")["subjects"].size(), 1);
   expect_refused("fuzz --config nowhere.toml", {"nowhere.toml"});
   write("bad.toml", "subjects = \"wang\"\ncases = 10\n");

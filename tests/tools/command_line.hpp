@@ -73,7 +73,6 @@ class CommandLine : public testing::TemporaryFolder {
   [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "",
                            const std::string& redirections = "") const;
 
-  /// Runs a command as `run` does, and expects the exit code `code`.
   Output expect_code(int code, const std::string& arguments, const std::string& before = "",
                      const std::string& redirections = "") const;
 

@@ -106,7 +106,7 @@ expect "expected no alarm for what lasts" test -z "$(grep '^alarm: .*misbehaving
 # future.
 mkdir "$folder/the nights/2999-01-01T000000Z"
 echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"
-# The script keeps the night that has just run, although the name of another night comes after its name.
+# The script keeps the night that has just run, although another night has a later date in its name.
 night 0 --subject wang --keep 2
 expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2*Z" | wc -l)" = 2
 expect "expected that only nights are removed" test -d "$folder/the" -a -d "$folder/the nights/2nd Zoo"
@@ -205,13 +205,13 @@ left() {
     [[ ${each##*/} == "$$" || ${each##*/} == "$BASHPID" || $(readlink "$each/cwd" 2>/dev/null) != "$PWD" ]] || echo "${each##*/}"
   done
 }
-# begin RESULTS: starts a night without end in the background.
+# begin RESULTS: starts a night of 100 hours in the background.
 begin() {
   results=$folder/$1
   env --default-signal=INT,TERM,HUP tools/nightly --time 100h --subject wang --results "$results" &>"$folder/said" &
   night=$!
 }
-# until_ COMMAND...: repeats a command until it succeeds. Fails if the night in the background ends before.
+# until_ COMMAND...: repeats a command until it succeeds. Fails if the night in the background ends first.
 until_() { until "$@"; do kill -0 "$night" 2>/dev/null || fail "the night ended before this: $*"; sleep 0.05; done; }
 # ends CODE: waits for the night to end. Expects the exit code CODE, and that no process is left running.
 ends() {

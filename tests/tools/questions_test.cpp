@@ -91,7 +91,8 @@ TEST_F(CommandLine, SimulateFindsAClothThatATextbookCcdTangles) {
     EXPECT_EQ(found["wang"][counter], none) << counter;
 }
 
-/// The provenance of a finding is enough to make its query again, even for a query of a simulation.
+/// The provenance of a finding (family, seed and number) is enough to make its query again, even for a query
+/// of a simulation.
 TEST_F(CommandLine, FuzzAsksWhatSimulationsAsk) {
   expect_code(1,
               "fuzz --family sim:hair@100:steps-per-frame=1,sim:cloths@50 --subject bullet-double,basic "
@@ -139,9 +140,9 @@ class Questions : public CommandLine {
     EXPECT_TRUE(all["findings"].empty());
   }
 
-  /// Takes the query of the simplest failure that `command` finds. Expects that the function fails again if
-  /// nearmiss asks it only this query, and that a function without a defect, which the command `right` asks,
-  /// answers rightly. Expects that the checker accepts the failure's certificate.
+  /// Takes the query of the simplest failure that `command` finds. Expects that the same function, asked only
+  /// this query, fails again, and that the function without a defect, which the command `right` asks, is
+  /// right. Expects that the checker accepts the failure's certificate.
   void expect_finding(const std::string& command, const std::string& right,
                       const std::string& failure) const {
     const json finding = json_of(1, command + "--cases 2000")["findings"][0];

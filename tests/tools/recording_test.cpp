@@ -28,7 +28,7 @@ class Recording : public CommandLine {
     return json_of(code, "replay " + files + " --as-answered")["subjects"]["recorded"]["vt"];
   }
 
-  /// Records the answers in `lines`, which `falling` makes, and judges them as `judged` does.
+  /// Records the answers in `lines`, made by `falling`, and judges the answers as `judged` does.
   [[nodiscard]] nlohmann::json judged_lines(int code, const std::string& lines) const {
     write("lines", lines);
     EXPECT_EQ(record("0 lines <lines"), 0);

@@ -17,7 +17,6 @@ using ::testing::Not;
 
 class Resume : public CommandLine {
  protected:
-  /// The report of a store, without times.
   [[nodiscard]] json timeless_report(const std::string& store) const {
     EXPECT_LE(run("report " + store + " -o report").code, 1);
     json report = read_json("report/report.json");
@@ -25,8 +24,8 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes a campaign in a.db, waits until it has saved results, and sends it a signal after the
-  /// further time `after`. Returns the campaign's exit code, or -1 if the signal ended the process.
+  /// Starts or resumes a campaign in a.db, waits until it has saved results and for the time `after`, and
+  /// sends it a signal. Returns the campaign's exit code, or -1 if the signal ended the process.
   [[nodiscard]] int run_until_a_signal(const std::string& command, std::chrono::milliseconds after,
                                        int signal) const {
     Background process(file(""), command + " --db a.db --resume");
@@ -72,7 +71,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(json::diff(timeless_report("merged.db"), report), json::array());
 
   int kills = 0;
-  // Some of the times before a signal are longer than the interval between two saves. The times grow with the
+  // Some delays before a signal are longer than the interval between two saves. The delays grow with the
   // number of kills, so that the campaign completes even on a slow machine.
   while (run_until_a_signal(campaign, std::chrono::milliseconds(337 * kills % 1000 + 50 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
@@ -158,7 +157,7 @@ class VersionsOfACcd : public CommandLine {
     std::filesystem::copy(plugin("v2"), file("v2.so"));
   }
 
-  /// The sum of the number `of` over all classes and kinds.
+  /// The sum of the numbers with the key `of`, over all classes and kinds.
   static std::uint64_t sum(const nlohmann::json& versions, const char* of) {
     std::uint64_t sum = 0;
     for (const auto& each : versions) sum += each[of].get<std::uint64_t>();

@@ -126,7 +126,7 @@ process_of() {
 }
 saved() { { "$nearmiss" report "$results/shard-$1.db" -o "$folder/peek" || (($? == 1)); } | grep wang; }
 # Whether the first and the third task have saved something. Stops their processes, so that neither can end,
-# and lets both go on if one has saved nothing.
+# and lets both go on if either has saved nothing.
 both_saved() {
   first=$(process_of 0) && third=$(process_of 2) && kill -STOP "$first" "$third" || return 1
   if saved 0 && saved 2; then return; fi

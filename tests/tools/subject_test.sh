@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Compiles plug-ins with tools/subject. Most plug-ins are three lines of C++ for some of the signatures that
-# ccd/nearmiss_functions.hpp knows. They call tests/plugin/foreign.hpp, which stands for a user's library.
-# Asks each plug-in queries. Then checks that tools/subject says in one line why it cannot compile something.
+# Compiles plug-ins with tools/subject. Most plug-ins are three lines of C++ around functions with signatures
+# that ccd/nearmiss_functions.hpp knows. These functions are in tests/plugin/foreign.hpp, which stands for a
+# user's library. Asks each plug-in queries. Then checks that tools/subject says in one line why it cannot
+# compile something.
 # Usage: subject_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -80,15 +81,15 @@ is ipc 'vt and ee and vv and ve; 53 bits; a lower bound of the time; takes a sep
 adapter accd '.vertex_triangle(foreign::accd::Point_Triangle_CCD<double>).edge_edge(foreign::accd::Edge_Edge_CCD<double>)'
 compile accd --cmake 'foreign foreign::foreign' ADAPTER
 is accd 'vt and ee; 53 bits; a lower bound of the time; takes a separation; batches of 1'
-# The plainest signatures, on pointers, arrays and floats. They also compile as C++20.
+# The plainest signatures, with pointers, arrays and floats. They also compile as C++20.
 adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(foreign::plain::edge_edge)
   .vertex_vertex(foreign::plain::vertex_vertex).set(&nearmiss_subject::bits, 24)'
 compile plain ADAPTER "${by_flags[@]}" -std=c++20
 is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
 
-# A plug-in with several detectors. "contract" has another sort of time than its signature implies. The
-# functions of "eltopo" are overloaded and take indices. "still" is a filter of steps that lets nothing move.
-# "mixed" takes separations for only one of its kinds.
+# A plug-in with several detectors. "contract" says that its times are lower bounds; its signature implies
+# another sort of time. The functions of "eltopo" are overloaded and take indices. "still" is a filter of
+# steps that lets nothing move. "mixed" takes separations for only one of its kinds.
 cat >all.cpp <<'END'
 #include "foreign.hpp"
 #include "ccd/nearmiss_functions.hpp"
@@ -125,7 +126,7 @@ for each in 'vt and ee; 53 bits; an estimate of the time; takes a separation; ba
   'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'; do
   is all "$each"
 done
-# asked COMMAND OPTION...: expects that a campaign finds no failure.
+# asked COMMAND OPTION...: expects that a command with 2,000 cases finds no failure.
 asked() { "$nearmiss" "$@" --cases 2000 >said 2>&1 || fail "$*: $(cat said)"; }
 asked distance --subject ./all.so:distances,./all.so:alone
 asked step --subject ./all.so:still
@@ -158,7 +159,7 @@ adapter forgotten '.vertex_triangle(foreign::forgotten)'
 refused 'the plug-in cannot be loaded: ' forgotten.cpp "${by_flags[@]}"
 [[ ! -e forgotten.so ]] || fail "forgotten.so is left"
 adapter unusual '.vertex_triangle([](int) { return true; })'
-# tools/subject replaces no file that is no plug-in.
+# tools/subject replaces a file only if it is a plug-in.
 echo mine >precious.so
 refused "found './precious.so', which is no plug-in" -o precious.so unusual.cpp
 [[ $(cat precious.so) == mine ]] || fail "precious.so was replaced"

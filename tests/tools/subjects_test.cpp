@@ -146,7 +146,6 @@ TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
   EXPECT_THAT(again, HasSubstr(" --query-time 7s --query-memory 2147483648"));
 }
 
-/// The number `name` in `counts`, or 0 if `counts` has no such number.
 std::uint64_t count(const nlohmann::json& counts, const std::string& name) { return counts.value(name, 0U); }
 
 TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {

@@ -45,7 +45,8 @@ struct Terminal {
   }
 };
 
-// ^S stops the output of a terminal. A campaign that shows its progress on such a terminal ends all the same.
+// ^S stops the output of a terminal. A campaign that shows its progress on a stopped terminal ends all the
+// same.
 TEST_F(CommandLine, AStoppedTerminalStopsNothing) {
   const Terminal terminal;
   ASSERT_EQ(tcflow(terminal.side, TCOOFF), 0);
@@ -76,7 +77,7 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // The threads of a campaign, and the processes of its plug-ins, compute with the arithmetic of the command.
+  // nearmiss also corrects the arithmetic of a campaign's threads and of its plug-ins' processes.
   const auto positives = [&](const std::string& preload) {
     const json subjects =
         json_of(1,

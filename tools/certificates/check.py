@@ -7,8 +7,8 @@ lists s of all vertices, then e of all. For h >= 0, a certificate proves one cla
 The functions apart, at, bracket and edge say why their tests suffice. On [p, q], a polynomial f of
 degree n has a form, a polynomial in u and v: f((p u + q v) / (u + v)) times (u + v)^n. For each t
 in [p, q], t = p u + q v with some u, v >= 0 and u + v = 1. So f > 0 on [p, q] if all coefficients
-of the form are > 0, and f > 0 on [p, q) if the first is > 0 and the others are >= 0. The first is
-f(p), and the last is f(q). A positive factor of all coefficients, as in whole(), changes no sign.
+of the form are > 0, and f > 0 on [p, q) if the first is > 0 and the others are >= 0. The first
+coefficient is f(p), the last f(q). Positive factors, as in whole(), change no sign.
 Compare the Statement with your question: a line may prove something other than you asked."""
 
 import re
@@ -26,7 +26,7 @@ NUMBER = r'(-?)(\d+)(?:/0*([1-9]\d*))?|(-?0x[01])(?:\.([\da-f]+))?p([+-]?)(\d{1,
 # integer() converts 600 digits at a time, because the limit of int() may be as low as 640 digits.
 integer = lambda s: reduce(lambda n, d: n * 10 ** len(d) + int(d), re.findall('.{1,600}', s), 0)
 is_double = lambda v: abs(v) < 2**1024 - 2**970 and Fraction(float(v)) == v
-# Makes an object a tuple of pairs, a number that is not in a string its length, and NaN an error.
+# An object becomes a tuple of pairs, a number outside a string its length; NaN is refused.
 JSON = JSONDecoder(object_pairs_hook=tuple, parse_int=len, parse_float=len, parse_constant=int)
 Statement = namedtuple('Statement', 'kind x h claim from_ to open strict')
 
@@ -100,7 +100,7 @@ def forms(vectors, p, q):
 
 def apart(s, vectors, body):
     """On each piece, n . (a - b) > 0 and (n . (a - b))^2 > h^2 n . n for all vertices a of A and b
-    of B. So |n| |a - b| >= n . (a - b) > h |n|, for all points too, as averages of vertices."""
+    of B. So |n| |a - b| >= n . (a - b) > h |n|, for all points a and b, which average vertices."""
     times = numbers(body['times'], range(2, 20002))
     require(times[0] == s.from_ and times[-1] == s.to, '"times" does not span "from" to "to"')
     normals = numbers(body['normals'], [len(times) - 1], [3], range(1, 6))
@@ -117,7 +117,7 @@ def apart(s, vectors, body):
 
 
 def at(s, vectors, body):
-    """At one time, a point of A and a point of B, averages of vertices, are at most h apart."""
+    """At one time, the points of A and B that the weights give are at most h apart."""
     t, a = numbers(body['at']), KINDS[s.kind].count('A')
     require(s.from_ <= t <= s.to, '"at" is not in ["from", "to"]')
     *x, h = forms(vectors, t, t)
@@ -129,8 +129,8 @@ def at(s, vectors, body):
 
 
 def bracket(s, vectors, body):
-    """F = n . (x2 - x0) is zero at a time in [p, q], when all vertices are in a plane normal to n.
-    Then weights / n . n are barycentric coordinates of a point of A and of B: all are positive."""
+    """At a time in [p, q], F = n . (x2 - x0) is zero, so all vertices are in one plane. There,
+    weights / n . n, all positive, are the barycentric coordinates of a point of both A and B."""
     p, q = numbers(body['bracket'], [2])
     require(s.h == 0 and s.from_ <= p < q <= s.to, 'h is not 0, or not from <= p < q <= to')
     *x, h = forms(vectors, p, q)
@@ -145,8 +145,8 @@ def bracket(s, vectors, body):
 
 
 def edge(kind, x, names):
-    """At a time in [p, q], a component of (v - y) x (z - y) is zero, and all are multiples of it.
-    So v is on the line through y and z. Two inner products say that v is between y and z."""
+    """A component of (v - y) x (z - y) is zero at a time in [p, q]; the others are its multiples.
+    So v is on the line through y and z. Two inner products show that v is between y and z."""
     edges = [e for e in permutations(range(len(x)), 3) if kind[e[0]] != kind[e[1]] == kind[e[2]]]
     require(names in [[*map(str, e)] for e in edges], '"edge" is not a vertex and an edge')
     v, y, z = (x[int(name)] for name in names)

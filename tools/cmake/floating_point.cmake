@@ -1,4 +1,4 @@
-# Theorem 4.1 of the paper assumes that every operation is rounded to IEEE double. Therefore this file
+# Theorem 4.1 of Wang's paper assumes that every operation is rounded to IEEE double. Therefore this file
 # switches contraction off, and refuses a compiler that reorders or widens operations. Every header of ccd/
 # refuses such a compiler, too.
 include(CheckCXXSourceCompiles)

@@ -69,7 +69,7 @@ endif()
 
 if("oracle" IN_LIST NEARMISS_COMPONENTS)
   nearmiss_install_headers(oracle-dev ${interface})
-  # The C++ interface uses the kinds of the templates.
+  # The C++ interface and the templates share the enumeration of the kinds of queries.
   nearmiss_install_headers(oracle-dev ccd/query/kind.hpp)
   nearmiss_install_target(oracle nearmiss_interface)
   if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR} OR IS_ABSOLUTE ${CMAKE_INSTALL_INCLUDEDIR})

@@ -2,8 +2,8 @@
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  # ccache caches a file that uses a precompiled header only if it may ignore changed #defines, and the macros
-  # __DATE__ and __TIME__.
+  # ccache caches a file that uses a precompiled header only if ccache may ignore changed #defines, and the
+  # macros __DATE__ and __TIME__.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
@@ -47,7 +47,7 @@ function(nearmiss_options target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
-# The only header of our own that is precompiled in several targets.
+# The only header of nearmiss that several targets precompile.
 set(nearmiss_statistics_header ${PROJECT_SOURCE_DIR}/reports/statistics/statistics.hpp)
 
 # nearmiss_precompile(TARGET HEADER...): precompiles the headers that most files of a target include; most of

@@ -59,8 +59,8 @@ std::string named(std::string name, const SeparationOption& separation) {
 }
 
 /// Makes an input, on all processors: for each kind that is asked, the first `count` queries of a family that
-/// pass the box test. Throws Error if fewer than one query in 1000 passes, and Stopped if the user ends the
-/// command.
+/// pass the box test (the boxes of the moving primitives overlap). Throws Error if fewer than one query in
+/// 1000 passes, and Stopped if the user ends the command.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};

@@ -33,14 +33,14 @@ struct Options {
   std::string format = "plain";
 };
 
-/// Makes the folder of a file, and returns the file.
+/// Makes the folder that will contain `file`, and returns `file`.
 fs::path in_folder(fs::path file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   return file;
 }
 
-/// New files in a folder. They get their names only when all of them are complete.
+/// New files in a folder. The files get their names only when all of them are complete.
 class NewFiles {
  public:
   explicit NewFiles(fs::path folder) : folder_(std::move(folder)) {}
@@ -51,7 +51,6 @@ class NewFiles {
     place->second.write(text);
   }
 
-  /// Completes the files, and gives them their names. Throws Error if one of them cannot be written.
   void finish() {
     for (auto& [name, file] : files_) file.close();
     for (auto& [name, file] : files_) file.put_in_place();

@@ -42,7 +42,8 @@ bool is_plain(const Query& query) {
 }
 
 /// Asks a subject random queries, either of ordinary families or of all other families, until the subject
-/// misses a collision whose shrunk query is easy to draw. In ordinary families, only ordinary queries count.
+/// misses a collision whose shrunk query is easy to draw. In ordinary families, the collision must be an
+/// ordinary query.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query

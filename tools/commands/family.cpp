@@ -33,7 +33,8 @@ struct Options {
 };
 
 /// Prints a line for each of `count` queries of one kind, starting with the index `first`. A line has the
-/// query or, with --factors, the factors of the query. With --class, leaves out queries of other classes.
+/// query or, with --factors, the values of the properties that the family varies. With --class, leaves out
+/// queries of other classes.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
   expect_kind(family, kind, "--kind");
@@ -49,8 +50,8 @@ void print_queries(const Options& options, const Family& family) {
   }
 }
 
-/// For each kind, prints how many queries are ordinary, and how many are not, by the rule that excludes them.
-/// Also prints how many of these queries are collisions.
+/// For each kind, prints how many queries are ordinary, how many each rule excludes from the ordinary ones,
+/// and how many in each group are collisions.
 void print_classes(const Options& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;
@@ -91,7 +92,7 @@ void print_coverage(const Options& options) {
   print_combinations("triples", found.triples, options.count);
 }
 
-/// Asks a subject about the queries, and prints for each kind the factors that the missed collisions have in
+/// Asks a subject about the queries, and prints for each kind which properties the missed collisions have in
 /// common. Leaves out queries without an answer.
 void print_common_factors(const Options& options, const Family& family) {
   const auto asked =

@@ -185,7 +185,8 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   return soonest;
 }
 
-/// "0.12 s  12,345" for a miss, with a mark for any other failure; "-" if the hunt found nothing.
+/// "0.12 s  12,345" for a miss, with "+" for a late time, with "*" for a refuted bound; "-" if nothing was
+/// found.
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"

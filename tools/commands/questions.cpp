@@ -31,7 +31,7 @@ struct Options {
 
 constexpr const char* usual_time = "20s";
 
-/// The texts of a command that asks one Question.
+/// The texts of one of the two commands.
 struct Command {
   const char *name, *help;
   const char* function;   ///< the function of the plug-in interface that answers the question

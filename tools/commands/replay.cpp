@@ -64,7 +64,8 @@ struct Pass {
   std::function<void(const CaseSink&)> read;
 };
 
-/// The passes that judge recorded answers, and ask no subject.
+/// The passes that judge recorded answers, and ask no subject. Different answers to the same query are in
+/// different passes.
 std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {
@@ -106,7 +107,7 @@ struct Replayed {
   std::map<Kind, std::uint64_t> with_separation = {};  ///< number of cases with a separation, by their kind
 };
 
-/// Lets the subjects of a pass decide its cases, and adds the results to the record.
+/// Lets the subjects of a pass decide the pass's cases, and adds the results to `record`.
 void hold(const Options& options, const Pass& pass, const Stop& stop, Record& record, Progress& progress,
           Replayed& replayed) {
   const bool shrinks = !options.trial.no_shrink && !options.as_answered;

@@ -119,7 +119,8 @@ std::string describe(const Scene& scene, const MovingMesh& mesh) {
                      counted(static_cast<std::size_t>(bodies(scene.mesh).count), "body", "bodies"));
 }
 
-/// Asks the subjects about all steps of a scene. With --verify-plan, verifies the plan of each step.
+/// Asks the subjects about all steps of a scene. With --verify-plan, also asks about the pairs for which the
+/// plan needs no CCD.
 Held hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
                  const Stop& stop) {
   const LeaveOut leave_out = leave_outs.at(options.leave_out);

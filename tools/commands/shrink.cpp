@@ -57,8 +57,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-/// The subject, wrapped so that it is asked only queries on the same side of its contract as `query`: those
-/// that keep the contract if `query` keeps it, otherwise those that break it.
+/// The subject, wrapped so that it is asked only queries that keep its contract if `query` keeps the
+/// contract, and only queries that break it otherwise.
 std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();

@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> names{"all"}, values;
   bool among_vertices = false;
   std::string time;
-  CampaignOptions campaign;  ///< for values of an option; seed, jobs and record also for tolerances
+  CampaignOptions campaign;  ///< used for --values; for tolerances, only its seed, jobs and record
 };
 
 constexpr const char* usual_time = "60s";

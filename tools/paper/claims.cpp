@@ -18,7 +18,6 @@ namespace nearmiss::tools::paper {
 
 namespace {
 
-/// The names of the values of Judgement, in their order.
 constexpr std::array<std::string_view, 5> names{"holds", "holds with a condition", "does not hold",
                                                 "a question, answered", "cannot be measured here"};
 
@@ -98,8 +97,8 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// The largest ratio of run times that counts as a small overhead, as the paper claims it. Leaves room for
-/// the noise of a busy machine.
+/// The largest ratio of run times for which the paper's claim of a small overhead holds. Leaves room for the
+/// noise of a busy machine.
 constexpr double small_overhead = 1.1;
 
 std::string in_words(const Ratios& ratios) {

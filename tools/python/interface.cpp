@@ -103,8 +103,8 @@ py::array_t<T> one_for_each(const Queries& queries) {
 
 /// Calls ask(part, first) for one part of the queries after the other; `first` is the number of the part's
 /// first query. Between parts, at most every tenth of a second, lets Python handle signals. If queries are
-/// slow, takes smaller parts, so that signals do not wait long. Stops when the interpreter exits, or at the
-/// first status other than NEARMISS_OK, and returns this status.
+/// slow, takes smaller parts, so that signals do not wait long. Stops at the first status other than
+/// NEARMISS_OK, and returns this status. Also stops when the interpreter exits.
 template <class Ask>
 int ask_until_the_end(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
@@ -127,7 +127,6 @@ int ask_until_the_end(const Queries& queries, const Ask& ask) {
   return NEARMISS_OK;
 }
 
-/// Calls ask_until_the_end without Python's lock, so that other Python threads run.
 template <class Ask>
 int ask_in_parts(const Queries& queries, const Ask& ask) {
   const Running this_call;

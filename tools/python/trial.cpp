@@ -107,7 +107,7 @@ void let_python_handle_signals() {
 /// A function that receives the number of decided cases and the number of misses so far.
 using Report = std::function<void(std::uint64_t cases, std::uint64_t missed)>;
 
-/// For each subject, what is known from earlier cases of the batch's kind and family.
+/// For each subject, what earlier cases of the batch's kind and family have shown.
 std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, const SoFar& so_far) {
   std::vector<Known> known;
   for (const auto& subject : subjects)
@@ -143,7 +143,7 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   return result;
 }
 
-/// Shrinks the first `of_each` findings of each signature and class.
+/// Shrinks the first `of_each` findings of each way to fail (signature) and class of queries.
 void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each,
             const Stop& stop) {
   const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);
@@ -155,8 +155,8 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
   }
 }
 
-/// The largest ratio of a false positive's distance to its bound. A ratio of the largest double stands for a
-/// bound of 0, and is replaced by infinity.
+/// The largest ratio of a false positive's distance to its bound. If the bound is 0, the counts have the
+/// largest double as the ratio; returns infinity instead.
 double farthest(const Counts& counts) {
   const double ratio = counts.max_ratio();
   return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;
@@ -208,7 +208,6 @@ py::dict columns(const std::vector<Finding>& findings) {
   return of;
 }
 
-/// A Report that calls a Python function, or does nothing for None.
 Report report_to(const py::object& function) {
   if (function.is_none()) return [](std::uint64_t /*cases*/, std::uint64_t /*missed*/) {};
   return [&function](std::uint64_t cases, std::uint64_t missed) {

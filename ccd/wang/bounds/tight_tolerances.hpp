@@ -111,9 +111,9 @@ constexpr double least_size(const Allows& allows) {
 /// constraint on the short edge allows E up to 2g. The constraint on the height allows η up to
 /// 2g/√3 - error/E, and η is at most B. The constraint on the quadrilateral's area allows τ up to
 /// 4g²/√3 - error (the constraint on the triangle's area allows a larger τ). E, η and τ get the largest
-/// allowed values, because these give the smallest r(g) and the smallest g0: the constraint on the weight, g
-/// η (τ - error) >= 2 weight, holds for all g above some g0. As g grows from g0, R² = g² + r(g)² first falls
-/// and then rises, and its minimum gives R. R gives S, and S gives the `edge_tolerances`, with ρ = ε.
+/// allowed values, because these give the smallest r(g) and the smallest g0, above which the constraint on
+/// the weight, g η (τ - error) >= 2 weight, holds. As g grows from g0, R² = g² + r(g)² first falls and then
+/// rises, and its minimum gives R. R gives S, and S gives the `edge_tolerances`, with ρ = ε.
 ///
 /// The operations that compute a tolerance have a relative error below 16 ε together. R, ψ, D² and μ are
 /// increased by 16 ε + 2^-30 times themselves.

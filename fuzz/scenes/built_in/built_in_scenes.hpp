@@ -1,6 +1,6 @@
 // Scenes that need no file: classic scenes of the field, computed by formulas in any size. They are not
-// simulated, but they move like simulations: the primitives of nearly all candidates are near each other, few
-// candidates collide, and a step moves no point by much more than the length of an edge.
+// simulated, but they move like simulations: the primitives of nearly all candidates (pairs whose swept boxes
+// meet) are near each other, few candidates collide, and a step moves no point much farther than 1.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,7 @@
 namespace nearmiss {
 
 /// An entry of the list of scenes. Each frame is a pure function of the size and the frame number, with the
-/// same bits on every machine, and is computed on demand. Edges are about 1 long in all sizes: a larger scene
-/// has more primitives of the same size, so the number of candidates grows in proportion to the number of
-/// primitives.
+/// same bits on every machine, and is computed on demand. Edges are about 1 long in all sizes.
 struct BuiltInScene {
   std::string name;
   std::string description;

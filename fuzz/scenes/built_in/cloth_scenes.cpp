@@ -72,8 +72,7 @@ class SpikeField {
 
 /// A cloth falls on a square of spikes, by 0.2 in each step, from above the tips to half the height of the
 /// spikes. Each spike holds up the cloth with a random gap; some gaps are too small, so collisions occur. A
-/// larger scene has more spikes of the same size and spacing, so the number of candidates per primitive does
-/// not depend on the scene's size.
+/// larger scene has more spikes of the same size and spacing.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
   const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));

@@ -16,7 +16,7 @@ void add_surface(Mesh& mesh, int first, int rows, int columns, bool closed = fal
 /// Adds the lines of a polyline through `count` points, from number `first` on.
 void add_polyline(Mesh& mesh, int first, int count);
 
-/// Adds the triangles of a part whose points begin at number `first`.
+/// Adds the triangles of `part`; its points are those of `mesh` from number `first` on.
 void add_triangles(Mesh& mesh, const Mesh& part, int first);
 
 /// (squares + 1)² points in rows. `place` maps a point of the flat sheet to its position; x and y are

@@ -15,7 +15,7 @@
 
 namespace nearmiss::isolation {
 
-/// Throws NoWorker, with `what` and the system's reason (errno), unless `fine`.
+/// Unless `fine` is true, throws NoWorker with `what` and the system's reason (errno).
 inline void check(bool fine, const char* what) {
   if (!fine) throw NoWorker(fmt::format("no worker process: {}: {}", what, std::strerror(errno)));
 }

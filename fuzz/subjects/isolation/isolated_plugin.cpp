@@ -152,7 +152,7 @@ class IsolatedPlugin final : public DescribedSubject {
     });
   }
 
-  /// The code of a failure in a verdict. Also stores what the process wrote, in errors_.
+  /// The code of a failure in a verdict. Also stores in errors_ what the process wrote to standard error.
   std::int32_t code_of(const WorkerFailure& failure) const {
     const std::int32_t code = has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
     if (failure.errors.empty()) return code;
@@ -165,8 +165,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch: the number of first queries that have the same kind, and of which the
-  /// plug-in can decide either all or none, but at most as many as a worker gets at once.
+  /// The size of the next batch, which begins with the first query: its queries have the same kind, the
+  /// plug-in can decide either all of them or none, and a worker can get them at once.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -198,12 +198,12 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
   /// Makes a worker perform the request for one batch. If a worker cannot be used any more, a new worker
-  /// replaces it and continues after the query that failed. If a failure has several suspects, they are asked
-  /// again to find the query that is to blame: first in parts, then a failing part in smaller parts, and at
-  /// last query by query. If a part fails, but none of its own parts fails, the last query of the part is to
-  /// blame. A failure that depends on earlier queries, such as a crash at every 1000th query, is a fault,
-  /// too. (If the part was only late, no query is to blame, because all its queries together may take that
-  /// long.) `late` counts the queries over the time limit.
+  /// replaces it and continues after the query that failed. If several queries may have caused a failure,
+  /// they are asked again to find the one that is to blame: first in parts, then a failing part in smaller
+  /// parts, and at last query by query. If a part fails, but none of its own parts fails, as with a crash at
+  /// every 1000th query, the last query of the part is to blame. (If the part only took too long, no query is
+  /// to blame, because all its queries together may take that long.) `late` counts the queries over the time
+  /// limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -286,8 +286,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return start_worker();
   }
 
-  /// Starts a worker; returns null if the plug-in cannot be loaded, or describes itself differently than the
-  /// first time. After some consecutive failures, starts no more workers.
+  /// Starts a worker; returns null if the plug-in cannot be loaded, or has changed its description of itself.
+  /// After three consecutive failures, starts no more workers.
   std::unique_ptr<WorkerProcess> start_worker() const {
     constexpr int most_failed = 3;
     if (failed_starts_ >= most_failed) return nullptr;
@@ -342,7 +342,7 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // at the last failed start
   /// By thread, fault and fault code: the text that the process wrote when this fault last happened to a
-  /// query of this thread. The thread reads the text right after the fault, so the text belongs to that
+  /// query of this thread. The thread reads the text right after the fault, so it gets the text of that
   /// query.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;

@@ -34,8 +34,9 @@ class PluginFile {
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
   /// Throws PluginChanged unless the path still leads to a file with the same bytes. Reads the file again
-  /// only if its stamp has changed, or was recent at the last reading; otherwise, the check takes about a
-  /// microsecond. Throws Stopped if `stop` is due during a reading.
+  /// only if its stamp (inode, size, times) has changed, or was too recent at the last reading to show later
+  /// changes; otherwise, the check takes about a microsecond. Throws Stopped if `stop` is due during a
+  /// reading.
   void expect_unchanged(const Stop& stop) const;
 
  private:

@@ -33,8 +33,8 @@ class Spawn {
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
-    // If the parent of nearmiss blocks or ignores a signal, the plug-in would inherit this setting. The
-    // plug-in might then behave differently, or end in a way that hides the cause.
+    // Without this reset, the plug-in would also block or ignore each signal that the parent of nearmiss
+    // blocks or ignores. It might then behave differently, or end in a way that hides the cause.
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);

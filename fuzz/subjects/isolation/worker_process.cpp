@@ -395,7 +395,7 @@ std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
   return ends_within(milliseconds(1000)) ? End::dead : End::broken;
 }
 
-/// The end that a message on the worker's socket shows; nothing if there is no message.
+/// How the call ended, according to the worker's socket; nothing if the socket has no message.
 std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) const {
   std::uint64_t reply = 0;
   std::array<char, sizeof reply + 1> message{};

@@ -28,8 +28,8 @@ struct PluginLimits {
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that loading may take
   Duration leaving{0.1};                         ///< the time that closing the detector may take
-  /// The number of queries that may exceed the time limit before the other queries of the same call are not
-  /// asked; 0 is no limit.
+  /// Once this many queries of a call have exceeded the time limit, the rest of the call is not asked; 0: no
+  /// limit.
   std::uint64_t most_late = 0;
   const Stop* stop = &Stop::never();  ///< when this stop is due, all waiting ends with Stopped
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
@@ -151,7 +151,7 @@ class WorkerProcess {
   End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// Sends a call; with Request::share, also the files of the shared memory.
   void send_call(const Call& call) const;
-  /// How the call ended, if a message says so.
+  /// How the call ended; nothing if neither the worker nor its supervisor has sent a message.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] std::optional<End> read_reply(std::uint64_t call) const;
   /// The largest Memory::data of a process of the plug-in, in bytes.

@@ -16,8 +16,8 @@ namespace nearmiss {
 ///   product          5u²         (Algorithm 10 of the paper below)
 ///   quotient, root   16u²        (in tests against rational numbers; no proof is published)
 /// so ε = 16u² = 2^-102. The paper is Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
-/// building blocks of double-word arithmetic", ACM TOMS 44, 2017. Debian's libqd is built with another sum,
-/// whose relative error is unbounded for operands of opposite signs. That sum would violate the model of
+/// building blocks of double-word arithmetic", ACM TOMS 44, 2017. Debian's libqd adds by another algorithm,
+/// whose relative error is unbounded for operands of opposite signs. That would violate the model of
 /// arithmetic in Wang's paper, so this class calls libqd's accurate sum and quotient by name.
 class DoubleDouble {
  public:

@@ -48,9 +48,9 @@ struct MachineArithmetic {
   PlainArithmetic guard;
 };
 
-/// basic, wang or wang-tight with all arithmetic in T. Each call constructs an Arithmetic(exponent of ε),
-/// which sets the arithmetic until the call returns. If T has fewer digits than a double, the subject rounds
-/// coordinates to T, and decides the rounded query. Normals and weights are computed in Wide.
+/// basic, wang or wang-tight in T, except that normals and weights are computed in Wide. Each call constructs
+/// an Arithmetic(exponent of ε), which sets precision and rounding until the call returns. If T has fewer
+/// digits than a double, the subject rounds coordinates to T, and decides the rounded query.
 template <class T, class Arithmetic, class Wide>
 class Scaled final : public Subject {
  public:
@@ -83,8 +83,8 @@ class Scaled final : public Subject {
           within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
       return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
     }
-    // Rounded up. The margin `slack` covers the B that the subject computes in T, which may have few digits:
-    // it is at most B* (1 + 40ε), where B* is the exact B.
+    // Rounded up. The margin `slack` covers the rounding of B: the B that the subject computes in T is at
+    // most B* (1 + 40ε), where B* is the exact B.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -148,8 +148,8 @@ class Scaled final : public Subject {
   }
 
   /// The query with coordinates and separation rounded to T. For float, whose range is smaller than that of
-  /// double, these numbers are first scaled by 2^exponent. A coordinate that would round to 2^1024 becomes
-  /// the next smaller number of T.
+  /// double, these numbers are first scaled by 2^exponent. If the absolute value of a coordinate would round
+  /// to 2^1024, it becomes the next smaller number of T.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;

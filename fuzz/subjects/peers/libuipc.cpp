@@ -41,8 +41,8 @@ constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"d-hat", &Setting
 /// Converts a vertex to this type, for templates that deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Makes a function that tests whether the boxes of the primitives meet, and, if they do, whether the
-/// primitives, with n vertices together, collide.
+/// Makes a function that asks the CCD about primitives with n vertices in all if their boxes meet, and
+/// otherwise reports no collision.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

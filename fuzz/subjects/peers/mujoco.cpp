@@ -1,12 +1,13 @@
 // MuJoCo's conservative advancement of deformables, mjc_advance() in
 // src/engine/engine_collision_continuous.c. It answers with alpha, the part of the step that may be taken:
 // the whole step, or less, so that no gap shrinks by more than 80 %. It promises that the advanced
-// configuration has no intersection. Therefore alpha < 1 counts as a collision not before alpha; a false
-// positive says only that a gap shrinks by more than 80 %. As in MuJoCo's own test, the adapter passes one
-// pair of a flex vertex and a flex triangle, or of two flex edges, and all vertices are free.
+// configuration has no intersection. Therefore alpha < 1 counts as a collision, and alpha as a lower bound of
+// its time; a false positive says only that a gap shrinks by more than 80 %. As in MuJoCo's own test, the
+// adapter passes one pair of a flex vertex and a flex triangle, or of two flex edges, and all vertices are
+// free.
 // Source: github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
 // Question: contact; the time of impact is a lower bound. With same-flex=1, both primitives belong to one
-// flex, and their mean motion does not count.
+// flex (a deformable), and their mean motion does not count.
 // Contract: apart at t = 0. mjc_advance() leaves out pairs whose gap is 0 ("the contact solver owns it"), and
 // its header promises a positive gap at rest.
 // $MUJOCO is the repository, with src/engine/engine_{collision_continuous,util_blas,util_errmem}.c compiled

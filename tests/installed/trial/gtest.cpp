@@ -154,7 +154,7 @@ TEST(MyCcd, FamiliesMayBeGroupsWithBlanks) {
   const auto report = nearmiss::trial(exact, {.families = "uniform, vertices,", .kinds = 15, .cases = 1000});
   EXPECT_TRUE(report.clean());
   EXPECT_GT(report.counts(nearmiss::Kind::vertex_vertex).queries, 0U);
-  // A function that takes a Question may return a bool in a detector, too.
+  // In a detector, too, a function that takes a Question may return a bool.
   EXPECT_TRUE(nearmiss::trial(nearmiss::plugin::detector("d").edge_edge(exact), {.cases = 500}).clean());
 }
 

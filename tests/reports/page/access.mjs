@@ -22,7 +22,7 @@ export async function hasNoBarriers(browser) {
     }
 }
 
-/** Copies the page of a report, repeats its findings until there are `many`, and returns the address. */
+/** Copies the page of a report, repeats its findings until there are `many`, and returns its address. */
 function withFindings(name, many) {
   const page = readFileSync(join(folder, name, "index.html"), "utf8");
   const begin = page.indexOf(">", page.indexOf('id="report"')) + 1;

@@ -15,8 +15,8 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // Each of 4 panels has 12 marks, for 2 families, 2 subjects and 3 values. Each result above 0 has one more
-  // mark.
+  // Each of 4 panels has 12 background marks, for 2 families, 2 subjects and 3 values. A result above 0 has a
+  // second mark.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);
@@ -62,7 +62,8 @@ export async function showsSweepsOfWhatIsNeverWrong(browser) {
   const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
   assert.equal(await count(page, ".units:visible"), 0); // every subject claims a bound
 
-  // All results except the times are 0, so only the times have one more mark.
+  // Each of the 4 panels has a background mark for each of the 2 values. A result above 0 has a second mark;
+  // here, only the 2 run times are above 0.
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2);
 }
 
@@ -79,7 +80,7 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   // The chart shows the bound even if all false positives are beyond it.
   const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin("claims_exact")]));
   assert.ok((await beyond.locator("#distances .role-axis-label text").allTextContents()).includes("1"));
-  // The picture shows the plane between the primitives that proves the refutation.
+  // The picture shows the plane between the primitives, which proves that the bound is refuted.
   assert.ok(await count(beyond, "#example .picture .plane") === 1);
 }
 

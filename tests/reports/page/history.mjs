@@ -1,4 +1,4 @@
-// Tests the page of many nights.
+// Tests the page about many nightly campaigns.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";

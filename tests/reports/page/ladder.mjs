@@ -20,7 +20,7 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
       .map((each) => ({ text: each.textContent, bold: each.getAttribute("font-weight") === "bold", box: each.getBoundingClientRect().toJSON() })));
     assert.deepEqual(labels.filter(({ bold }) => bold).map(({ text }) => text).sort(), front.map((name) => subjects[name].scalar).sort());
     assert.ok(labels.length >= 3 && labels.length <= points.length);
-    // The box of a text is 2 pixels higher than its letters.
+    // The box of a label is 2 pixels taller than its letters.
     const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 2 || b.bottom <= a.top + 2;
     labels.forEach(({ box }, i) => labels.slice(0, i).forEach((other) => assert.ok(apart(box, other.box))));
   }

@@ -13,7 +13,7 @@ const errors = (report) => (isValid(report) ? []
   : [...new Set(isValid.errors.map(({ instancePath, message, params }) => `${instancePath.replace(/\/\d+/g, "/N")} ${message} ${JSON.stringify(params)}`))]);
 
 /**
- * All reports of the other tests satisfy the schema. A report with an added field or a changed type does not.
+ * All reports of the other tests satisfy the schema. A report with an added field or a changed type breaks it.
  */
 export function everyReportFollowsItsSchema() {
   for (const [name, ...options] of [["values", "--subject", `${plugin("sampling")}:sampling:tolerance=*`, "--values", "0.5,1e-9", "--cases", "200"], ["factors", "--tolerance", "rho", "--time", "1s"]]) {

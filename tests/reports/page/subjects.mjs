@@ -77,8 +77,8 @@ export async function showsWhatIsBeyondAContract(browser) {
 }
 
 /**
- * The first chart shows every subject. If there are more subjects than colours, those without failures are
- * chosen first.
+ * The first chart shows every subject. If there are more subjects than colours, the subjects without failures
+ * are chosen first.
  */
 export async function drawsManySubjectsWithoutALadder(browser) {
   const defects = ["D2*0.01", "D2*0", "S*0", "vv", "proximity", "psi*0", "rho*0", "lambda2*0"].map((name) => `defect:${name}`);

@@ -125,7 +125,7 @@ export async function showsSeparations(browser) {
 }
 
 /**
- * A lower bound after t* is not late if the distance is h at t*, but never less than h. The first query of
+ * A lower bound after t* is not late if the distance is h at t*, but never below h. The first query of
  * touching.vt is such a case; the time for the other query is late.
  */
 export async function showsWhichTimesAreLate(browser) {

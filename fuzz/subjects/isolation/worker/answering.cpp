@@ -96,7 +96,7 @@ extern "C" void write_stack_and_end(int signal) {
   raise(crash);
 }
 
-/// Sets how this process ends after a crash or an exception. Called before the plug-in is loaded.
+/// Sets how this process ends after a crash or an exception.
 void prepare_for_faults(bool writes_stack) {
   constexpr std::size_t bytes = 1 << 16;
   static std::array<char, bytes> stack;
@@ -139,8 +139,8 @@ struct Answers {
   int* values;
 };
 
-/// Asks the plug-in's detector, or the empty one, about a batch, which is laid out for the plug-in's
-/// detector.
+/// Asks the plug-in's detector, or the empty one (Detector::empty), about a batch, which is laid out for the
+/// plug-in's detector.
 class Asking {
  public:
   Asking(const Detector& plugin, const Call& call)
@@ -267,7 +267,7 @@ void reply(std::uint64_t number) {
   }
 }
 
-/// The descriptors that come with Request::share: of the memory of the questions, and of the answers.
+/// The descriptors that come with Request::share: of the memory for questions, and of that for answers.
 using Files = std::array<int, 2>;
 
 /// Receives a call with at most `most` queries; if `files` is not null, also the files that come with the
@@ -347,7 +347,7 @@ std::unique_ptr<Detector> open_detector(const nearmiss_subject& subject, const s
   return detector;
 }
 
-/// A detector that is ready to be asked, and its process.
+/// A detector that is ready to be asked, and the process that runs it.
 struct Loaded {
   std::unique_ptr<Detector> detector;  ///< null if it cannot be used
   pid_t process = getpid();
@@ -379,7 +379,7 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE, sizeof(SharedAnswers));
   if (answers == nullptr) return 1;
   note_refusals_in(answers->memory_refused);
-  prepare_for_faults(!is_program(plugin));  // this process has no stack of a program
+  prepare_for_faults(!is_program(plugin));  // a program's stack is in another process
   Call call{};
   if (!receive(call, 0)) return 0;
   limit_memory_of_loading(bytes);

@@ -138,12 +138,12 @@ void confine_to_itself() {
   for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
                          SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
-  // Allows these calls only if their first argument is this process, or 0: the caller or its process group.
+  // Allows these calls only if their first argument is this process, or 0, which is the caller or its group.
   for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64,
                          SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr, SYS_sched_setaffinity,
                          SYS_migrate_pages, SYS_move_pages})
     filter.limit(call, 0, self, 0);
-  // Forbids changing the priorities of all processes of a group or user.
+  // Forbids changing the priority of a group, a user or another process.
   filter.limit(SYS_setpriority, 0, PRIO_PROCESS, PRIO_PROCESS);
   filter.limit(SYS_ioprio_set, 0, ioprio_who_process, ioprio_who_process);
   for (const int call : {SYS_setpriority, SYS_ioprio_set}) filter.limit(call, 1, self, 0);

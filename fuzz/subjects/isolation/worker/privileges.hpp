@@ -17,8 +17,8 @@ void keep_out_of_keyrings_and_terminals();
 /// Limits this process and all processes that it starts. They can send signals only to this process. They
 /// cannot change the priority, processors or limits of any other process, cannot trace any process, and
 /// cannot leave their process group. Meant for a process without a PID namespace of its own. Call
-/// drop_privileges() first; this function needs no privilege. Does nothing if the kernel has no filters of
-/// system calls, or on machines other than x86-64 and AArch64.
+/// drop_privileges() first; this function needs no privilege. Does nothing where
+/// keep_out_of_keyrings_and_terminals() does nothing.
 void confine_to_itself();
 
 /// Limits this process and all processes that it starts. They can no longer read the memory, environment and

@@ -52,8 +52,8 @@ class Program {
   /// follow.
   template <class Take>
   void read_answers(std::size_t n, const Take& take);
-  /// Asks about one query, and returns the number in the program's answer. Throws UnaskedBytes as the two
-  /// functions above do.
+  /// Asks about one query, and returns the number in the program's answer. Throws UnaskedBytes as ask() and
+  /// read_answers() do.
   double number(Question question, int kind, const double* x, double h);
   /// Reads the seconds at the end of an answer, if the program gives them. Throws UnaskedBytes if anything
   /// follows.
@@ -66,7 +66,6 @@ class Program {
   void wait_for(int pipe, short event);
   [[nodiscard]] bool has_ended() const;
   void read_errors();
-  /// Ends this process in the same way as the program ended.
   [[noreturn]] void end_like_it();
 
   std::string command_;

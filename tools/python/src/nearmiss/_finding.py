@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nearmiss._functions import certificate, earliest_time
 from nearmiss._queries import _LAYOUTS, kind_of
 
-# The lines between the vertices of the first and of the second primitive.
+# The edges of the first and of the second primitive, by the numbers of their vertices.
 _LINES: dict[str, tuple[list[tuple[int, int]], list[tuple[int, int]]]] = {
     'vt': ([], [(1, 2), (2, 3), (3, 1)]),
     'ee': ([(0, 1)], [(2, 3)]),
@@ -134,7 +134,7 @@ def _picture(kind: str, places: NDArray[np.float64]) -> str:
 
 
 def finding_of(columns: dict[str, Any], explain: Callable[..., str]) -> Finding:
-    """Makes a finding. `columns` has its element of each array of Findings, by the array's name."""
+    """Makes a finding. `columns` has the finding's value in each array of Findings, by the array's name."""
     kind: Any = str(columns['kind'])
     count = _LAYOUTS[kind_of(kind)].vertices
     shrunk = bool(columns['is_shrunk'])

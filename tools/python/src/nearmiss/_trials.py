@@ -75,7 +75,7 @@ class Subject:
     def _decide(
         self, kind: str, x: NDArray[np.float64], separation: NDArray[np.float64]
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-        """The function's answers and times. Raises an exception if their form is wrong."""
+        """The function's answers and times. Raises an exception if the function returns a wrong form."""
         shape = (len(x),)  # the function may change x
         answer = self.function(kind, x, separation)
         times: NDArray[Any] = np.full(shape, np.nan)
@@ -296,7 +296,7 @@ def trial(
 
 
 def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
-    """The subjects of a trial. Raises an exception unless their names differ."""
+    """The subjects of a trial. Raises an exception if two of them have the same name."""
     is_one = isinstance(subjects, (Subject, str)) or callable(subjects)
     if not is_one and (isinstance(subjects, bytes) or not isinstance(subjects, Iterable)):
         raise TypeError(
@@ -312,7 +312,7 @@ def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
     if len(set(names)) != len(names):
         raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
     for name in names:
-        # This also refuses a lone surrogate, which UTF-8 cannot encode.
+        # isprintable() also refuses a lone surrogate, which UTF-8 cannot encode.
         if not str.isprintable(name):
             raise ValueError(f'found the name {name!r}, expected printable characters')
     return chosen
