@@ -1,7 +1,7 @@
 """Runs the tests with a mutant, quick tests first, until one fails."""
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from suite import run_tests
 
