@@ -1,5 +1,5 @@
 // Queries in which the primitives just reach the separation h > 0, or reach it at a time that is hard to
-// find. In most families, numbers have few bits, so that distances and times are exact.
+// find. In most of these families, numbers have few bits, so that distances and times are exact.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -34,8 +34,8 @@ Vector approaching(Random& random) {
 
 // --- at the smallest distance ---------------------------------------------------------------------------
 
-/// A query of another family whose primitives stay apart. Let d be the smallest distance, rounded up to a
-/// double. Then h is (1 + 2^x) d, or (1 - 2^x) times the double below d. For x = -54, h is d or the double
+/// A query of another family, with primitives that stay apart. Let d be the smallest distance, rounded up to
+/// a double. Then h is (1 + 2^x) d, or (1 - 2^x) times the double below d. For x = -54, h is d or the double
 /// below d.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
@@ -56,7 +56,7 @@ Query near_separation(Random& random, Kind kind, double x) {
 
 /// The smallest distance is exactly h. In one of three queries, the primitives part after t = 0, or approach
 /// each other until t = 1; in the others, their relative motion is sideways or zero. In half of the queries,
-/// h is then moved by x ulps.
+/// h is then changed by x ulps.
 Query tied_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const bool is_at_end = random.one_in(3);
@@ -88,7 +88,7 @@ Query slow_approach(Random& random, Kind kind, double x) {
   return placed_apart(random, facing(kind, contact, power_of_two(x) * approaching(random), h), h);
 }
 
-/// For side q and for side r: whether it begins or ceases to be part of the closest features.
+/// Which of the sides q and r begin or cease to be part of the closest features.
 struct Sides {
   bool q, r;
 };

@@ -1,5 +1,4 @@
-// Each rule is a template, which is instantiated with intervals and with exact numbers. Intervals decide
-// nearly all queries, and exact arithmetic decides the others.
+// Each rule is a template, which is instantiated with intervals and with exact numbers.
 #include "fuzz/families/classify.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -126,8 +125,7 @@ bool is_extreme(const Query& query) {
 constexpr double nearly = 1e-6;
 constexpr std::string_view extreme = "extreme";
 
-/// The vertices at a time, their velocities, and the square of the length up to which is_near() says that a
-/// vector is short.
+/// The vertices at a time, their velocities, and the square of the largest length that is_near() calls short.
 template <class Real>
 struct Moment {
   Kind kind{};
@@ -208,7 +206,8 @@ Squares<Real> squares(Kind kind, const Points<Real>& x) {
 
 constexpr double excess(Kind kind) { return has_triangle(kind) ? 27 : 4; }
 
-/// The three vectors whose determinant is F; if x has velocities, the rates of these vectors.
+/// The three vectors whose determinant is F. If `x` holds velocities in place of positions, the rates at
+/// which these vectors change.
 template <class Real>
 std::array<Vec<Real>, 3> spans(Kind kind, const Points<Real>& x) {
   const auto difference = [&](VertexPair pair) { return x[pair.to] - x[pair.from]; };

@@ -103,8 +103,8 @@ Query placed(Random& random, Query query);
 /// times one power of two.
 Query turned(Random& random, Query query);
 
-/// The query with the vertices of each primitive, and the primitives if they are of the same sort, in a
-/// random order.
+/// Shuffles the vertices of each primitive and, if both primitives are edges or both are vertices, the
+/// primitives.
 Query shuffled(Random& random, const Query& query);
 
 /// The double that is `ulps` doubles above c, or below it if `ulps` is negative, but never beyond the last

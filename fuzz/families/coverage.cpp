@@ -1,4 +1,4 @@
-// Which combinations of factors occur in the family `crossed`.
+// Which combinations of the factors' values occur in the family `crossed`.
 #include <fmt/format.h>
 
 #include "fuzz/families/crossed.hpp"
@@ -45,14 +45,14 @@ struct Occurrences {
   }
 };
 
-/// The text of the combination of `values` values whose flag is at `place`.
+/// The text of the combination whose flag is at `place`; `values` is 2 for a pair, and 3 for a triple.
 std::string text_of(const Numbering& numbering, std::size_t place, int values) {
   const std::size_t size = numbering.name.size();
   const std::string& last = numbering.name[place % size];
   return values == 1 ? last : fmt::format("{} {}", text_of(numbering, place / size, values - 1), last);
 }
 
-/// Compares the combinations that occur (`seen`) with those that the family makes (`made`).
+/// Compares the combinations that occur in some queries (`seen`) with those that the family makes (`made`).
 Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
                       const std::vector<bool>& made, int values) {
   Combinations result;

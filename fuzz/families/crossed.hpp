@@ -1,4 +1,5 @@
-// The factors of the family `crossed`. A query draws the value of each factor independently of the others.
+// The factors of the family `crossed`: properties that vary from query to query. A query draws the value of
+// each factor independently of the other values.
 #pragma once
 
 #include <array>
@@ -26,8 +27,8 @@ enum class Roots : std::uint8_t { one, two, three, double_root, triple, all };
 
 inline constexpr std::size_t factor_count = 7;
 
-/// The levels of a query: for each factor, the number of the query's value among Factor::values. The order of
-/// the factors is shape, motion, when, where, roots, scale, offset.
+/// The levels of a query: for each factor, the index of the query's value in Factor::values. The order of the
+/// factors is shape, motion, when, where, roots, scale, offset.
 struct Levels : std::array<std::uint8_t, factor_count> {
   [[nodiscard]] Shape shape() const { return static_cast<Shape>((*this)[0]); }
   [[nodiscard]] Motion motion() const { return static_cast<Motion>((*this)[1]); }
@@ -58,7 +59,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels);
 struct Combinations {
   std::uint64_t made = 0;  ///< number of combinations that the family makes
   std::uint64_t seen = 0;
-  std::vector<std::string> missing;  ///< made, but not in these queries, such as "shape=sliver when=at-1"
+  std::vector<std::string> missing;  ///< made, but not seen, such as "shape=sliver when=at-1"
 };
 
 /// The combinations that occur in some queries of the family.

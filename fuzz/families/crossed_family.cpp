@@ -1,7 +1,7 @@
-// The family `crossed`. Each query is made from the moment of contact: p = α q + β r + τ w, where p goes from
-// the base to the first primitive's point of contact, q and r are the sides, w is the relative velocity of
-// the points of contact, and τ = t - time. Then F = τ det(w, q(t), r(t)), so the choice of w, q and r
-// determines the roots.
+// The family `crossed`. Each query is made so that p = α q + β r + τ w, where p goes from the base to the
+// first primitive's point of contact, q and r are the sides, w is the relative velocity of the points of
+// contact, and τ = t - time is the time since the contact. Then F = τ det(w, q(t), r(t)), so the choice of w,
+// q and r determines the roots.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -29,13 +29,13 @@ Vector small(Random& random) {
   return v.isZero() ? Vector(Vector::UnitX()) : v;
 }
 
-/// A small multiple of a vector, but not zero.
+/// A vector multiplied by ±1/2, ±1 or ±2.
 Vector multiple(Random& random, const Vector& v) {
   const double sign = random.one_in(2) ? 1 : -1;
   return std::ldexp(sign, random.integer(-1, 1)) * v;
 }
 
-/// A vector in the plane of two vectors: a sum of small multiples of both.
+/// A vector in the plane of two vectors: a sum of a multiple() of each.
 Vector in_plane(Random& random, const Vector& a, const Vector& b) {
   const Vector along_a = multiple(random, a);
   return along_a + multiple(random, b);
@@ -182,8 +182,8 @@ Draft draft_of(Random& random, Kind kind, const Levels& levels, double time) {
   return draft;
 }
 
-/// Whether F has no more roots at the contact than planned. With F = τ (a + b τ + c τ²), the first of the
-/// coefficients that is not zero by construction must not be zero by chance.
+/// Whether F has no more roots at the contact than planned. With F = τ (a + b τ + c τ²), the first
+/// coefficient that the construction does not make zero must not be zero by chance.
 bool has_planned_roots(const Draft& draft, Roots roots) {
   const auto det = [&](const Vector& q, const Vector& r) { return draft.w.dot(q.cross(r)); };
   switch (roots) {
@@ -250,7 +250,7 @@ double time_of(Random& random, When when, int bits) {
   return 0;
 }
 
-/// The exponent of the lowest bit that is set in any component, or `lowest` if this is lower, or if v is 0.
+/// The smaller of `lowest` and the exponent of the lowest bit that is set in any component of v.
 int lowest_bit(const Vector& v, int lowest) {
   for (const double c : v) {
     if (c == 0) continue;
@@ -273,7 +273,7 @@ Frame frame_of(Random& random, std::size_t offset) {
   return {place, random.one_in(2) ? small(random) : Vector(Vector::Zero())};
 }
 
-/// The number of binary places that the time may have, so that coordinates are exact. Every coordinate is a
+/// The largest number of binary places of the time with which coordinates are exact. Every coordinate is a
 /// sum of products of a vector's component, a time and a weight. A weight has four binary places.
 int bits_for_time(const Draft& draft, const Frame& frame) {
   int lowest = 0;

@@ -1,4 +1,4 @@
-// Queries of a vertex and an edge, or of two vertices, that general families rarely have.
+// Queries of a vertex and an edge, or of two vertices, that the other families rarely have.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -44,8 +44,8 @@ struct Motion {
 
 constexpr double rounded_to = 1e-6;
 /// Motions found by random search. If h is at most 1.09 times the smallest distance (1.22 times for the first
-/// four motions), the vertex is within h of the edge at no candidate time of Algorithm 2 except the minimum
-/// of a piece of G (vertex_edge.hpp).
+/// four motions), Algorithm 2 (vertex_edge.hpp) finds the vertex within h of the edge at none of its
+/// candidate times except those of case 2.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},

@@ -28,9 +28,8 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter than the other. In half of the queries, the distance of the contact
-/// from the corner x1 of the triangle, or from an end of the long edge, is at most about the length of the
-/// short side.
+/// One of the sides q and r is shorter than the other. In half of the queries, the contact is near the corner
+/// x1 of the triangle, or near an end of the long edge: at most about the length of the short side away.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -150,7 +149,7 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
 }
 
 /// The primitives are long along one axis, and thin along the others; in half of the queries, their relative
-/// motion is also long along this axis only. One query in three is rotated.
+/// motion is stretched in the same way. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   ContactSampler sampler(random);

@@ -8,7 +8,7 @@
 
 namespace nearmiss {
 
-/// The features of two primitives that face each other.
+/// The closest features of two primitives that face each other.
 enum class Closest : std::uint8_t {
   interiors,        ///< the vertex and the inside of the triangle, or the insides of both edges
   vertex_and_edge,  ///< the vertex and an edge of the triangle, or an end of edge 1 and the inside of edge 2
@@ -33,10 +33,10 @@ bool is_closest(Kind kind, Closest closest, bool is_side_q);
 /// and 0 as the weight of any other side. In half of the contacts, sides keep their length and direction.
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level = 1);
 
-/// The query in which, at the time of `contact`, the first primitive's point of contact is at (0, 0, gap)
-/// relative to the second primitive's point of contact, and moves with velocity w relative to that point. At
-/// that time, the distance of the primitives is `gap`; at any time t, it is at least gap + (t - time) w[2].
-/// If the numbers have few bits, all of this is exact.
+/// The query in which the vector from the second primitive's point of contact to the first one's is (0, 0,
+/// gap) at the time of `contact`, and changes with velocity w. At that time, the distance of the primitives
+/// is `gap`; at any time t, it is at least gap + (t - time) w[2]. If the numbers have few bits, all of this
+/// is exact.
 Query facing(Kind kind, const Contact& contact, const Vector3<double>& w, double gap);
 
 }  // namespace nearmiss

@@ -240,7 +240,7 @@ Family find_family(std::string_view name, std::span<const Family> known) {
 
 namespace {
 
-/// A hash of the name (FNV-1a), so a family's queries stay the same when the list changes.
+/// A hash of the name (FNV-1a), so a family's queries stay the same when the list of families changes.
 std::uint64_t stream_of(const Family& family) {
   std::uint64_t stream = 0xcbf29ce484222325;
   for (const char c : FamilyName(family.name).base)

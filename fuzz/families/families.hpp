@@ -37,8 +37,8 @@ struct Family {
   std::array<Kind, 2> kinds = kinds_of_meshes;  ///< the kind of queries with even indices, then with odd ones
   std::optional<Kind> only{};                   ///< if set, campaigns ask only the queries of this kind
 
-  /// Draws the values of a query's factors, as texts "FACTOR=VALUE". `make` starts with the same draws. Null
-  /// if the family has no factors.
+  /// Draws the values of a query's factors (properties that vary from query to query), as texts
+  /// "FACTOR=VALUE". `make` starts with the same draws. Null if the family has no factors.
   std::function<std::vector<std::string>(Random&)> factors{};
 };
 
@@ -95,7 +95,7 @@ std::span<const Family> mesh_families();
 /// not.
 std::span<const Family> families_at_rest();
 
-/// mesh_families(), vertex_families() and families_at_rest().
+/// All families: mesh_families(), vertex_families() and families_at_rest().
 std::span<const Family> all_families();
 
 /// Finds a family by its name: NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name,
@@ -123,10 +123,9 @@ std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some)
 /// The random numbers from which query number `index` of a family is made.
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);
 
-/// The value of each factor of query number `index` of a family with factors.
+/// The value of each factor of query number `index`, for a family with factors (Family::factors).
 std::vector<std::string> factors_of(const Family& family, std::uint64_t seed, std::uint64_t index);
 
-/// Query number `index` of a family.
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index);
 
 /// Makes many queries of a family. The family must outlive this object.

@@ -33,7 +33,7 @@ Query everyday(Random& random, Kind kind, double size, double speed) {
   return shuffled(random, meet(kind, contact, random.vector(speed)));
 }
 
-/// A scene of size 10 whose coordinates are floats.
+/// Primitives of size 1 in a scene of size 10; all coordinates are floats.
 Query floats(Random& random, Kind kind) {
   const double speed = power_of_ten(random.uniform(-3, 0));
   Query query = everyday(random, kind, 1, speed);

@@ -18,7 +18,6 @@ using Vector = Vector3<double>;
 
 int sign(Random& random) { return random.one_in(2) ? 1 : -1; }
 
-/// The extent of a query; 1 if all positions coincide.
 double size_of(const Query& query) {
   const double size = extent(query);
   return size == 0 ? 1 : size;
@@ -108,8 +107,8 @@ Query coordinate_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Rounds all coordinates, or those of one position, to multiples of a power of two: the coordinates become
-/// integers of at most 6 bits or, in one of four queries, at most 30 bits, times this power.
+/// Rounds all coordinates, or those of one position, to multiples of a power of two. The multipliers have at
+/// most 6 bits or, in one of four queries, at most 30 bits.
 Query rounded(Random& random, const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -154,7 +153,7 @@ Query coplanar_once(Random& random, const Query& query) {
 }
 
 /// Keeps all vertices in one plane during the whole step. Either both positions of one vertex are moved, so
-/// that the two points of a place coincide at all times; or all vertices are moved into one plane normal to
+/// that the two points of a Place coincide at all times; or all vertices are moved into one plane normal to
 /// an axis.
 Query coplanar_always(Random& random, const Query& query) {
   if (random.one_in(2)) {
@@ -207,7 +206,6 @@ Vector aligned_velocity(Random& random, const Query& query) {
   }
 }
 
-/// Gives one vertex, or all vertices of a primitive, an aligned_velocity().
 Query velocity_aligned(Random& random, const Query& query) {
   const Vector velocity = aligned_velocity(random, query);
   const VertexRange vertices = some_vertices(random, query.kind);
@@ -222,7 +220,6 @@ Query velocity_aligned(Random& random, const Query& query) {
   return result;
 }
 
-/// Moves a vertex onto another vertex at t = 0, at t = 1, or at both times.
 Query vertex_copied(Random& random, const Query& query) {
   const int from = random.integer(0, 3);
   const int to = (from + random.integer(1, 3)) % 4;
@@ -254,7 +251,6 @@ Query scaled(Random& random, const Query& query) {
   return result;
 }
 
-/// Translates the query by a random vector, or so that one position moves to the origin.
 Query translated(Random& random, const Query& query) {
   const Vector offset = random.one_in(4)
                             ? Vector(-position(query, random.integer(0, 7)))
@@ -271,7 +267,6 @@ constexpr std::array<Apply, 16> mutations{by_ulps,         by_a_fraction, expone
                                           coplanar_always, edge_shrunk,   velocity_aligned, vertex_copied,
                                           reversed,        scaled,        translated,       shuffled};
 
-/// Applies a mutation; returns the given query if the mutated query is not finite.
 Query applied(Apply apply, Random& random, const Query& query) {
   const Query result = apply(random, query);
   return is_finite(result) && std::isfinite(result.separation) ? result : query;

@@ -15,7 +15,7 @@ namespace {
 
 using certified::DoubleWord;
 
-/// The shares of the eight positions. The vector between the two points of a place is the sum of all
+/// The shares of the eight positions. The vector between the two points of a Place is the sum of all
 /// positions, each multiplied by its share.
 std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   const DoubleWord one = 1;

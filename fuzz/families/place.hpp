@@ -30,7 +30,7 @@ std::vector<int> movable_points(Kind kind, const Place& place);
 Place random_place(Random& random, Kind kind);
 
 /// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F, or
-/// random if F has no root; the weights are those of the nearest points at that time. Weights outside [0, 1]
+/// random if F has no root; the weights are those of the closest points at that time. Weights outside [0, 1]
 /// are moved to the border, or slightly inside. If the primitives have no area or are too far apart, the
 /// place is random.
 Place own_place(Random& random, const Query& query);

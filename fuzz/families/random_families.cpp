@@ -1,4 +1,4 @@
-// Random queries, exact collisions, and the cases that the paper names: parallel, small, thin and planar
+// Random queries, exact collisions, and the cases that Wang's paper names: parallel, small, thin and planar
 // primitives.
 #include <algorithm>
 
@@ -46,8 +46,8 @@ Query planted_ulp(Random& random, Kind kind) {
   return nudged(random, query, random.integer(1, 4), most);
 }
 
-/// A contact at which F and F' vanish, because the relative velocity of the touching points lies in the
-/// common plane.
+/// A contact at which F and F' vanish, because the relative velocity of the touching points lies in the plane
+/// that contains both primitives at that time.
 Query grazing(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   const Vector along_r = random.integer(-4, 4) / 4.0 * contact.r.at(contact.time);

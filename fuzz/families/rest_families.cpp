@@ -11,7 +11,7 @@ namespace {
 using Vector = Vector3<double>;
 
 /// Primitives of about size 1, and a point on each, often on a border. The vector `gap` goes from the second
-/// primitive's point to the first one's; half of these vectors are along the normal.
+/// primitive's point to the first one's; half of these vectors are along q × r.
 struct Draft {
   Contact contact;
   Vector gap;

@@ -11,7 +11,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// An exact contact at t = 0 or t = 1; then one coordinate at that time is moved by x ulps.
+/// An exact contact at t = 0 or t = 1; then one coordinate at that time is changed by x ulps.
 Query end_contact(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   contact.time = random.integer(0, 1);

@@ -58,7 +58,7 @@ bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
 /// the root of a factor, the two points with the weights of this root coincide, so the primitives touch if
 /// these weights are inside.
 ///
-/// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
+/// The matrix with the columns p = x0 - base, q and r is M = U L adj(K). U has the directions as columns, L
 /// has the factors on its diagonal, and K has the columns (whole, -s α, -β) with s = alpha_sign(kind). So M K
 /// = det(K) U L, and F is det(M). Row i of adj(K) is the cross product of K's other two columns. All
 /// operations are exact if numbers have few bits.

@@ -19,14 +19,14 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// The families with which to look for a subject's defects: `of_contact`. If the subject takes separations
-/// for vertex-triangle queries, also `of_contact` with drawn separations. If it takes separations for
-/// vertex-vertex or vertex-edge queries, also `of_vertices`, changed by as_asked().
+/// Returns the families in which to look for a subject's defects: `of_contact` and, if the subject takes
+/// separations for vertex-triangle queries, these families with drawn separations. If it takes separations
+/// for vertex-vertex or vertex-edge queries, also returns `of_vertices`, changed by as_asked().
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
                                  std::span<const Family> of_vertices);
 
-/// Runs a campaign until a subject misses a collision, refutes its distance bound, or gives a late time.
-/// Returns nothing if the campaign ends without such a failure.
+/// Runs a campaign until a subject misses a collision, refutes its distance bound, or gives a time of impact
+/// that is too late. Returns nothing if the campaign ends without such a failure.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const Stop& stop);
 

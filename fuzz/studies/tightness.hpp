@@ -24,7 +24,7 @@ struct TightnessPlan {
 };
 
 /// The names of the tolerances, and of the groups of accepting tests: "proximity", "vertex-edge",
-/// "vertex-vertex". With `among_vertices`, only those of Algorithms 1 and 2.
+/// "vertex-vertex". With `among_vertices`, only the names that belong to Algorithms 1 and 2.
 std::vector<std::string> tightness_names(bool among_vertices = false);
 
 /// Receives the result so far for a name; `done` is set when the time for this name is over.

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = Stop::Clock;
 
-/// Runs a campaign. Its work consists of slices, which count in the order of their cases.
+/// Runs a campaign in slices of cases, whose results count in the order of the cases.
 class CampaignRun {
  public:
   CampaignRun(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink, const Stop& stop)

@@ -103,7 +103,7 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 
 namespace {
 
-/// The index in the family of case `number`, where cases are the family's queries that are asked.
+/// The index of case `number` in the family. Only queries of the kinds that are asked are cases.
 std::uint64_t index_of_case(const Family& family, std::uint64_t number) {
   if (!family.only) return number;
   return family.kinds.size() * number + (family.kinds.front() == *family.only ? 0 : 1);

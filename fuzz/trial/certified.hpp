@@ -8,10 +8,11 @@
 namespace nearmiss {
 
 /// The proof that the subject is wrong about the finding's shrunk query, or "" if no proof is found, as for a
-/// tie at an irrational time. It proves for a miss: contact in [0, 1], or for h > 0 a distance of at most h a
-/// late time: contact, or for h > 0 a distance below h, before that time a committed or unsafe step: contact,
-/// or for h > 0 a distance below h, before the step's end a refuted bound: a distance above
-/// separation_and_bound() at all times in [0, 1] any other failure: the oracle's decision
+/// tie at an irrational time. For a miss, it proves contact in [0, 1]; for a late time, contact before that
+/// time; for a committed or unsafe step, contact before the step's end. If h > 0, it proves, in place of
+/// contact, a distance of at most h for a miss, and below h otherwise. For a refuted bound, it proves a
+/// distance above separation_and_bound() at all times in [0, 1]. For any other failure, it proves the
+/// oracle's decision.
 std::string certificate_of(const Finding& finding);
 
 }  // namespace nearmiss

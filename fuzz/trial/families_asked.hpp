@@ -1,4 +1,4 @@
-// The families whose queries a trial inside another program asks.
+// Families for a trial that runs inside another program, such as a unit test.
 #pragma once
 
 #include <span>

@@ -22,23 +22,23 @@ struct Failure {
   auto operator<=>(const Failure&) const = default;
 };
 
-/// Judges the answers of one subject. The subject must outlive the judge.
+/// The subject must outlive the judge.
 class Judge {
  public:
   explicit Judge(const Subject& subject);
 
-  /// The unit in which the distance of a false positive is measured, as a length: the subject's claimed
-  /// bound, or wang's bound for the same pair if the subject claims none. Returns the fault if the subject
-  /// fails to give its bound.
+  /// The length that is the unit for the distance of a false positive: the subject's claimed bound, or wang's
+  /// bound for the same pair if the subject claims none. Returns the fault if the subject fails to give its
+  /// bound.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
   /// Compares an answer with the truth about the query. If the subject rounds coordinates, `truth` must be
   /// about the rounded query. If the smallest distance is exactly the separation h > 0, any answer is right,
   /// and a reported pair counts as a collision. A subject that claims bounds must give a number >= 0 for a
   /// false positive; anything else is a fault. The answer "cannot tell" claims nothing about the distance.
-  /// The ratio of a false positive is Truth::Distance::ratio. It is accurate to 1/1000 if a finding stores
-  /// it, or if it is at least `least_kept` (Known). The ratio is 0 if the unit is infinite, since no distance
-  /// is larger. `known` is the answer of ask_unit(), if the caller has it already.
+  /// For a false positive, Outcome::ratio is Truth::Distance::ratio. It is accurate to 1/1000 if a finding
+  /// stores it, or if it is at least `least_kept` (Known). The ratio is 0 if the unit is infinite, since no
+  /// distance is larger. `known` is the answer of ask_unit(), if the caller has it already.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 

@@ -165,8 +165,9 @@ Neighbourhood change_times(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Divides all numbers, those along an axis, those of a vertex, or those of a path. The divisor is -1, 3, 5,
-/// the magnitude of one of the divided numbers, or a power of two between 1 and such a magnitude.
+/// Divides all numbers, those along an axis, those of a vertex, or those of a vertex along an axis. The
+/// divisor is -1, 3, 5, the magnitude of one of the divided numbers, or a power of two between 1 and such a
+/// magnitude.
 Neighbourhood scale(const Numbers& numbers) {
   std::vector<Set> sets{everything};
   for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -218,8 +219,8 @@ Alternatives replacements(const Numbers& numbers, Set set) {
   return changes;
 }
 
-/// Simplifies numbers of one magnitude: all of them, those along one axis, those of one path, or a single
-/// number.
+/// Simplifies numbers of one magnitude: all of them, those along one axis, those of one vertex along one
+/// axis, or a single number.
 Neighbourhood change_numbers(const Numbers& x) {
   Neighbourhood changes;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -237,7 +238,7 @@ Neighbourhood change_numbers(const Numbers& x) {
   return changes;
 }
 
-/// Sets a path to 0, or copies another path or its negative.
+/// Sets a path (a vertex's two coordinates along an axis) to 0, or copies another path or its negative.
 Neighbourhood copy_paths(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t to = 0; to < paths; ++to)

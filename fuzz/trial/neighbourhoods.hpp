@@ -16,7 +16,7 @@ using Change = std::function<void(Numbers&)>;
 /// failing.
 using Alternatives = std::vector<Change>;
 
-/// The shrinker tries the entries one after the other.
+/// The shrinker tries the entries of a neighbourhood one after the other.
 using Neighbourhood = std::vector<Alternatives>;
 
 /// Functions that each make one neighbourhood of a query from its present numbers. The shrinker tries the

@@ -19,13 +19,14 @@
 
 namespace nearmiss {
 
-/// Shrinks findings. During the trial, a separate thread shrinks them, for at most a tenth of all processors'
-/// time. At the end of the trial, all processors shrink the remaining findings. Findings of ordinary queries
-/// come first, and the first finding of each signature before the second. The order does not affect the
-/// shrunk queries. Only one thread at a time may call the functions of this class.
+/// During the trial, a separate thread shrinks findings, for at most a tenth of all processors' time. At the
+/// end of the trial, all processors shrink the remaining findings. Findings of ordinary queries come first,
+/// and the first finding of each signature before the second. The order does not affect the shrunk queries.
+/// Only one thread at a time may call the functions of this class.
 class Shrinking {
  public:
-  /// With `enabled`, shrinks kept findings (FirstFindings). Subjects and `stop` must outlive this object.
+  /// If `enabled` is true, shrinks the findings that FirstFindings keeps. Subjects and `stop` must outlive
+  /// this object.
   Shrinking(const Subjects& subjects, int jobs, const Stop& stop, bool enabled);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
@@ -45,8 +46,8 @@ class Shrinking {
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t left() const;
 
-  /// Shrinks the remaining findings on all cores, until Stop::grace after `stop` at the latest. Meanwhile,
-  /// calls `report` several times a second.
+  /// Shrinks the remaining findings on all cores; ends early when Stop::grace has passed since a stop.
+  /// Meanwhile, calls `report` several times a second.
   void finish(const std::function<void()>& report);
 
  private:

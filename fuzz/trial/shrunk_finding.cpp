@@ -114,7 +114,7 @@ bool can_be(Finding::What what, const Verdict& verdict) {
   }
 }
 
-/// One way in which a subject fails.
+/// Finds queries on which the subject fails in one given way.
 class SameFailure {
  public:
   SameFailure(Failure failure, const Subject& subject, std::function<void()> check)
@@ -213,13 +213,12 @@ class FindingShrinker::OfSubject {
     return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));
   }
 
-  /// The subject with the limits of one search.
   [[nodiscard]] Limited limited_subject() const {
     return {subject_, limits_.work / 2, limits_.time / 2, has_been_slow_};
   }
 
-  /// The small queries on which the subject fails: of the kind of `query`, with or without a separation like
-  /// `query`.
+  /// The small queries on which the subject fails. They have the same kind as `query`, and they have
+  /// separations only if `query` has one.
   const SmallFailures& small_failures(const Query& query, const std::function<void()>& check) const {
     const bool apart = query.separation != 0;
     const std::lock_guard lock(mutex_);

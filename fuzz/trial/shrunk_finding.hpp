@@ -1,4 +1,4 @@
-// Shrinking a finding: the simplest query that fails in the same way.
+// Shrinking a finding: the search for the simplest query that fails in the same way.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace nearmiss {
 /// How much work and time the search for the simplest query may demand of a subject.
 struct ShrinkLimits {
   static constexpr std::int64_t of_call = 10;       ///< the work of a call, in addition to its queries
-  static constexpr std::int64_t of_process = 1000;  ///< that of a fault that may end the process
+  static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may end the process
 
   /// The work of all queries, calls and ended processes together; a query has the work 1. This limit does not
   /// depend on time, so it ends the search at the same query on every machine.
@@ -29,8 +29,8 @@ struct ShrinkLimits {
 };
 
 /// Limits for a campaign, whose subjects should spend their time on cases. A search reaches the time limit
-/// before the limit of work only if an answer takes more than 1 ms, or the start of a process more than 100
-/// ms.
+/// before the limit of work only if its answers take more than about 0.1 ms each (1 ms in calls for one
+/// query), or the start of a process more than 100 ms.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(12)};
 
 /// Shrinks findings of some subjects. Many threads may use a FindingShrinker at once.
@@ -49,9 +49,9 @@ class FindingShrinker {
   /// query that has the finding's class and is no more exotic than the finding's query: for example, vertices
   /// coincide only if vertices of the finding's query do. If the finding is `broken_since` an earlier version
   /// of the CCD, that version answers both queries rightly. The result depends only on the finding and the
-  /// subjects, unless the time limit ends a search. A query that the subject refuses does not fail. A
-  /// contradiction to a recorded truth is not shrunk, because the truth is known only for the finding's own
-  /// query. If Stop::grace is over after a stop, throws Stopped and leaves the finding as it is.
+  /// subjects, unless the time limit ends a search. A query that the subject refuses does not fail. If the
+  /// oracle contradicts a recorded truth, the finding is not shrunk, because the truth is recorded only for
+  /// its own query. When Stop::grace has passed since a stop, throws Stopped and leaves the finding as it is.
   void shrink(Finding& finding, const Rest& rest = {}) const;
 
  private:

@@ -16,7 +16,8 @@ namespace nearmiss {
 /// is "vt no-contact" or "vt no-approach".
 std::string contact_signature(const Query& query);
 
-/// The signature of a report beyond the bound: the stage that accepted the pair, such as "ee ve-minimum".
+/// The signature of a false positive beyond the claimed bound: the stage that accepted the pair, such as "ee
+/// ve-minimum".
 std::string report_signature(Kind kind, Stage stage);
 
 /// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7", "vt
@@ -26,7 +27,7 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
 /// The signature of a subject's fault, given by its sort and its code.
 std::string fault_signature(const Subject& subject, Kind kind, Fault fault, std::int32_t code);
 
-/// Whether a signature is that of a collision with a time outside [0, 1], or NaN.
+/// Whether a signature is that of a collision with a time that is NaN or outside [0, 1].
 bool is_of_invalid_time(std::string_view text);
 
 /// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists

@@ -62,7 +62,7 @@ std::vector<Symmetry> symmetries(Kind kind) {
 /// The place of an integer in the order that decides which symmetric copy comes first: 0, 1, -1, 2, -2.
 constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
 
-/// Whether the copy of x under a symmetry has only numbers that the list uses, so no -2.
+/// Whether the copy of x under a symmetry has only numbers that the list uses; -2 is not one of them.
 bool is_listed(const Integers& x, const Symmetry& symmetry) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;
@@ -104,8 +104,8 @@ class Maker {
   }
 
   /// Adds the queries whose paths before `path` are those in `x_`, and whose other paths have at most
-  /// `numbers` nonzero numbers (Complexity::numbers). A path is one coordinate at t = 0 and t = 1. Of
-  /// symmetric copies, only the first is added.
+  /// `numbers` nonzero numbers (Complexity::numbers). A path is one coordinate of a vertex, at t = 0 and t =
+  /// 1. Adds only the first of several symmetric copies.
   void extend(std::size_t path, int numbers) {
     if (path == paths) {
       if (is_first_copy(x_, symmetries_)) add();
@@ -151,7 +151,7 @@ class Maker {
     list_ = std::move(separated);
   }
 
-  /// Decides the queries, and removes those with two right answers.
+  /// Decides the queries, and removes those whose smallest distance is exactly h.
   void decide_all() {
     std::vector<Query> queries(list_.size());
     std::transform(list_.begin(), list_.end(), queries.begin(),

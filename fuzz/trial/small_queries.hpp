@@ -24,12 +24,12 @@ struct SmallQuery {
   bool collision = false;
 };
 
-/// All queries of a kind with at most three nonzero numbers (Complexity::numbers) in {-1, 1, 2}, and those of
-/// 4096 random queries that have more nonzero numbers; simplest first. The list is empty for vertex-vertex
-/// and vertex-edge queries. Of several queries with at most three such numbers that differ only by the order
-/// or the direction of axes, by the numbering of vertices or by the direction of time, only one is in the
-/// list. With `apart`, the list has each query with h = 1, 2, 1/2 and 1/4, unless the smallest distance is
-/// exactly h. The first call makes the list.
+/// All queries of a kind over -1, 0, 1 and 2 with at most three nonzero numbers (Complexity::numbers), and
+/// those of 4096 random queries that have more nonzero numbers. The simplest queries come first. The list is
+/// empty for vertex-vertex and vertex-edge queries. If queries with at most three such numbers differ only by
+/// the order or the direction of axes, by the numbering of vertices or by the direction of time, only one of
+/// them is in the list. With `apart`, the list has each query with h = 1, 2, 1/2 and 1/4, unless the smallest
+/// distance is exactly h. The first call makes the list.
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart = false);
 
 /// The small queries of a kind on which a subject fails.

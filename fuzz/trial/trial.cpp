@@ -114,7 +114,6 @@ void time_sample(const Subject& subject, const Batch& batch, const Sample& sampl
     if (each[k]) times.add(*each[k], sample.queries[k], [&] { return batch.provenance(sample.numbers[k]); });
 }
 
-/// Asks the subject about the queries, and returns the time if `timed`.
 BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed,
               std::vector<Verdict>& verdicts) {
   verdicts.resize(queries.size());
@@ -317,7 +316,8 @@ class Judging {
   VersionComparison versions_;
 };
 
-/// Checks all coordinates. This also fetches the queries from memory, which no subject's time should include.
+/// Checks all coordinates. This also fetches the queries from memory, so that no subject's time includes
+/// this.
 void check_coordinates(const Batch& batch) {
   for (std::size_t i = 0; i < batch.queries.size(); ++i)
     if (!is_finite(batch.queries[i]))

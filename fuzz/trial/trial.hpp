@@ -18,7 +18,7 @@ namespace nearmiss {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// Pointers to the subjects. The subjects must outlive the pointers.
+/// The subjects must outlive the pointers.
 inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   std::vector<const Subject*> pointers;
   for (const auto& subject : subjects) pointers.push_back(subject.get());
@@ -46,7 +46,7 @@ struct Batch {
   /// If set, returns the place of query i in the order of a campaign. If not set, findings are passed on in
   /// the order of the batches.
   std::function<std::uint64_t(std::size_t)> place = {};
-  /// If set, returns the values of the factors with which query i was made.
+  /// If set, returns the values of the factors (Family::factors) with which query i was made.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
   /// If set, receives the outcome of each query i for each subject that can be asked about the batch.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
@@ -91,11 +91,12 @@ struct Comparison {
   }
 };
 
-/// Puts the subjects on trial over a batch: times each over the whole batch, separately from the oracle, and
-/// judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is
-/// also the query that is kept. `known` is empty, or says for each subject what earlier queries have shown
-/// (so_far.hpp). A subject that is set aside is not asked; if it exceeds its time limit too often in this
-/// batch, its later answers in the batch do not count. Throws Error for a coordinate that is not finite.
+/// Puts the subjects on trial over a batch: times each subject over the whole batch, separately from the
+/// oracle, and judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded
+/// query, which is also the query that is kept. `known` is empty, or says for each subject what earlier
+/// queries have shown (so_far.hpp). A subject that is set aside is not asked; if it exceeds its time limit
+/// too often in this batch, its later answers in the batch do not count. Throws Error for a coordinate that
+/// is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
                        std::vector<Known> known = {});
 

@@ -19,8 +19,8 @@ using AskBatch = std::function<void(const Batch&)>;
 
 /// A piece of work: one thread asks about some batches, one after the other.
 struct Work {
-  /// Calls ask(batch) for each batch; may throw Stopped. If earlier work has set a subject aside meanwhile,
-  /// `hold` is called again, and must start anew.
+  /// Calls ask(batch) for each batch; may throw Stopped. If earlier work has set a subject aside (so_far.hpp)
+  /// meanwhile, `hold` is called again, and must start anew.
   std::function<void(const AskBatch& ask)> hold;
   /// Called after `hold`, in the order of the pieces of work. Returns whether the result counts. `complete`
   /// is false if a stop interrupted the piece.
@@ -44,7 +44,6 @@ class Trials {
   [[nodiscard]] std::size_t batch_size() const { return batch_size_; }
   /// Chooses how many queries of a family to make at once.
   [[nodiscard]] const Pace& pace() const { return pace_; }
-  /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t to_shrink() const { return shrinking_.left(); }
 
   /// Takes over the results of earlier runs. The sink does not receive these results.
@@ -56,7 +55,7 @@ class Trials {
   /// Adds a result that is known without a trial.
   void add(TrialResult&& result);
 
-  /// Passes the results that have come since the last call on to the sink.
+  /// Passes on to the sink the results that have come since the last call.
   void pass_on();
 
   /// Shrinks the findings that are not shrunk yet, and passes them on to the sink. Meanwhile, calls `report`

@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// The oracle's answers about one query. The constructor gets or computes the decision; each further answer
-/// is computed at most once. The query must outlive this object.
+/// The constructor gets or computes the decision; each further answer is computed at most once. The query
+/// must outlive this object.
 class Truth {
  public:
   explicit Truth(const Query& query);
@@ -29,8 +29,8 @@ class Truth {
   /// Whether t* exists: for a collision, or if the smallest distance is exactly the separation.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
-  /// Returns the signature of a disagreement, or "" if the methods agree. They disagree if these answers
-  /// differ from the decision, or if a tie or an earliest time is not proved.
+  /// Returns the signature of a disagreement, or "" if the methods agree. They disagree if `answers` differ
+  /// from the decision, or if a tie or an earliest time is not proved.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether both possible answers are right, because the smallest distance is exactly h > 0.

@@ -33,7 +33,7 @@ class VersionComparison {
   /// of the earlier version (`broken_since`). The next query then becomes the present one.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries to a table; the queries are of this kind and family. Versions without a
+  /// Adds the counters of all queries, which are of this kind and family, to a table. Versions without a
   /// common query get counters of 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 

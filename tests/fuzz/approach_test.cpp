@@ -40,7 +40,8 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
   }
 }
 
-/// Intervals of double once gave a far larger distance for this query: 4.85e-08 times the bound of a CCD.
+/// Interval arithmetic in double once gave far more than the smallest distance for this query: 4.85e-08 times
+/// the bound of a CCD.
 TEST(DistanceInUnits, ASliversDistanceIsKnown) {
   const Query query = make_query(find_family("sliver"), 77, 454);
   const Enclosure distance = minimum_distance(query);

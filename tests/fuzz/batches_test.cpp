@@ -29,7 +29,7 @@ using testing::answers_of;
 
 constexpr std::size_t batch = 100'000;  // the `batch` of the detectors in batches.c
 
-/// A detector of batches.c. Its time limit is so long that even on a busy machine, batches are not divided.
+/// A detector of batches.c. The time limit is so long that even on a busy machine, batches are not divided.
 std::unique_ptr<Subject> wanting(const std::string& detector, std::uint64_t bytes = std::uint64_t{1} << 30) {
   return make_any_subject(testing::plugin("batches") + ":" + detector, std::nullopt,
                           {.time = std::chrono::minutes(10), .bytes = bytes});

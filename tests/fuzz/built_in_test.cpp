@@ -136,7 +136,6 @@ TEST_P(EveryScene, AStepIsOfTheOrderOfAnEdgeInAllSizes) {
   }
 }
 
-/// The number of candidates per triangle, in a step in the middle of the scene.
 double candidates_per_triangle(const Scene& scene) {
   double count = 0;
   const MovingMesh mesh = moving_mesh(scene, scene.steps() / 2);

@@ -23,7 +23,6 @@ struct Ran {
   int saves = 0;
 };
 
-/// A plan of the named families, or of all families if `of` is empty.
 CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const char*> of = {}) {
   CampaignPlan plan;
   for (const char* name : of) plan.families.push_back(find_family(name));

@@ -1,4 +1,5 @@
-// Tests the search for pairs whose swept boxes meet, in meshes of every sort, and from step to step.
+// Tests the search for pairs whose swept boxes meet, in meshes of every sort, and in successive steps of a
+// mesh.
 #include "fuzz/scenes/candidates.hpp"
 
 #include <gmock/gmock.h>
@@ -43,8 +44,8 @@ std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
 using Points = std::vector<Vector3<double>>;
 using Point = std::function<Vector3<double>(Random&)>;
 
-/// Expects that the finder finds the same as brute force, without a separation and with each of the given
-/// separations. Returns the number of candidates.
+/// Expects that the finder finds the same pairs as brute force, without a separation and with each of the
+/// given separations. Returns the number of candidates.
 std::size_t expect_brute_force(MovingMesh mesh, const std::vector<double>& separations = {}) {
   const auto expected = candidates_by_brute_force(mesh);
   EXPECT_TRUE(found_candidates(mesh) == expected);

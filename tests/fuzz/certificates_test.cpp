@@ -57,7 +57,7 @@ TEST(CertificateOfEveryFamily, ProvesTheDecision) {
   });
 }
 
-/// Expects a proof that the primitives touch, or for h > 0 that their distance is below h, before a time.
+/// Expects a proof that, before the given time, the primitives touch or, for h > 0, are closer than h.
 void expect_late(const Query& query, double time) {
   const auto text = certify_meets(query, {0, time, true}, query.separation > 0);
   ASSERT_TRUE(text);
@@ -165,7 +165,7 @@ TEST(Certificate, ProvesATimeFarBelowOneThatIsIrrational) {
 }
 
 TEST(Certificate, ProvesATimeThatIsLateByLessThanTheStepBetweenDoubles) {
-  // The vertex meets the triangle at t = 1/5, which is less than 0.2.
+  // The vertex meets the triangle at t = 1/5, which is less than the double 0.2.
   const Query rational{.kind = Kind::vertex_triangle, .x = {0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,  //
                                                             0.25, 0.25, -4, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
   expect_late(rational, 0.2);
@@ -199,8 +199,8 @@ TEST(Certificate, ProvesThatADistanceIsNeverBelowOneThatIsReachedAtATimeOfFewBit
   }
 }
 
-// The statement that the primitives are apart is false, because they meet at the end of the span. The search
-// for a proof of it must end.
+// The primitives meet at the end of the span, so the statement that they are apart is false. The search for a
+// proof of this statement must end.
 TEST(Certificate, TheSearchEndsForContactAtTheEndOfASpan) {
   const Query query{.kind = Kind::vertex_triangle, .x = {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0,  //
                                                          0.25, 0.25, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}};

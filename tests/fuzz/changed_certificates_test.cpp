@@ -38,7 +38,8 @@ std::optional<bool> is_true(const Statement& statement) {
   auto time = earliest_time(query);
   if (!time) return is_apart;
   const double end = statement.to.get_d();
-  // For h > 0, t* is the first time with a distance of h, and "late" means a distance below h.
+  // For h > 0, t* is the first time with a distance of h, and a time is late if the distance is below h
+  // before it.
   const bool within = time->is_before(statement.open ? end : std::nextafter(end, 2.0));
   const bool below =
       query.separation > 0 && time->makes_late(statement.open ? end : std::nextafter(end, 2.0));

@@ -140,7 +140,7 @@ TEST(Classify, ASmallestDistanceOfNearlyTheSeparationIsDegenerate) {
 
 // --- degenerate contact ---------------------------------------------------------------------------------
 
-/// A triangle that rises, and reaches a vertex at rest at t = time / (1 - later).
+/// A vertex at rest, and a triangle that rises and reaches the vertex at t = time / (1 - later).
 Query reached_at(double time, double later = 0) {
   const Vector v(0.25, 0.25, 1024 * time), o(0, 0, 0), a(2, 0, 0), b(0, 2, 0), up(0, 0, 1024 * (1 - later));
   return make_query(Kind::vertex_triangle, {v, o, a, b}, {v, o + up, a + up, b + up});
@@ -247,7 +247,7 @@ TEST(Classify, DependsNeitherOnTheOrderOfVerticesNorOnThePowerOfTwoInTheUnit) {
 
 TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
   for (const Family& each : all_families()) {
-    // Families at rest ask for distances, which need no separation.
+    // Families of primitives at rest ask for distances, which need no separation.
     const bool is_at_rest =
         std::ranges::any_of(families_at_rest(), [&](const Family& rest) { return rest.name == each.name; });
     const Family family = is_at_rest ? each : as_asked(each);

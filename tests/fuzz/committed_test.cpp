@@ -124,7 +124,8 @@ TEST(Committed, NoneIfTheStepEndsWellBeforeContact) {
   const Counts counts = counts_of(false, 0.01, "uniform");
   EXPECT_EQ(counts.committed, 0);
   EXPECT_GT(counts.times_promised, 40);
-  // In float, far from the origin, even times that are early by a hundredth of the step lead to contact.
+  // In float, far from the origin, even times that are a hundredth of the step early lead to steps with
+  // contact.
   EXPECT_GT(counts_of(true, 0.01, "distant@20").committed, 0);
 }
 

@@ -201,7 +201,7 @@ std::vector<pid_t> tree_of(pid_t root) {
 }
 
 // The plug-in computes for an eighth of a second per query. With the limit of 0.4 s, a query may take 4 s of
-// wall-clock time; all processes are suspended for longer than that.
+// wall-clock time; all processes are suspended for more than 4 s.
 TEST(Isolation, TimeInWhichEverythingIsSuspendedDoesNotCount) {
   std::array<int, 2> ready{};
   ASSERT_EQ(pipe(ready.data()), 0);

@@ -1,4 +1,4 @@
-// Tests about which queries a subject with a contract is asked.
+// Tests which queries a subject with a contract is asked.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace {
 
 using testing::falling_vertex;
 
-/// A subject with this contract. It misses every collision, and adds the queries about which it is asked to
-/// `asked`.
+/// A subject with this contract. It misses every collision, and `asked` receives the queries about which it
+/// is asked.
 std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& asked) {
   const auto note = [&](const Query& query) {
     asked.push_back(query);

@@ -1,5 +1,5 @@
-// The crossed family: queries have the properties that their factors name, contacts are exact, and all
-// combinations of factors occur.
+// The family `crossed`: queries have the properties that the values of their factors name, contacts are
+// exact, and no pair of values is missing that the family makes.
 #include "fuzz/families/crossed.hpp"
 
 #include <gtest/gtest.h>

@@ -175,7 +175,7 @@ TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
 
 TEST(DistanceTrial, TellsAtWhichSizesAFunctionIsRight) {
   // This defect takes edges shorter than 2^-10 for points. Some edges are much shorter than the usual edges
-  // of queries with the same factor.
+  // of queries with the same value of the factor `edge`.
   QuestionPlan plan = usual(15'000);
   plan.families = {find_family("rest-units")};
   plan.kinds = {Kind::vertex_triangle, Kind::edge_edge};

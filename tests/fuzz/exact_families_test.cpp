@@ -78,7 +78,7 @@ TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
     expect_more(family, 40, [](const Query& query) { return testing::count_roots(query).distinct == 2; });
 }
 
-// One query in eight has a triple root, which is exact if no number was rounded.
+// One query in eight is made with a triple root, which stays exact if no number is rounded.
 TEST(TripleRoot, ThePrimitivesMeetInATripleRoot) {
   expect_more("triple-root@-16", 5, [](const Query& query) {
     const testing::RootCount roots = testing::count_roots(query);

@@ -16,7 +16,7 @@ namespace nearmiss {
 namespace {
 
 TEST(Random, IsPhilox4x64) {
-  // The known answer from the authors' test vectors (kat_vectors: philox4x64 10, all zero).
+  // The known answer from the test vectors of Philox's authors (kat_vectors: philox4x64 10, all zero).
   Random random(0, 0, 0);
   EXPECT_EQ(random.bits(), 0x16554d9eca36314cU);
   EXPECT_EQ(random.bits(), 0xdb20fe9d672d0fdcU);

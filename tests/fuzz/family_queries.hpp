@@ -46,7 +46,6 @@ int count_of_400(std::string_view name, const Property& has_property) {
   return count;
 }
 
-/// Expects that more than `above` and less than `below` of 400 queries of a family have a property.
 template <class Property>
 void expect_count(std::string_view name, int above, int below, const Property& has_property) {
   const int count = count_of_400(name, has_property);
@@ -64,7 +63,6 @@ void expect_all(std::string_view name, const Property& has_property) {
   EXPECT_EQ(count_of_400(name, has_property), 400) << name;
 }
 
-/// The name of a family with a fixed value of its parameter: "aspect@8".
 inline std::string at(const std::string& family, int x) { return family + "@" + std::to_string(x); }
 
 inline std::vector<Query> first_queries(std::string_view name, std::uint64_t count, std::uint64_t seed = 1) {

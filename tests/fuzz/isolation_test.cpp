@@ -222,7 +222,7 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
     const Verdict& verdict = verdicts[i];
     EXPECT_EQ(verdict.hit, verdict.fault == Fault::none) << i;
     if (!is_chosen(queries[i])) {
-      // A busy machine may make any query late.
+      // On a busy machine, any query may exceed the time limit.
       EXPECT_TRUE(verdict.fault == Fault::none || GetParam().fault == Fault::time) << i;
       continue;
     }

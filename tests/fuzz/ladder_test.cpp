@@ -35,7 +35,7 @@ double error(const DoubleDouble& computed, const Rational& exact) {
   return static_cast<double>(relative) * 0x1p102;
 }
 
-/// Two double-doubles. Often, their sum is far smaller than the numbers, because they nearly cancel.
+/// Two double-doubles. Often, they nearly cancel: their sum is far smaller than both.
 std::pair<DoubleDouble, DoubleDouble> operands(Random& random) {
   const auto draw = [&] {
     const double high = random.uniform(-1, 1);

@@ -20,8 +20,8 @@ MovingMesh row_of_points(int count) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// The marks of the dots in a picture. The picture's JSON has two numbers for each dot: the index of its
-/// point, and its mark.
+/// The marks of the dots in a picture; 0 stands for no mark. The picture's JSON has two numbers for each dot:
+/// the index of its point, and its mark.
 std::vector<int> marks_of_dots(const ScenePicture& picture) {
   const auto json = nlohmann::json::parse(picture.json);
   std::istringstream text(json["dots"].get<std::string>());

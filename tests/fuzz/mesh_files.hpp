@@ -84,7 +84,6 @@ class MeshFilesTest : public testing::TemporaryFolder {
     EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
   }
 
-  /// Expects that a file with this text is refused with a message that has the file's name and `message`.
   void expect_refused(const std::string& ending, const std::string& text, const std::string& message) const {
     using ::testing::HasSubstr;
     const auto path = write("mesh" + ending, text);

@@ -164,8 +164,8 @@ TEST(Patience, OfASearchEndsToo) {
   for (const Family& family : searches(*always_late)) {
     asked = 0;
     for (std::uint64_t i = 0; i < 10; ++i) make_query(family, 1, i);
-    // After three slow searches, later searches ask nothing. A search for late or early times ends when 20 of
-    // its queries have exceeded the time limit; any other search ends at the first such query.
+    // After three slow searches, later searches ask nothing. A search for late or early times of impact ends
+    // when 20 of its queries have exceeded the time limit; any other search ends at the first such query.
     EXPECT_EQ(asked,
               family.name.starts_with("search-late") || family.name.starts_with("search-early") ? 60 : 3);
   }

@@ -1,4 +1,4 @@
-// The plane tests of the oracle and those of the subjects agree on every family. The two were written
+// The plane tests of the oracle and those of the subjects agree on every family. Both were written
 // independently of each other.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The time to the first failure.
+// Tests how the first failure of a campaign, and the time to this failure, are found.
 #include "fuzz/studies/power.hpp"
 
 #include <gtest/gtest.h>

@@ -100,7 +100,8 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
 }
 
 TEST_F(ProgramTest, GivesDistances) {
-  // To measure the distance of a vertex and an edge, the program gets their nine coordinates at t = 0 twice.
+  // To measure the distance of a vertex and an edge, the program gets their nine coordinates at t = 0, and
+  // the same nine in place of those at t = 1.
   const auto subject = make_any_subject(
       program("if question == 2: answers = [rows[0][8] if rows[0][:9] == rows[0][9:18] else -1, 0]",
               "distance ve\\n"));

@@ -1,4 +1,4 @@
-// Tests the directed search for late and early times, and all searches with a separation.
+// Tests the directed search for late and early times of impact, and all searches with a separation.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The subjects of ccd/ that give times, on all families.
+// Tests the subjects of ccd/ that give times, on all families.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// Names of subjects, and versions of a CCD, compared query by query.
+// Tests the names of subjects, and the comparison of two versions of a CCD, query by query.
 #include "fuzz/trial/versions.hpp"
 
 #include <gmock/gmock.h>

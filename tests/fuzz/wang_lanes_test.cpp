@@ -64,8 +64,8 @@ Answer answer_of(const Decide& decide) {
   }
 }
 
-/// The answers of wang, with a given bound, if every pair that no plane separates is treated as a pair that
-/// needs another frame.
+/// The answers of wang with the bound `given`. Every pair that no plane separates is decided by
+/// wang_careful(), which is meant for pairs that may need another frame.
 std::vector<Answer> careful(std::span<const Query> queries, double given) {
   const auto decide = [&]<Kind kind>(const Query& query) {
     if (separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
@@ -78,9 +78,9 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
   return answers;
 }
 
-/// Bounds B to give: the largest of the queries' own bounds and the own bounds of some queries, multiplied by
-/// factors from 1 to 2^60; the next smaller doubles of some own bounds; and bounds at and beyond both ends of
-/// the range in which no scaling is needed.
+/// Bounds B to give to wang. Some are at or beyond an end of the range in which no scaling is needed. The
+/// others come from the queries' own bounds: the largest own bound and some others, multiplied by factors
+/// from 1 to 2^60, and the doubles just below some own bounds.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;
