@@ -291,7 +291,8 @@ auto squared(F f) {
 
 struct NoOptions {};
 
-/// A description of a detector. Each member function returns a copy of it with one more part or setting.
+/// A description of a detector. Each member function returns a copy of the description with one more function
+/// or setting.
 template <class Settings, class... Parts>
 struct Detector {
   nearmiss_subject subject;
@@ -403,7 +404,7 @@ struct Detector {
         if (part.kind == kind) act(part);
     });
   }
-  /// The `Asked` for a part that decides queries.
+  /// The `Asked` for a function that decides queries.
   template <int kind, class F>
   static Asked<F, Front, kind> asked(const Part<Role::decide, kind, F>& /*part*/) {
     return {};

@@ -16,11 +16,11 @@ using CaseSink = std::function<void(Case&&)>;
 /// Reads a file, or all files below a folder in the order of their paths. The name of a file determines its
 /// format:
 ///  - *.case: one case (case.hpp);
-///  - *.csv: sample queries of eight rows each. A row has x y z as rational numbers (numerator, denominator),
-///    and the truth. Every coordinate must be exactly a double. The name of the folder (edge-edge or
-///    vertex-face), or the end of the file's name (ee or vf), determines the kind. FOLDER/NAME.csv may have
-///    no truths, or have them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of true and false, as in
-///    CCD-Query-IO;
+///  - *.csv: sample queries of eight rows each. A row of the file has x y z as rational numbers (numerator,
+///    denominator), and the truth. Every coordinate must be exactly a double. The name of the folder
+///    (edge-edge or vertex-face), or the end of the file's name (ee or vf), determines the kind.
+///    FOLDER/NAME.csv may have no truths, or have them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of
+///    true and false, as in CCD-Query-IO;
 ///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If `path` is a recording, it may
 ///    have any name;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.

@@ -20,7 +20,8 @@ struct Recorded {
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 
-  /// The recorded query with tmax as the end of its step. The positions at tmax are computed in double.
+  /// The recorded query with the time `tmax` as the end of its step. The positions at tmax are computed in
+  /// double.
   [[nodiscard]] Query asked() const;
 };
 

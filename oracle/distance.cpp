@@ -1,5 +1,5 @@
-// Bounds the distance in floating-point arithmetic. If the bounds are too far apart, exact comparisons narrow
-// them.
+// Bounds the smallest distance in floating-point arithmetic. If the bounds are too far apart, exact
+// comparisons narrow them.
 #include "oracle/distance.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ double middle_of(double lo, double hi) {
   return high - low > 1 ? std::ldexp(1.0, std::midpoint(low, high)) : std::midpoint(lo, hi);
 }
 
-/// Narrows an enclosure of a distance that is above `base`, by exact comparisons.
+/// Narrows an enclosure of the smallest distance, which is above `base`, by exact comparisons.
 class Narrowing {
  public:
   Narrowing(exact::SmallestDistance& smallest, double base, const Enclosure& distance)
@@ -43,9 +43,9 @@ class Narrowing {
 
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
-  /// Compares the distance with one more number, and narrows the enclosure; returns false if no double is
-  /// left between the ends of the enclosure. Most distances are just below the upper end, so the first
-  /// numbers are chosen near this end. A later number is base + middle_of(lo - base, hi - base).
+  /// Compares the smallest distance with one more number, and narrows the enclosure; returns false if no
+  /// double is left between the ends of the enclosure. Most distances are just below the upper end, so the
+  /// first numbers are chosen near this end. A later number is base + middle_of(lo - base, hi - base).
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);

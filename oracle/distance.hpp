@@ -1,5 +1,5 @@
-// The smallest distance of two primitives over the step. Only the functions that name h depend on the query's
-// separation.
+// The smallest distance of two primitives over the step. Only the functions whose comments name h, the
+// query's separation, depend on it.
 #pragma once
 
 #include "ccd/query/query.hpp"
@@ -21,7 +21,8 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
 /// An upper bound of (d - h) / unit, where d is the smallest distance and h the query's separation. The bound
-/// is infinite if the unit is 0. Its relative accuracy is 1e-3, or 1e-9 for h = 0 and a quotient near 1.
+/// is infinite if the unit is 0. Its relative accuracy is 1e-9 if h = 0 and the quotient is near 1, else
+/// 1e-3.
 double closest_ratio(const Query& query, double unit);
 
 /// A time in [0, 1] at which the distance of the primitives is close to its minimum, for pictures.
@@ -33,8 +34,8 @@ bool distance_exceeds(const Query& query, double bound);
 /// Whether the smallest distance is above h + bound. For h > 0, the sum is rounded up.
 bool distance_exceeds_separation_by(const Query& query, double bound);
 
-/// The number with which distance_exceeds_separation_by() compares the smallest distance: the bound, or for h
-/// > 0 a number just above h + bound.
+/// The number with which distance_exceeds_separation_by() compares the smallest distance: `bound` if h = 0,
+/// else a number just above h + bound.
 double separation_and_bound(const Query& query, double bound);
 
 }  // namespace nearmiss

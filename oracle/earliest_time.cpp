@@ -62,9 +62,9 @@ exact::FirstApproach first_approach(const Query& query) {
   return *std::move(approach);
 }
 
-/// The first contact, as a root of F. If `known.is_between`, certified bounds have shown that F changes its
-/// sign in the enclosure, and that every root of F in it is a contact. So if F has only one root in the
-/// enclosure, this root is the first contact.
+/// The first contact, as a root of F, the coplanarity cubic. If `known.is_between`, certified bounds have
+/// shown that F changes its sign in the enclosure, and that every root of F in it is a contact. So if F has
+/// only one root in the enclosure, this root is the first contact.
 Root first_root(const Query& query, const KnownTime& known) {
   exact::Predicates predicates(query);
   if (known.is_between) {

@@ -22,9 +22,9 @@ struct KnownTimes {
       exactly;  ///< the first approach, if exact arithmetic found it; for h = 0, the first contact
 };
 
-/// The time t* in [0, 1] at which the distance of the primitives is first at most h. For h = 0, the
-/// primitives first share a point at t*. Arithmetic with certified bounds encloses t* first; exact arithmetic
-/// is only used for a question that the enclosure does not answer.
+/// The time t* in [0, 1] at which the distance of the primitives is first at most h, the separation. For h =
+/// 0, the primitives first share a point at t*. Arithmetic with certified bounds encloses t* first; exact
+/// arithmetic is only used for a question that the enclosure does not answer.
 class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].

@@ -13,8 +13,8 @@ namespace nearmiss {
 
 /// The answer to a query, and the stage that found it.
 struct Decision {
-  /// For h = 0, whether the closed primitives share a point at some t in [0, 1]; for h > 0, whether their
-  /// distance is below h at some t in [0, 1].
+  /// For the separation h = 0: whether the closed primitives share a point at some t in [0, 1]. For h > 0:
+  /// whether their distance is below h at some t in [0, 1].
   bool collision = false;
   FilterStage stage{};  ///< `undecided` if exact arithmetic decided
   /// Whether the smallest distance is exactly h > 0. Then a subject may answer yes or no.

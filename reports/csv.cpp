@@ -91,8 +91,8 @@ void add_counters(Fields& fields, const CountsSum& sum) {
   });
 }
 
-/// The fields of a row: the key, then the counters. `of` is the heading of the column with `key.family`:
-/// "family" or "class".
+/// The fields of a row of statistics.csv or classes.csv: the key, then the counters. `of` is the heading of
+/// the column with `key.family`: "family" or "class".
 Fields fields_of(const CountsKey& key, const char* of, const CountsSum& sum) {
   Fields fields{
       {"subject", field(key.subject)}, {"kind", std::string(short_name(key.kind))}, {of, field(key.family)}};

@@ -16,8 +16,8 @@ std::string classes_csv(const Statistics& statistics);
 /// distances.csv: a row for each non-empty bin of the histograms of distances.
 std::string distances_csv(const Statistics& statistics);
 
-/// times.csv: a row for each non-empty bin of the histograms of time errors. If the column "side" is "early",
-/// the error is t* - time; if it is "after", the error is time - t*.
+/// times.csv: a row for each non-empty bin of the histograms of time errors. Let t* be the exact earliest
+/// time. If the column "side" is "early", the error is t* - time; if it is "after", the error is time - t*.
 std::string times_csv(const Statistics& statistics);
 
 /// findings.csv: a row for each finding. The columns "shrunk" and "query" have queries as to_line writes

@@ -1,4 +1,4 @@
-// The first times of a query, by the exact method.
+// The time of a query's first contact, or of its first approach to a separation, by the exact method.
 #pragma once
 
 #include <optional>

@@ -79,7 +79,7 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
 /// confidence.
 constexpr std::size_t fewest_pairs = 6;
 
-/// How much a row's time differs between two series of runs.
+/// How much the time of a row of the table of times differs between two series of runs.
 struct Change {
   double ratio;   ///< the median, over all pairs of runs, of the time after divided by the time before
   double lo, hi;  ///< the ends of a confidence interval of this median, of at least 95 %

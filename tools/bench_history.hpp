@@ -48,9 +48,9 @@ std::vector<BenchRun> read_history(const std::filesystem::path& file);
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
 /// A table of how the times of each row differ between two series of runs, from before and after a change of
-/// the code. Compares the median over the passes of run i in `before` with that of run i in `after`; these
-/// two runs should have followed each other directly. Throws Error if the series have different lengths or
-/// fewer than six runs, or if the runs used different processors.
+/// the code. Compares a row's median time over the passes of run i in `before` with that of run i in `after`;
+/// these two runs should have followed each other directly. Throws Error if the series have different lengths
+/// or fewer than six runs, or if the runs used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

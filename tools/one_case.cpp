@@ -35,7 +35,7 @@ const Finding* finding_of(const Campaign& campaign, const std::string& subject) 
   return nullptr;
 }
 
-/// Says that a subject reports the collision, and how far its time is from the exact time t*.
+/// Says that a subject reports the collision, and how far its time is from t*, the exact earliest time.
 std::string reported(const Counts& counts) {
   const std::string text = "reports the collision";
   if (counts.times_given == 0) return text;

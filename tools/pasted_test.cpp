@@ -41,7 +41,7 @@ std::string points(const Query& query, std::size_t time, Form language) {
   return text;
 }
 
-/// What happens at t*, in words: "The primitives touch".
+/// What happens at the earliest time of the collision, in words: "The primitives touch".
 std::string what_happens(const Query& query) {
   return query.separation == 0
              ? "The primitives touch"
@@ -60,9 +60,9 @@ std::string what_is_true(const Query& query) {
                      to_hex(hi));
 }
 
-/// The largest double that is not a late time. A time is late if the distance is below h before it, or
-/// for contact (h = 0), if it is after t*. Throws Error if the distance does not fall below h > 0 right after
-/// t*, because then times just after t* are not late.
+/// The largest double that is not a late time. For a separation h > 0, a time is late if the distance is
+/// below h before it. For contact, a time is late if it is after t*, the exact earliest time. Throws Error if
+/// the distance does not fall below h > 0 right after t*, because then times just after t* are not late.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;

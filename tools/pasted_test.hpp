@@ -30,8 +30,8 @@ Form parse_form(std::string_view text, std::string_view option);
 /// A test is named after the kind of its query, as in test_edge_edge. For a query with a separation,
 /// `detects` has the further argument `double separation`. If the subject gave a late time, the maintainer
 /// writes, instead of `detects`, a function `double time_of_impact` with the same arguments, which must not
-/// return a time after t*. If the subject gave an invalid time, the maintainer writes both functions, and a
-/// collision must have a time in [0, 1].
+/// return a time after t*, the exact earliest time. If the subject gave an invalid time, the maintainer
+/// writes both functions, and a collision must have a time in [0, 1].
 ///
 /// `language` must not be case_file. Throws Error for a finding about the oracle, because the truth is not
 /// known. Throws Error for a late time if the distance does not fall below the separation right after t*.

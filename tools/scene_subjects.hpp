@@ -1,4 +1,4 @@
-// The subjects that are asked about a scene, each with the bound B that it uses.
+// The subjects that are asked about a scene, each with the B (size of a pair) that it uses.
 #pragma once
 
 #include <cstdio>

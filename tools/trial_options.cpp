@@ -74,7 +74,7 @@ Subjects TrialOptions::keep_contracts(Subjects made) const {
 
 namespace {
 
-/// The name of the fact about a renamed subject.
+/// The name of the fact by which a run records a renamed subject.
 std::string subject_fact(const std::string& subject) { return std::string(about_subject) + subject; }
 
 std::string plugin_fact(const std::string& subject) { return std::string(about_plugin) + subject; }

@@ -1,4 +1,4 @@
-// Makes Query values of queries that are in the caller's memory (queries.h), block by block.
+// Makes Query values of queries that are in the caller's memory (queries.h), some hundreds at a time.
 #pragma once
 
 #include <algorithm>

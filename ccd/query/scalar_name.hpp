@@ -24,7 +24,8 @@ namespace ladder {
 inline constexpr int fewest_bits = 16, most_bits = 256;
 }  // namespace ladder
 
-/// The exponent in ε = 2^exponent of the scalar with this name; nothing if the name is unknown.
+/// The exponent in ε = 2^exponent, the machine epsilon of the scalar with this name; nothing if the name is
+/// unknown.
 inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
   if (scalar.empty() || scalar == "double") return -52;
   if (scalar == "float") return -23;

@@ -116,8 +116,8 @@ template <Kind kind, class T, std::size_t size>
 /// component.
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
-/// - The step is a quotient whose numerator has two roundings. So it has a relative error of 3u; in 3u of the
-///   step, n·corner changes by at most 3u · √3 X <= 6uX.
+/// - The step is a quotient whose numerator has two roundings. So its relative error is 3u. In the whole
+///   step, n·corner falls by at most √3 X, so in the fraction 3u of the step by at most 3u · √3 X <= 6uX.
 /// - t + step has an error of u; in the time u, a corner moves by at most 2√3 uX <= 4uX.
 /// The sum is 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
@@ -178,10 +178,10 @@ template <Kind kind, class T, class Corners>
 
 }  // namespace detail
 
-/// Reports every pair with finite coordinates whose distance is at most h at some t in [0, 1]. The time in
-/// the verdict is a lower bound: before this time, the distance is more than h. A pair that is reported
-/// without a collision comes within h + `advance_bound` εX, unless the stage is `unknown`: then a step made
-/// no progress, or `advance_iterations` steps were not enough.
+/// Reports every pair with finite coordinates whose distance is at most h, the query's separation, at some t
+/// in [0, 1]. The time in the verdict is a lower bound: before this time, the distance is more than h. A pair
+/// that is reported without a collision comes within h + `advance_bound` εX, unless the stage is `unknown`:
+/// then a step made no progress, or `advance_iterations` steps were not enough.
 ///
 /// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than
 /// h. The corners move linearly. So if they are beyond h at t, they stay beyond h until the first of them

@@ -20,10 +20,10 @@ struct BridsonTolerances {
 
 namespace detail {
 
-// The proximity test of Bridson et al. at one time. A vertex is near a triangle if it is within h of the
-// triangle's plane, and the weights of its projection onto the plane are in [-δ, 1 + δ]. Two edges are near
-// each other if their distance is at most h. Their closest points are the ends of the common perpendicular,
-// or an end of one edge and the nearest point of the other edge.
+// The proximity test of Bridson et al. at one time. A vertex is near a triangle if it is within h, the
+// thickness, of the triangle's plane, and the weights of its projection onto the plane are in [-δ, 1 + δ].
+// Two edges are near each other if their distance is at most h. Their closest points are the ends of the
+// common perpendicular, or an end of one edge and the nearest point of the other edge.
 template <Kind kind>
 bool is_near(const Pair<kind, double>& pair, double t, const BridsonTolerances& tolerances) {
   const Configuration<kind, double> at(pair, t);
@@ -46,9 +46,9 @@ bool is_near(const Pair<kind, double>& pair, double t, const BridsonTolerances& 
 
 }  // namespace detail
 
-/// Solves F(t) = 0 as `basic` does, and applies the proximity test at each root and at t = 1. It guarantees
-/// nothing: if rounding hides a root, it may miss a collision, whatever the tolerances of the proximity test
-/// are.
+/// Solves F(t) = 0, where F is the coplanarity cubic, as `basic` does, and applies the proximity test at each
+/// root and at t = 1. It guarantees nothing: if rounding hides a root, it may miss a collision, whatever the
+/// tolerances of the proximity test are.
 template <Kind kind>
 Verdict bridson(const Query& query, const BridsonTolerances& tolerances) {
   Pair<kind, double> pair;  // without a bound B, and so without normalisation

@@ -66,7 +66,7 @@ CriticalTimes<Real> critical_times(const Cubic<Real>& F) {
   return critical;
 }
 
-/// An interval [lo, hi] of times, and the values of F at its ends.
+/// An interval [lo, hi] of times, and the values of the cubic F at its ends.
 template <class Real>
 struct Bracket {
   Real lo, hi, f_lo, f_hi;

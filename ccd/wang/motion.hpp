@@ -136,9 +136,9 @@ inline constexpr int bound_needs = 40;
 
 namespace detail {
 
-// Sets E, W and B = (E + W)(1 + 64 ε). W is the extent of the bounding box of the vertices' velocities. All
-// velocities are relative to one vertex, which shifts the box but does not change its extent. W is the
-// paper's 2 V_max for relative velocities (§4.1), and at most 2 max ‖v_i‖∞.
+// Sets E, W and B of the Pair: B = (E + W)(1 + 64 ε). W is the extent of the bounding box of the vertices'
+// velocities. All velocities are relative to one vertex, which shifts the box but does not change its extent.
+// W is the paper's 2 V_max for relative velocities (§4.1), and at most 2 max ‖v_i‖∞.
 //
 // Rounding errors: let E* and W* be the exact values, and B* = E* + W*. Only a pair that collides needs a
 // bound. In such a pair, every edge is within B* at t = 0 and at t = 1, and the vertex of VT is within B* of

@@ -14,7 +14,7 @@ constexpr T epsilon() {
   return std::numeric_limits<ScalarOf<T>>::epsilon();
 }
 
-/// ε^¼ (2^-13 for double). In the paper, the distance bound of false positives is proportional to it.
+/// ε^¼ (2^-13 for double). In the paper, the distance bound of false positives is proportional to ε^¼.
 template <class T>
 T fourth_root_of_epsilon() {
   using std::sqrt;

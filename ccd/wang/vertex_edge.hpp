@@ -34,7 +34,7 @@ bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol) {
   return F <= tol.psi;
 }
 
-/// Case 3: the times at which two components of x_ji have the same magnitude.
+/// Karush-Kuhn-Tucker case 3: the times at which two components of x_ji have the same magnitude.
 template <class T>
 CandidateTimes<T, 6> equal_components(const Moving<T>& ji) {
   CandidateTimes<T, 6> times;
@@ -62,7 +62,7 @@ struct CrossProduct {
   }
 };
 
-/// Case 4: the times at which a component of x_0i × x_ji is 0.
+/// Karush-Kuhn-Tucker case 4: the times at which a component of x_0i × x_ji is 0.
 template <class T>
 CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g) {
   CandidateTimes<T, 6> times;
@@ -70,9 +70,9 @@ CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g) {
   return times;
 }
 
-/// Case 2: the times of the minima of the 48 quadratic pieces of F_0ij, ±Q_x ± Q_y ± Q_z ± S e_k with
-/// Q = x_0i × x_ji and e = x_ji. A piece and its negative have their extremum at the same time, so 24 of the
-/// pieces give all times. A piece without a t² term has no minimum.
+/// Karush-Kuhn-Tucker case 2: the times of the minima of the 48 quadratic pieces of F_0ij, ±Q_x ± Q_y ± Q_z ±
+/// S e_k with Q = x_0i × x_ji and e = x_ji. A piece and its negative have their extremum at the same time, so
+/// 24 of the pieces give all times. A piece without a t² term has no minimum.
 template <class T>
 CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
   CandidateTimes<T, 24> times;

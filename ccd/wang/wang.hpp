@@ -97,10 +97,10 @@ T sum_of_squares(const Pair<kind, T>& pair) {
   return ((squares(0) + squares(1)) + (squares(2) + squares(3))) + (squares(4) + squares(5));
 }
 
-// Whether |F| provably stays above the μ of the pair's own B, which this function need not know. If so,
-// solve_cubic finds no root, and no further test is needed. This function must not be called if a B is given:
-// the μ of the given B may be larger, and the pair's own B is needed to check that the given B is not
-// smaller.
+// Whether |F|, for the coplanarity cubic F, provably stays above the μ of the pair's own B (which this
+// function need not know). If so, solve_cubic finds no root, and no further test is needed. This function
+// must not be called if a B is given: the μ of the given B may be larger, and the pair's own B is needed to
+// check that the given B is not smaller.
 //
 // Let s be the `sum_of_squares`, s_x its part from positions, and s_v its part from velocities. An edge is
 // the difference of at most two vectors, so E <= √2 √s_x (motion.hpp). The relative velocity of two vertices

@@ -22,10 +22,11 @@
 
 namespace nearmiss {
 
-/// Decides queries of one kind in steps: plane culling, the clearance of F, the roots of F, the tests at the
-/// roots. Each step processes those queries that the previous steps have left undecided, n queries at a time.
-/// Queries that need vertex-edge tests, another frame or another order of end points stay undecided. A lane
-/// computes exactly what the templates of wang.hpp compute for its query, so n changes no verdict.
+/// Decides queries of one kind in steps: plane culling, the clearance of F (the coplanarity cubic), the roots
+/// of F, the tests at the roots. Each step processes those queries that the previous steps have left
+/// undecided, n queries at a time. Queries that need vertex-edge tests, another frame or another order of end
+/// points stay undecided. A lane computes exactly what the templates of wang.hpp compute for its query, so n
+/// changes no verdict.
 template <int n, Kind kind>
 class WangLanes {
  public:
@@ -134,8 +135,9 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. Keeps F, W and B of
-  /// the other pairs, except those that need another frame or another order of end points.
+  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. Keeps F and the bounds
+  /// W and B (see Pair) of the other pairs, except those that need another frame or another order of end
+  /// points.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;
@@ -157,19 +159,19 @@ class WangLanes {
     }
   }
 
-  /// F, W and B of n queries, one query in each lane.
+  /// The coplanarity cubic F and the bounds W and B (see Pair) of n queries, one query in each lane.
   struct Polynomial {
     Cubic<Real> F;
     Real W, B;
   };
-  /// The polynomials of the n queries whose numbers in a column are take(column).
+  /// The Polynomial of n queries; `take` reads their n numbers from each column.
   template <class Take>
   Polynomial polynomial(const Take& take) const {
     return {{take(columns_[0]), take(columns_[1]), take(columns_[2]), take(columns_[3])},
             take(columns_[4]),
             take(columns_[5])};
   }
-  /// The polynomials of the queries left_[place(lane)], one in each lane.
+  /// The Polynomial of the queries left_[place(lane)], one in each lane.
   template <class PlaceOfLane>
   Polynomial polynomial_at(const PlaceOfLane& place) const {
     return polynomial([&](const auto& column) {

@@ -20,23 +20,24 @@
 
 namespace nearmiss {
 
-/// The least μ, in units of B³ε, with which `solve_cubic` misses no root, for rounding to nearest and
-/// ε <= 2^-10: `cubic_residual` is at most 436, and 440 has room for the rounding of the product with B³ε.
-/// For double, this μ is about a thousandth of the μ with which `wang` decides. Therefore the time is much
-/// closer to the root.
+/// The least threshold μ of |F|, in units of B³ε, with which `solve_cubic` misses no root, for rounding to
+/// nearest and ε <= 2^-10: `cubic_residual` is at most 436, and 440 has room for the rounding of the product
+/// with B³ε. For double, this μ is about a thousandth of the μ with which `wang` decides. Therefore the time
+/// that represents a root is much closer to the root.
 inline constexpr int least_residual = 440;
 
 /// The bound of the error of the distance of two vertices along an axis or a diagonal, in units of Bε, at any
 /// time up to the result of `separated_until`.
 ///
-/// Let every operation have a relative error of at most u = ε/2. Positions and velocities are within B; only
-/// the p of edges may be within 2B at t = 1.
+/// Let every operation have a relative error of at most u = ε/2. No component of a position or velocity
+/// exceeds B in magnitude, except that in an edge-edge pair, the components of p may be up to 2B at t = 1.
 /// - Position: p, q and r have an error of uB each, 3uB together. The two sums of p - q + r add 5uB.
 /// - Velocity: p has an error of u(|start| + |end| + |v|) <= 4uB; q and r have 3uB each. These are 10uB, and
 ///   the two sums add 5uB. Together with the position, this is 23uB.
 /// - A diagonal adds two components: 46uB. The two sums, of positions and of velocities, add 6uB each: 58uB.
 /// - The time is a quotient whose numerator has one rounding more. So it is too large by a factor of at most
-///   1 + 3u. A distance that changes by at most 6B in the step changes by at most 18uB in 3u of the step.
+///   1 + 3u. The distance changes by at most 6B in the whole step, so by at most 18uB in the fraction 3u of
+///   the step.
 /// The sum is 76uB = 38εB, and 40 has room for terms of second order.
 inline constexpr int gap_error = 40;
 
@@ -92,7 +93,8 @@ T separated_until(const Pair<kind, T>& pair) {
 /// and |F| exceeds `residual` - h, where h is the error of evaluating F. To find such a time, the function
 /// shifts F towards 0 by twice the residual. The shifted cubic has the same nodes. By (3), `refine_root`
 /// finds a time at which the magnitude of the shifted cubic is at most half the residual. The shift adds an
-/// error of at most 7uB³ to d, so at this time |F| is above 1.4 `residual` - h.
+/// error of at most 7uB³ to d, the constant coefficient of F, so at this time |F| is above
+/// 1.4 `residual` - h.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);

@@ -1,5 +1,6 @@
 // Queries in which the primitives just reach the separation h > 0, or reach it at a time that is hard to
-// find. In most of these families, numbers have few bits, so that distances and times are exact.
+// find. In most of these families, numbers have few bits, so that distances and times are exact. x is the
+// family's parameter.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -35,8 +36,8 @@ Vector approaching(Random& random) {
 // --- at the smallest distance ---------------------------------------------------------------------------
 
 /// A query of another family, with primitives that stay apart. Let d be the smallest distance, rounded up to
-/// a double. Then h is (1 + 2^x) d, or (1 - 2^x) times the double below d. For x = -54, h is d or the double
-/// below d.
+/// a double. In half of the queries, h is (1 + 2^x) d; in the other half, h is (1 - 2^x) times the double
+/// below d. With x = -54, these are d and the double below d.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};
@@ -88,7 +89,7 @@ Query slow_approach(Random& random, Kind kind, double x) {
   return placed_apart(random, facing(kind, contact, power_of_two(x) * approaching(random), h), h);
 }
 
-/// Which of the sides q and r begin or cease to be part of the closest features.
+/// Which of the sides q and r (contacts.hpp) begin or cease to be part of the closest features.
 struct Sides {
   bool q, r;
 };

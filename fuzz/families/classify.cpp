@@ -1,4 +1,6 @@
-// Each rule is a template, which is instantiated with intervals and with exact numbers.
+// The rules of README.md, "Classes". Each rule is a template, which is instantiated with intervals and with
+// exact numbers. F is the coplanarity cubic, t* the earliest time at which the distance is at most the
+// separation h.
 #include "fuzz/families/classify.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -133,7 +135,7 @@ struct Moment {
   Real squared_length;
 };
 
-/// The moment at a time, computed from the nearer end of the step, so that it is exact at t = 0 and t = 1.
+/// The Moment at a time, computed from the nearer end of the step, so that it is exact at t = 0 and t = 1.
 Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, double length) {
   const Points<Interval> start = points<Interval>(query, 0);
   const Points<Interval> end = points<Interval>(query, 1);
@@ -148,7 +150,7 @@ Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, 
   return moment;
 }
 
-/// The moment at every time, as polynomials in t.
+/// The Moment at every time t, as polynomials in t.
 Moment<Polynomial> exact_moment(const Query& query, double length) {
   const exact::Unit unit(query);
   const Number scaled = unit.scaled(length);
@@ -158,8 +160,8 @@ Moment<Polynomial> exact_moment(const Query& query, double length) {
   return moment;
 }
 
-/// Whether a rule holds at a time. If the enclosure `time` does not decide the rule, `find_root` finds the
-/// exact time.
+/// Whether a rule holds at a time inside the enclosure `time`. If the enclosure does not decide the rule,
+/// `find_root` finds the exact time.
 template <class Rule, class FindRoot>
 bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& query, double length,
               const Rule& rule) {
@@ -175,7 +177,7 @@ bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& que
       });
 }
 
-/// The sum of the squared distances between the two vertices of each pair.
+/// The sum, over the given pairs of vertices, of the squared distance between both vertices.
 template <class Real>
 Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   const auto square = [&](VertexPair pair) {
@@ -186,8 +188,8 @@ Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   return sum;
 }
 
-/// The squares of three lengths, whose product is compared with F². For two edges, `first` and `second`
-/// belong to one edge each; for a triangle, both are the sum of its squared sides. `gap` is the sum of the
+/// The squares of three lengths, whose product is compared with F². For two edges, `first` and `second` are
+/// their squared lengths; for a triangle, both are the sum of its squared sides. `gap` is the sum of the
 /// squared distances from each vertex of one primitive to each vertex of the other. README.md has means
 /// instead of these sums, so the product of the sums is too large by the factor `excess`.
 template <class Real>
@@ -262,8 +264,8 @@ bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost
          !at_most(squared, dot(from_b, ba));
 }
 
-/// Whether the place of contact is near an edge of the triangle or, for two edges, near an end of one of
-/// them. The primitives must touch.
+/// Vertex-triangle: whether the place of contact is near an edge of the triangle. Edge-edge: whether it is
+/// near an end of one of the edges. The primitives must touch.
 template <class Real, class AtMost>
 bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
   const auto& pairs = topology(moment.kind).vertices_and_edges;

@@ -41,9 +41,10 @@ struct Contact {
   [[nodiscard]] Vector3<double> velocity(Kind kind) const;
 };
 
-/// The query in which the first primitive passes the place c of contact with velocity w: the vertex, or the
-/// point at weight α of the first edge, is at c + (t - time) w. If all numbers are small multiples of one
-/// power of two, every operation is exact in double, and the primitives touch exactly at `time`.
+/// The query in which the first primitive's point of contact passes the place c of contact with velocity w:
+/// it is at c + (t - time) w. This point is the vertex (vertex-triangle) or the point at weight α of the
+/// first edge (edge-edge). If all numbers are small multiples of one power of two, every operation is exact
+/// in double, and the primitives touch exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
 /// Draws contacts of primitives of size 1, and parts of such contacts. Half of the samplers draw multiples of
@@ -103,8 +104,8 @@ Query placed(Random& random, Query query);
 /// times one power of two.
 Query turned(Random& random, Query query);
 
-/// Shuffles the vertices of each primitive and, if both primitives are edges or both are vertices, the
-/// primitives.
+/// Shuffles the vertices of each primitive. If both primitives are edges, or both are vertices, also shuffles
+/// the primitives.
 Query shuffled(Random& random, const Query& query);
 
 /// The double that is `ulps` doubles above c, or below it if `ulps` is negative, but never beyond the last

@@ -30,7 +30,8 @@ constexpr std::array<Factor, factor_count> all_factors{{{"shape", shape_names},
                                                         {"scale", scale_names},
                                                         {"offset", offset_names}}};
 
-/// Whether q and r are parallel or zero at the contact, so that F has a multiple root there.
+/// Whether the sides q and r are parallel or zero at the contact, so that F, the coplanarity cubic, has a
+/// multiple root there.
 bool is_flat(Shape shape) { return shape >= Shape::parallel; }
 
 /// Whether the motion leaves the directions of q and r free to change in any way.

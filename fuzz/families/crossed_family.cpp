@@ -1,7 +1,7 @@
 // The family `crossed`. Each query is made so that p = α q + β r + τ w, where p goes from the base to the
 // first primitive's point of contact, q and r are the sides, w is the relative velocity of the points of
-// contact, and τ = t - time is the time since the contact. Then F = τ det(w, q(t), r(t)), so the choice of w,
-// q and r determines the roots.
+// contact, and τ = t - time is the time since the contact. Then F, the coplanarity cubic, is τ det(w, q(t),
+// r(t)), so the choice of w, q and r determines the roots.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -273,8 +273,9 @@ Frame frame_of(Random& random, std::size_t offset) {
   return {place, random.one_in(2) ? small(random) : Vector(Vector::Zero())};
 }
 
-/// The largest number of binary places of the time with which coordinates are exact. Every coordinate is a
-/// sum of products of a vector's component, a time and a weight. A weight has four binary places.
+/// The largest number of binary places that the time of contact may have so that coordinates are exact. Every
+/// coordinate is a sum of products of a vector's component, a time and a weight. A weight has four binary
+/// places.
 int bits_for_time(const Draft& draft, const Frame& frame) {
   int lowest = 0;
   double sum = 0;
@@ -301,7 +302,7 @@ void set_positions(Query& query, bool at_start, const Draft& draft, const Frame&
     else
       query.set_end(vertex, place);
   };
-  // The second primitive's point of contact moves with the frame.
+  // The second primitive's point of contact has the velocity that all vertices share (Frame).
   const Vector base = middle - beta * r - (is_edges ? Vector(Vector::Zero()) : Vector(alpha * q));
   const Vector point = middle + tau * draft.w;
   set(0, is_edges ? Vector(point - alpha * q) : point);
@@ -316,8 +317,8 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
   constexpr int fewest_bits = 5;
   for (;;) {
     const Frame frame = frame_of(random, levels.offset());
-    // The draft depends on the time, and the number of bits that the time may have depends on the draft. So
-    // the draft is made for a nearby time with few bits.
+    // The draft depends on the time of contact, and the number of bits that this time may have depends on the
+    // draft. So the draft is made for a nearby time with few bits.
     const double near = time_of(random, levels.when(), fewest_bits);
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());

@@ -1,4 +1,5 @@
-// Queries of a vertex and an edge, or of two vertices, that the other families rarely have.
+// Queries of a vertex and an edge, or of two vertices, that the other families rarely have. x is the family's
+// parameter, h the separation.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -44,8 +45,8 @@ struct Motion {
 
 constexpr double rounded_to = 1e-6;
 /// Motions found by random search. If h is at most 1.09 times the smallest distance (1.22 times for the first
-/// four motions), Algorithm 2 (vertex_edge.hpp) finds the vertex within h of the edge at none of its
-/// candidate times except those of case 2.
+/// four motions), Algorithm 2 of the paper (vertex_edge.hpp) finds the vertex within h of the edge at none of
+/// its candidate times except those of case 2, the minima of pieces.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},

@@ -1,5 +1,5 @@
-// Families with sizes, speeds, angles and places at the limits of double. Factors are powers of two, so exact
-// contacts stay exact.
+// Families with sizes, speeds, angles and places at the limits of double. Vectors are scaled by powers of
+// two, so exact contacts stay exact. x is the family's parameter.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -28,8 +28,9 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter than the other. In half of the queries, the contact is near the corner
-/// x1 of the triangle, or near an end of the long edge: at most about the length of the short side away.
+/// One of the sides q and r is shorter than the other. In half of the queries, the contact is near the
+/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge), at most about the
+/// length of the short side away.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -64,9 +65,9 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, which are multiplied by 2^1022 along one axis or along random axes. Along these axes, many
-/// differences of coordinates overflow. Most primitives start in a plane normal to such an axis, and half of
-/// the coordinates are at rest.
+/// Coordinates are small integers, multiplied by 2^1022 along one axis or along random axes. Along these
+/// axes, many differences of coordinates overflow. Most primitives start in a plane normal to such an axis,
+/// and half of the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
@@ -123,7 +124,8 @@ Query static_pair(Random& random, Kind kind, double x) {
 
 // --- directions -------------------------------------------------------------------------------------
 
-/// The second edge, or the relative velocity of the vertex, is nearly a multiple of the side q.
+/// Edge-edge: the second edge is nearly a multiple of the first edge, q. Vertex-triangle: the velocity of the
+/// vertex relative to the triangle is nearly a multiple of the side q.
 Query near_parallel(Random& random, Kind kind, double x) {
   const double angle = power_of_ten(x);
   ContactSampler sampler(random);

@@ -10,8 +10,8 @@ namespace nearmiss {
 
 /// The closest features of two primitives that face each other.
 enum class Closest : std::uint8_t {
-  interiors,        ///< the vertex and the inside of the triangle, or the insides of both edges
-  vertex_and_edge,  ///< the vertex and an edge of the triangle, or an end of edge 1 and the inside of edge 2
+  interiors,        ///< vt: the vertex and the inside of the triangle; ee: the insides of both edges
+  vertex_and_edge,  ///< vt: the vertex and a triangle edge; ee: an end of edge 1 and the inside of edge 2
   vertices,         ///< one vertex of each primitive
   parallel_edges,   ///< the insides of both edges, which are parallel
 };
@@ -22,7 +22,7 @@ Closest draw_closest(Random& random, Kind kind);
 /// A vector in the plane z = 0 whose components are integers from -4 to 4.
 Vector3<double> vector_in_plane(Random& random);
 
-/// Whether side q, or side r if not `is_side_q`, is part of the closest features.
+/// Whether a side is part of the closest features: side q if `is_side_q`, otherwise side r (contacts.hpp).
 bool is_closest(Kind kind, Closest closest, bool is_side_q);
 
 /// A contact of primitives on opposite sides of the plane z = 0, up to a common translation. During the whole

@@ -15,7 +15,7 @@
 
 namespace nearmiss {
 
-/// The parameter of a family: a number x from lo to hi, which a sweep varies.
+/// The parameter of a family: a number x from lo to hi, which sweep() varies.
 struct Parameter {
   std::string about;  ///< the meaning of x, such as "speed / size of the primitives = 10^x"
   double lo, hi;
@@ -46,9 +46,9 @@ Family with_parameter(std::string name, std::string about, Parameter parameter);
 
 Family with_collisions(Family family);
 
-/// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so only the parameter
-/// changes along a sweep. Throws Error if the family has no parameter, or if its parameter cannot have this
-/// value.
+/// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so queries with the same
+/// index and different VALUEs differ only by the parameter. Throws Error if the family has no parameter, or
+/// if its parameter cannot have this value.
 Family at_value(const Family& family, double value);
 
 /// The family at `steps` evenly spaced values of its parameter, from the lowest to the highest. If the
@@ -56,7 +56,7 @@ Family at_value(const Family& family, double value);
 /// has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// If this text is given instead of a number, each query draws its own separation.
+/// If the separation is given as this text instead of a number, each query draws its own separation.
 inline constexpr std::string_view drawn_separation = "drawn";
 
 /// Returns the separation of a query. Takes random numbers only if separations are drawn.
@@ -102,8 +102,8 @@ std::span<const Family> all_families();
 /// throws an Error that lists the known families.
 Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
-/// The kind of a family's query `index`: vertex-triangle or vertex-vertex for an even index, edge-edge or
-/// vertex-edge for an odd index.
+/// The kind of a family's query `index`. Even index: vertex-triangle, or in a family of vertices,
+/// vertex-vertex. Odd index: edge-edge, or in a family of vertices, vertex-edge.
 inline Kind kind_of(const Family& family, std::uint64_t index) { return family.kinds[index % 2]; }
 
 bool has_kind(const Family& family, Kind kind);

@@ -1,4 +1,5 @@
-// Coordinates as files and simulations have them: floats, decimals, and small primitives in large scenes.
+// Coordinates as files and simulations have them: floats, decimals, and small primitives in large scenes. x
+// is the family's parameter.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Exact contact: at an end of the step, just after its start, without any motion, and at two times.
+// Families with exact contact: at t = 0 or t = 1, just after t = 0, of primitives at rest, and at two times.
+// x is the family's parameter, F the coplanarity cubic.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,10 +7,10 @@
 namespace nearmiss {
 
 /// Applies one to three mutations of the list in mutation.cpp. Half of these mutations move coordinates by a
-/// fraction of a distance, to improve a query step by step; the others are drawn from the whole list, to
-/// explore. Half of the calls then make the primitives touch where they nearly touch, so that chains of
-/// mutations stay near collisions. One call in four also changes a separation h > 0; h = 0 never changes. The
-/// result is finite if `query` is.
+/// fraction of a distance between two positions, to improve a query step by step; the others are drawn from
+/// the whole list, to explore. Half of the calls then make the primitives touch where they nearly touch, so
+/// that chains of mutations stay near collisions. One call in four also changes a separation h > 0; h = 0
+/// never changes. The result is finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
 /// Combines two queries. One of them gives the coordinates of some vertices, along some axes, at one end of

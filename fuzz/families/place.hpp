@@ -15,10 +15,10 @@ struct Place {
   double alpha, beta, time;
 };
 
-/// The query with one position, `point`, moved so that the two points of the place coincide at its time.
-/// Positions 0 .. 3 are the vertices at t = 0, and 4 .. 7 the vertices at t = 1. Coordinates are rounded to
-/// the nearest double or, in rare cases, to its neighbour. An overflow results in coordinates that are not
-/// finite.
+/// The query with one position, `point`, moved so that the two points of the place coincide at the place's
+/// time. Positions 0 .. 3 are the vertices at t = 0, and 4 .. 7 the vertices at t = 1. Coordinates are
+/// rounded to the nearest double or, in rare cases, to its neighbour. An overflow results in coordinates that
+/// are not finite.
 Query joined(const Query& query, const Place& place, int point);
 
 /// The positions that joined() moves by at most 64 times the distance between the place's two points. There
@@ -29,10 +29,10 @@ std::vector<int> movable_points(Kind kind, const Place& place);
 /// edge; its time may be at or near an end of the step.
 Place random_place(Random& random, Kind kind);
 
-/// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F, or
-/// random if F has no root; the weights are those of the closest points at that time. Weights outside [0, 1]
-/// are moved to the border, or slightly inside. If the primitives have no area or are too far apart, the
-/// place is random.
+/// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F,
+/// the coplanarity cubic, or random if F has no root; the weights are those of the closest points at that
+/// time. Weights outside [0, 1] are moved to the border, or slightly inside. If the primitives have no area
+/// or are too far apart, the place is random.
 Place own_place(Random& random, const Query& query);
 
 }  // namespace nearmiss

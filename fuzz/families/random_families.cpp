@@ -46,8 +46,8 @@ Query planted_ulp(Random& random, Kind kind) {
   return nudged(random, query, random.integer(1, 4), most);
 }
 
-/// A contact at which F and F' vanish, because the relative velocity of the touching points lies in the plane
-/// that contains both primitives at that time.
+/// A contact at which F, the coplanarity cubic, and its derivative F' vanish, because the relative velocity
+/// of the touching points lies in the plane that contains both primitives at that time.
 Query grazing(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   const Vector along_r = random.integer(-4, 4) / 4.0 * contact.r.at(contact.time);
@@ -81,7 +81,8 @@ Contact aimed_contact(Random& random, Kind kind) {
   return contact;
 }
 
-/// The relative motion is nearly in the primitives' plane (§3.3, parallel motion; §3.4, perpendicular to N).
+/// The relative motion is nearly in the primitives' plane (in the paper: parallel motion, §3.3; motion
+/// perpendicular to N = q × r, §3.4).
 Query parallel(Random& random, Kind kind) {
   const Contact contact = aimed_contact(random, kind);
   const Vector along_r = random.uniform(-2, 2) * contact.r.at(contact.time);
@@ -90,7 +91,7 @@ Query parallel(Random& random, Kind kind) {
   return shuffled(random, meet(kind, contact, contact.velocity(kind) + in_plane + out_of_plane));
 }
 
-/// Primitives far smaller than their motion (§3.3, small triangle; §3.4, small quadrilateral).
+/// Primitives far smaller than their motion (in the paper: small triangle, §3.3; small quadrilateral, §3.4).
 Query small(Random& random, Kind kind) {
   Contact contact = aimed_contact(random, kind);
   const double size = random.log_uniform(1e-12, 1e-2);
@@ -111,7 +112,8 @@ Query sliver(Random& random, Kind kind) {
 
 // --- F is zero identically --------------------------------------------------------------------------
 
-/// All points stay exactly in one plane: they are a P + b Q + O, and all numbers are integers below 2^31.
+/// The vertices stay exactly in one plane: every position is a P + b Q + O with integers a and b. All numbers
+/// are integers below 2^31.
 Query planar(Random& random, Kind kind) {
   const Vector P = random.integer_vector(8);
   const Vector Q = random.integer_vector(8);

@@ -1,9 +1,9 @@
-// Products of coordinates at the ends of the range of double. No coordinate overflows or underflows, but
-// products of two, three, four or six differences of coordinates, or sums of such products, overflow or
-// underflow. The weights come from a vector W whose components are sums of products of two differences. F is
-// a sum of products of three differences. The square of W is a sum of products of four differences, and the
-// square of F is a sum of products of six differences. A query is first made of small numbers; then its
-// vertices and axes are scaled by powers of two, which is exact.
+// Families whose products of coordinates are at the ends of the range of double. No coordinate overflows or
+// underflows, but products of two, three, four or six differences of coordinates, or sums of such products,
+// overflow or underflow. The weights come from a vector W whose components are sums of products of two
+// differences. F, the coplanarity cubic, is a sum of products of three differences. The square of W is a sum
+// of products of four differences, and the square of F is a sum of products of six differences. A query is
+// first made of small numbers; then its vertices and axes are scaled by powers of two, which is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>

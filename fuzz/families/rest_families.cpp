@@ -1,4 +1,4 @@
-// Primitives at rest, for functions that measure their distance.
+// Primitives at rest, for functions that measure their distance. x is the family's parameter.
 #include <cmath>
 
 #include "fuzz/families/contacts.hpp"
@@ -77,7 +77,7 @@ Query rest_angle(Random& random, Kind kind, double x) {
   return draft.query(random, kind);
 }
 
-/// One side is multiplied by 2^x.
+/// One of the sides q and r is multiplied by 2^x.
 Query rest_ratio(Random& random, Kind kind, double x) {
   Draft draft(random, kind);
   Path& shorter = random.one_in(2) ? draft.contact.q : draft.contact.r;

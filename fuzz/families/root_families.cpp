@@ -1,4 +1,5 @@
-// Roots of F that are hard to find: at the ends of the step, two roots close to each other, and triple roots.
+// Families in which the roots of F, the coplanarity cubic, are hard to find: roots at the ends of the step,
+// pairs of roots close to each other, and triple roots. x is the family's parameter.
 #include <algorithm>
 #include <cmath>
 
@@ -24,10 +25,11 @@ Query end_contact(Random& random, Kind kind, double x) {
 
 /// A point whose weights change at the rates α' and β' follows a curve. The first primitive moves along a
 /// tangent of this curve, so F has a double root. The curve departs from its tangent by (β' r' + s α' q') (t
-/// - time)² with s = alpha_sign(kind). If the first primitive is shifted by the value of this vector at t =
-/// time ± h, it meets the curve at these two times; if it is shifted the opposite way, it never meets the
-/// curve. In half of the queries, both sides lie in a coordinate plane at the contact time and leave it along
-/// its normal, so that even the smallest shift is exact.
+/// - time)² with s = alpha_sign(kind). Let 2 h be the time between the two planned roots. If the first
+/// primitive is shifted by the value of this vector at t = time ± h, it meets the curve at these two times;
+/// if it is shifted the opposite way, it never meets the curve. In half of the queries, both sides lie in a
+/// coordinate plane at the contact time and leave it along its normal, so that even the smallest shift is
+/// exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
   ContactSampler sampler(random);

@@ -1,4 +1,4 @@
-// The tables of families. Each theme has a file with one table.
+// The tables of families: one for each theme, at the end of the theme's file.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
-// Contact whose time is hard to find: roots of F that are close together, a root at which the primitives only
-// touch, an easily missed contact that precedes an obvious contact, and slow motion. Contact is exact.
+// Contact whose time is hard to find: roots of F, the coplanarity cubic, that are close together, a root at
+// which the primitives only touch, an easily missed contact that precedes an obvious contact, and slow
+// motion. Contact is exact. x is the family's parameter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,9 +24,9 @@ struct Factor {
   static Factor constant() { return {1, 1}; }
 };
 
-/// The weights, as in Contact, of a point in the plane or on the line of each primitive: α / whole and β /
-/// whole. If `whole` is 0, no such point exists: at the root of the factor, s α q = -β r with s =
-/// alpha_sign(kind), so the sides are parallel.
+/// The weights α / whole and β / whole, as in Contact, of a point that may be outside the primitives. If
+/// `whole` is 0, no such point exists: at the root of the factor, s α q = -β r with s = alpha_sign(kind), so
+/// the sides are parallel.
 struct Weights {
   int whole, alpha, beta;
 
@@ -46,8 +47,8 @@ struct PlannedRoot {
 
 double determinant(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
 
-/// Whether the three directions are linearly independent, and the three columns of weights are, too.
-/// Otherwise, F would be 0 at all times.
+/// Whether the directions of the three roots are linearly independent, and their vectors Weights::column()
+/// are, too. Otherwise, F would be 0 at all times.
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
   const auto& [a, b, c] = roots;
   return determinant(a.direction, b.direction, c.direction) != 0 &&
@@ -94,8 +95,8 @@ Weights outside(Random& random, Kind kind) {
   }
 }
 
-/// Weights of a point on the border: on an edge of the triangle, or at an end of one of the two edges. In one
-/// of three cases, the point is a vertex of each primitive.
+/// Weights of a point on the border. Vertex-triangle: on an edge of the triangle. Edge-edge: at an end of one
+/// of the two edges. In one of three cases, the point is a vertex of each primitive.
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
@@ -230,8 +231,9 @@ Graze graze_face(Random& random, Kind kind, double time) {
 
 /// A vertex and an edge touch in the plane z = 0, in which everything moves. The edge turns about the point
 /// of contact, from the direction of x towards y, and the vertex passes this point along x, on one side of
-/// the edge. The triangle's third vertex, or the other end of the vertex's edge, is placed so that the
-/// primitives are apart at all other times.
+/// the edge. The fourth vertex is placed so that the primitives are apart at all other times: it is the
+/// triangle's third vertex (vertex-triangle), or the other end of the edge that touches with its end
+/// (edge-edge).
 Graze graze_edge(Random& random, Kind kind, double time) {
   const int length = random.integer(1, 4);
   const double turn = random_sign(random) * random.integer(1, 4);

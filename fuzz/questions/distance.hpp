@@ -26,7 +26,7 @@ Query at_rest(const Query& query);
 
 /// How a subject's answer compares with the exact distance d of a query at rest.
 struct DistanceError {
-  /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of the size. A careful
+  /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of `size`. A careful
   /// function stays within this tolerance, as long as its products neither overflow nor vanish. Conservative
   /// advancement is still safe with such errors, because it keeps a part of the distance as a margin.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
@@ -43,7 +43,7 @@ struct DistanceError {
   /// `over` and `under`, divided by d. An error other than 0 becomes infinite if the primitives touch.
   [[nodiscard]] double over_by_distance() const;
   [[nodiscard]] double under_by_distance() const;
-  /// `over` and `under`, divided by the size; at most 1, and 0 for an error of 0.
+  /// `over` and `under`, divided by `size`; at most 1, and 0 for an error of 0.
   [[nodiscard]] double over_by_size() const;
   [[nodiscard]] double under_by_size() const;
 };

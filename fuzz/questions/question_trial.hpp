@@ -87,7 +87,7 @@ class QuestionTrial {
   using Results = QuestionResults<Question>;
   using Judged = typename Question::Judged;
 
-  /// The arguments must outlive the trial.
+  /// The subjects, the plan and `stop` must outlive the trial.
   QuestionTrial(const Subjects& subjects, const QuestionPlan& plan, const Stop& stop)
       : subjects_(subjects), plan_(plan), stop_(stop) {
     for (const Family& family : plan.families) sources_.push_back({family, nullptr});

@@ -19,8 +19,8 @@ class CandidatePasser {
   CandidatePasser(const MovingMesh& mesh, Kind kind, const Sink& sink, const IsOver& is_over)
       : mesh_(mesh), kind_(kind), sink_(sink), is_over_(is_over) {}
 
-  /// Passes on the pair of vertex i and triangle j, or of edges i and j. Throws Stopped if the search must
-  /// end.
+  /// Passes on a pair. Vertex-triangle: vertex i and triangle j. Edge-edge: edges i and j. Throws Stopped if
+  /// the search must end.
   void pass(std::size_t i, std::size_t j) {
     constexpr std::uint64_t now_and_then = 1 << 16;
     if (++passed_ % now_and_then == 0 && is_over_()) throw Stopped();
@@ -58,8 +58,8 @@ class CandidatePasser {
 
 // --- by a hierarchy of boxes ----------------------------------------------------------------------------
 
-/// The primitives of consecutive rows (pair_rows), which are near each other, and their partners: the
-/// triangles or edges near these primitives.
+/// Vertices (or edges) of consecutive rows (pair_rows), which are near each other, and their partners: the
+/// triangles (or edges) near them.
 class Block {
  public:
   /// Begins the block with row `first`. The block ends before row `end`, after 16 rows, or before the box

@@ -41,9 +41,9 @@ inline const IsOver never_over = [] { return false; };
 
 /// Finds those pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
 /// axis (oracle/filter/box.hpp). Boxes that only touch also meet. Pairs come in the order of rows (pair_rows
-/// below). Within a row, they come in the order of the second primitive: a triangle, or an edge after the
-/// row's edge. A part consists of consecutive rows; the division into parts depends only on the number of
-/// rows. Any thread may search any part.
+/// below). Within a row, they come in the order of the triangles (vertex-triangle), or of the edges after the
+/// row's edge (edge-edge). A part consists of consecutive rows; the division into parts depends only on the
+/// number of rows. Any thread may search any part.
 class CandidateFinder {
  public:
   /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` returns
@@ -78,8 +78,9 @@ class CandidateFinder {
 /// Finds all candidates of both kinds, vertex-triangle pairs first. Ends early when `is_over` returns true.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over = never_over);
 
-/// The number of rows into which all pairs of a kind are divided, whether their boxes meet or not. A row has
-/// the pairs of one vertex with all triangles, or of one edge with all later edges.
+/// The number of rows into which all pairs of a kind are divided, whether their boxes meet or not.
+/// Vertex-triangle: a row has the pairs of one vertex with all triangles. Edge-edge: a row has the pairs of
+/// one edge with all later edges.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
 /// Passes each pair of a row to `sink`, except pairs of primitives with a common vertex. Returns the number

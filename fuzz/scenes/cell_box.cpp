@@ -44,8 +44,8 @@ class Grid {
     if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
   }
 
-  /// The cell of a coordinate along axis k, or of the nearest bound if the coordinate is out of bounds. Every
-  /// operation is monotone, including the conversion, which truncates.
+  /// The cell of a coordinate along axis k; for a coordinate outside the mesh's bounds, the cell of the
+  /// nearest bound. Every operation is monotone, including the conversion, which truncates.
   [[nodiscard]] Cell cell(double x, int k) const {
     return static_cast<Cell>((std::clamp(x, lo_[k], hi_[k]) - centre_[k]) * per_unit_);
   }

@@ -23,8 +23,8 @@ struct Item {
 };
 using Items = std::span<Item>;
 
-/// Sorts boxes so that, at every level, the members of a group are near each other. The order depends only on
-/// the boxes: boxes with equal centres are sorted by number.
+/// Sorts boxes so that, at every level of the tree, the members of a group are near each other. The order
+/// depends only on the boxes: boxes with equal centres are sorted by number.
 class SpatialOrder {
  public:
   SpatialOrder(int jobs, const std::function<bool()>& is_over) : jobs_(jobs), is_over_(is_over) {}
@@ -75,8 +75,8 @@ class SpatialOrder {
   const std::function<bool()>& is_over_;
 };
 
-/// Fills the groups of a level with `count` boxes; box_at(i) returns box i and its number. Returns the sum of
-/// the boxes' sizes.
+/// Fills the groups of a level of the tree with `count` boxes; box_at(i) returns box i and its number.
+/// Returns the sum of the boxes' sizes.
 template <class BoxAt>
 double fill(std::vector<CellBoxGroup>& level, std::size_t count, int jobs, const BoxAt& box_at) {
   constexpr std::size_t chunk = 1 << 14;  // number of boxes; a multiple of the size of groups

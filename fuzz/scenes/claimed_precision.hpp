@@ -1,5 +1,5 @@
 // The precision that subjects claim for a scene, the cheapest subject that is precise enough, and the largest
-// bound B of a scene's pairs.
+// B (size of a pair) in a scene.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut le
 /// The cheapest subject whose claimed distance is at most `thickness`; null if there is no such subject.
 const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);
 
-/// The largest bound B (§5 of Wang's paper) of the pairs whose boxes meet in some step, rounded up to four
-/// digits.
+/// The largest B, the size of a pair (§5 of Wang's paper), among the pairs whose boxes meet in some step,
+/// rounded up to four digits.
 double scene_bound(const Scene& scene);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// Families of queries near the queries of files, or near a sample of the pairs of moving meshes.
+// Families that vary given queries: queries from files, or a sample of the pairs of moving meshes.
 #pragma once
 
 #include <cstddef>
@@ -48,8 +48,8 @@ class PairSample {
 /// Families that draw from the given queries. Half of the drawn queries get contact: one primitive is moved
 /// so that the primitives touch at a random time, up to rounding. Then each query stays as it is, is
 /// perturbed, or has some coordinates moved by ulps. `near` has the vt and ee queries that ask for contact,
-/// and `near-within` has the vt and ee queries with separations. v-near and v-near-within have the vv and ve
-/// queries. A family without queries is left out.
+/// and `near-within` the vt and ee queries with separations. `v-near` has the vv and ve queries that ask for
+/// contact, and `v-near-within` the vv and ve queries with separations. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 
 /// The family `mesh`, made like near_families() from the pairs whose swept boxes meet in a step. At most

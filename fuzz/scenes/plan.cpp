@@ -22,7 +22,7 @@ std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 
-/// Receives the pairs of one part, and decides in batches what to do with each pair (PairFate).
+/// Receives the pairs of one part of a plan, and decides in batches what to do with each pair (PairFate).
 class FateTeller {
  public:
   FateTeller(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,
@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The time to decide what to do with the pairs, and the time in `ask`.
+  /// The total time for deciding what to do with the pairs, and for `ask`.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();

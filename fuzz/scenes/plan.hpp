@@ -16,7 +16,8 @@ namespace nearmiss {
 enum class LeaveOut : std::uint8_t {
   nothing,  ///< subjects are asked about all pairs without a common vertex
   boxes,    ///< pairs whose swept boxes do not meet
-  all,      ///< like `boxes`, and if h = 0, also pairs at relative rest or in relative translation
+  all,      ///< like `boxes`, and without a separation, also pairs at relative rest or in relative
+            ///< translation
 };
 
 using Funnels = std::map<Kind, Funnel>;

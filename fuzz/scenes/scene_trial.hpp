@@ -14,7 +14,8 @@
 
 namespace nearmiss {
 
-/// Runs trials over the steps of a scene. Has the results of only a few parts of a step in memory at a time.
+/// Runs trials over the steps of a scene. A plan divides the pairs of a step into parts; the results of only
+/// a few parts are in memory at a time.
 class SceneTrial {
  public:
   SceneTrial(const Scene& scene, LeaveOut leave_out, Trials& trials)
@@ -38,7 +39,7 @@ class SceneTrial {
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
 
-  /// The results of some parts, except the statistics of their trials.
+  /// The results of some parts of a step, except the statistics of their trials.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};

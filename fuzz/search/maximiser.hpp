@@ -24,9 +24,9 @@ class Maximiser {
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// With `touching`, the gap is not changed. Step sizes are drawn between `finest_step` and 0.5. With
-  /// `moves_vertices`, about half of the optimisations move vertices instead of the coordinates of
-  /// SearchPoint::visit(); such moves break contacts.
+  /// With `touching`, the gap between the primitives is not changed. Step sizes are drawn between
+  /// `finest_step` and 0.5. With `moves_vertices`, about half of the optimisations move vertices instead of
+  /// the coordinates of SearchPoint::visit(); such moves break contacts.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective,
             bool moves_vertices = false)
       : random_(random),

@@ -177,8 +177,8 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// time - t*. t* has the accuracy `rough_time`, or `least` if `rough_time` does not show which of the two
-  /// times is earlier.
+  /// The difference time - t*, where t* has the accuracy `rough_time`, or `least` if `rough_time` does not
+  /// show which of the two times is earlier.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);

@@ -1,4 +1,5 @@
-// The search space of directed search: contacts with a gap and displacements, from which queries are made.
+// The search space of directed search: contacts, with a gap between the primitives and displacements of
+// vertices, from which queries are made.
 #pragma once
 
 #include <array>

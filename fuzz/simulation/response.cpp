@@ -42,8 +42,8 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
   const auto& edges = topology(pair.kind).pqr;  // q and r, whose cross product is the normal
   const Vector3<double> u = x[edges[1].to] - x[edges[1].from];
   const Vector3<double> v = x[edges[2].to] - x[edges[2].from];
-  // If the primitives collide after t = 0, and q and r are not nearly parallel, the normal is q × r.
-  // Otherwise, the normal is the vector between the closest points.
+  // If the primitives collide after t = 0, and q and r (two edges of the pair) are not nearly parallel, the
+  // normal is q × r. Otherwise, the normal is the vector between the closest points.
   const Vector3<double> cross = u.cross(v);
   constexpr double parallel = 1e-6;
   touch.normal = time > 0 && length(cross) > parallel * length(u) * length(v) ? cross : from;

@@ -36,7 +36,7 @@ constexpr std::string_view culling = "weight_error + spread_error, ccd/wang/ve_c
 // Rounding errors of the barycentric tests in units of ε, as Theorem 4.1 of the paper bounds them.
 constexpr double inside_vt = 564;
 constexpr double inside_ee = 360;
-constexpr double inside_ee_far = 540;  // p within 2B
+constexpr double inside_ee_far = 540;  // if components of p, the relative position, are up to 2B
 
 std::string_view first_broken(const Tolerances<double>& tol, double eps,
                               const RoundingErrors<double>& errors) {
@@ -95,8 +95,9 @@ std::vector<RoundingConstant> rounding_bounds() {
 
 std::vector<RoundingConstant> rounding_consequences() {
   // Let t̂ be the computed time, and t the exact time. The squared distance at t̂ exceeds the squared
-  // distance at t by at most 2 ‖x‖ ‖v‖ |t̂ - t|. Here, ‖x‖ <= √3 B (√3 2B for edges), ‖v‖ <= √3 b, and |t̂ -
-  // t| <= (error of x.v + error of v.v + 1) ε / b.
+  // distance at t by at most 2 ‖x‖ ‖v‖ |t̂ - t|. Here, x and v are the relative position and velocity of the
+  // vertices. Vertex-triangle: ‖x‖ <= √3 B. Edge-edge: ‖x‖ <= √3 2B. In both cases, ‖v‖ <= √3 b, and |t̂ - t|
+  // <= (error of x.v + error of v.v + 1) ε / b.
   const double moved = 2 * 3 * (9 + 9 + 1);
   const double moved_far = 2 * 3 * 2 * (2 * 9 + 9 + 1);
   const double squared_distance = 3 * 7;
@@ -128,8 +129,8 @@ std::vector<RoundingConstant> rounding_consequences() {
       {"EE: distance of a false positive, far p", "4.5.1", line, 1448, 4 * inside_ee_far,
        4 * proven::inside_ee_far, beyond},
       {"distance bound", "4.4.1", "B eps^1/4", 41, std::sqrt(34.0 * 34 + 522)},
-      // A weight is linear in p, so it changes within the time h by at most ‖N‖ ‖edge‖ √3 B h. Here, ‖N‖ <=
-      // 3B² and ‖edge‖ <= √3 B.
+      // A weight is linear in the relative position p, so within the time h (not a separation), it changes by
+      // at most ‖N‖ ‖edge‖ √3 B h. Here, ‖N‖ <= 3B² and ‖edge‖ <= √3 B.
       {"VE culling: spread of a weight", "5", "B^4 h", 9, 3 * 3},
       {"critical points", "node_error, ccd/wang/ve_culling.hpp", b3, node_error, 3 * 18, none,
        "derived in ccd/wang/cubic.hpp"},

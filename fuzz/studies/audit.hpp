@@ -1,5 +1,5 @@
-// The rounding constants of the paper and of ccd/. Each has its quoted value, the value that follows from the
-// paper's Theorem 4.1, and the proven value.
+// The rounding constants of Wang's paper and of ccd/. Each has its quoted value, the value that follows from
+// the paper's Theorem 4.1, and the proven value.
 #pragma once
 
 #include <limits>

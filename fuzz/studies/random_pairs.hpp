@@ -1,4 +1,4 @@
-// Counts how far random pairs get in the paper's algorithms.
+// Counts how far random pairs get in the algorithms of Wang's paper.
 #pragma once
 
 #include <cstdint>

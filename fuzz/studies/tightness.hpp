@@ -1,4 +1,4 @@
-// Measures the slack of the paper's tolerances.
+// Measures the slack of the tolerances in Wang's paper.
 #pragma once
 
 #include <atomic>

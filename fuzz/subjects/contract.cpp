@@ -43,7 +43,7 @@ bool has_at_most_one_root(const Query& query) {
   return roots.empty() || (roots.size() == 1 && roots.front().sign_of(F.derivative()) != 0);
 }
 
-/// Whether all coordinates are multiples of the grid. Exact, because fmod is exact.
+/// Whether all coordinates are multiples of `grid`. Exact, because fmod is exact.
 bool is_on_grid(const Query& query, double grid) {
   return std::all_of(query.x.begin(), query.x.end(), [&](double c) { return std::fmod(c, grid) == 0; });
 }

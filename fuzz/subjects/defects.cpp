@@ -46,7 +46,7 @@ struct DefectiveTolerances {
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
   /// These tolerances, with the changed tolerance loosened by the factor s. If no tolerance is changed,
-  /// loosens all accepting tolerances: lengths by s, squares of lengths by s², and so on.
+  /// loosens all that accept more pairs when larger: lengths by s, squares of lengths by s², and so on.
   [[nodiscard]] DefectiveTolerances loosened(double s) const {
     DefectiveTolerances loose = *this;
     if (changed != nullptr) {

@@ -33,12 +33,13 @@ struct LeftOut {
                               ///< the decision
 };
 
-/// Passes to `sink`, in order, those records of a file that can be judged. If tmax is 1, or if tmax < 1 and
-/// the answer is a collision with a time, the answer is judged on the recorded query: a time is late in the
-/// whole step if and only if it is late in the part up to tmax. (If the primitives collide only after tmax,
-/// such an answer counts as right.) Any other answer is judged on the query that ends at tmax. If doubles
-/// cannot represent this query, the answer is judged on the rounded query, provided that tmax < 1 and that
-/// rounding does not change the decision. Throws Error as read_recording() does.
+/// Passes to `sink`, in order, those records of a file that can be judged. The CCD was asked about the times
+/// up to the record's tmax. If tmax is 1, or if tmax < 1 and the answer is a collision with a time, the
+/// answer is judged on the recorded query: a time is late in the whole step if and only if it is late in the
+/// part up to tmax. (If the primitives collide only after tmax, such an answer counts as right.) Any other
+/// answer is judged on the query that ends at tmax. If doubles cannot represent this query, the answer is
+/// judged on the rounded query, provided that tmax < 1 and that rounding does not change the decision.
+/// Throws Error as read_recording() does.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
 /// Some recorded answers, no two of which contradict each other, and a subject that gives these answers under

@@ -1,4 +1,4 @@
-// A campaign: blocks of queries from families, decided on all cores.
+// A campaign: queries from families, decided on all cores.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@ namespace nearmiss {
 
 /// The plan of a campaign. Its cases have an order (case_order.hpp). The cases that count are always the
 /// first ones in this order, so the result depends neither on `jobs` nor on how often the campaign was
-/// stopped and resumed. Merging the results of all shards gives the result of the whole campaign, except for
-/// subjects that are set aside (so_far.hpp).
+/// stopped and resumed. Merging the results of all shards (parts of a campaign that run separately) gives the
+/// result of the whole campaign, except for subjects that are set aside (so_far.hpp).
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;

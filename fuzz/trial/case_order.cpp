@@ -103,7 +103,8 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 
 namespace {
 
-/// The index of case `number` in the family. Only queries of the kinds that are asked are cases.
+/// The index of the query that is case `number` of the family. Only queries of the kinds that are asked are
+/// cases.
 std::uint64_t index_of_case(const Family& family, std::uint64_t number) {
   if (!family.only) return number;
   return family.kinds.size() * number + (family.kinds.front() == *family.only ? 0 : 1);

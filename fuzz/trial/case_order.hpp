@@ -3,8 +3,8 @@
 // A round has a block of cases of every family. In the first round, a family's block has `block_cases` cases.
 // Every later round has blocks twice as large as the round before, up to 128 times the first. So at any time,
 // the decided cases are spread over all families, and subjects soon get large batches. A campaign with a
-// given number of cases is divided into at least 64 rounds if possible. Each of n shards has every n-th
-// round, so all shards have about the same size.
+// given number of cases is divided into at least 64 rounds if possible. Each of n shards (parts of a campaign
+// that run separately) has every n-th round, so all shards have about the same size.
 #pragma once
 
 #include <cstddef>

@@ -11,9 +11,9 @@ namespace nearmiss {
 /// coordinate is rounded to double, or to float if `in_float`. Nothing if a coordinate overflows.
 std::optional<Query> committed_step(const Query& query, double time, bool in_float);
 
-/// Where a step has contact. `touches`: contact before its end; for h > 0, a distance below h before its end.
-/// `touches_at_end`: contact only at its end; for h > 0, a distance of at most h at its end, or of exactly h
-/// before.
+/// Where a step has contact. `touches`: contact before the end of the step; for h > 0, a distance below h
+/// before the end. `touches_at_end`: contact only at the end; for h > 0, a distance of at most h at the end,
+/// or of exactly h before.
 enum class StepEnd { free, touches_at_end, touches };
 StepEnd end_of(const Query& step);
 

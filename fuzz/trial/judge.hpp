@@ -36,9 +36,10 @@ class Judge {
   /// about the rounded query. If the smallest distance is exactly the separation h > 0, any answer is right,
   /// and a reported pair counts as a collision. A subject that claims bounds must give a number >= 0 for a
   /// false positive; anything else is a fault. The answer "cannot tell" claims nothing about the distance.
-  /// For a false positive, Outcome::ratio is Truth::Distance::ratio. It is accurate to 1/1000 if a finding
-  /// stores it, or if it is at least `least_kept` (Known). The ratio is 0 if the unit is infinite, since no
-  /// distance is larger. `known` is the answer of ask_unit(), if the caller has it already.
+  /// For a false positive, Outcome::ratio is the smallest distance, minus h, in the unit of ask_unit(). It is
+  /// accurate to 1/1000 if a finding stores it, or if it is at least `least_kept` (Known). The ratio is 0 if
+  /// the unit is infinite, since no distance is larger. `known` is the answer of ask_unit(), if the caller
+  /// has it already.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 

@@ -86,8 +86,8 @@ Neighbourhood round_all(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Sets all coordinates along an axis to 0, or subtracts one number from those at t = 0, and one from those
-/// at t = 1. Each number is 0, or a vertex's coordinate along the axis at t = 0 or t = 1. An exact
+/// Sets all coordinates along an axis to 0, or subtracts one number from those at t = 0, and another one from
+/// those at t = 1. Each number is 0, or a vertex's coordinate along the axis at t = 0 or t = 1. An exact
 /// subtraction keeps every contact.
 Neighbourhood move_axes(const Numbers& /*x*/) {
   Neighbourhood changes;

@@ -1,4 +1,5 @@
-// Shrinks findings while a trial goes on, so that no query waits.
+// Shrinks the queries of findings (recorded failures) while a trial goes on, so that no query of the trial
+// waits.
 #pragma once
 
 #include <chrono>
@@ -21,8 +22,8 @@ namespace nearmiss {
 
 /// During the trial, a separate thread shrinks findings, for at most a tenth of all processors' time. At the
 /// end of the trial, all processors shrink the remaining findings. Findings of ordinary queries come first,
-/// and the first finding of each signature before the second. The order does not affect the shrunk queries.
-/// Only one thread at a time may call the functions of this class.
+/// and the first finding of each signature (signatures.hpp) before the second. The order does not affect the
+/// shrunk queries. Only one thread at a time may call the functions of this class.
 class Shrinking {
  public:
   /// If `enabled` is true, shrinks the findings that FirstFindings keeps. Subjects and `stop` must outlive

@@ -1,4 +1,5 @@
-// Runs many trials on all cores, and keeps and shrinks the first findings of each signature and class.
+// Runs many trials on all cores, and keeps and shrinks the first findings of each signature (signatures.hpp)
+// and class of queries.
 #pragma once
 
 #include <cstddef>

@@ -45,7 +45,7 @@ double Truth::relative_speed() const {
   const double B = pair_bound(query_);
   double fastest = 0;
   for (const VertexPair gap : topology(query_.kind).gaps) {
-    // Lengths in units of B do not overflow.
+    // Lengths in units of B, the size of the pair, do not overflow.
     const auto moved = [&](int vertex) -> Vector3<double> {
       return query_.end(vertex) / B - query_.start(vertex) / B;
     };
@@ -78,7 +78,7 @@ Truth::Distance Truth::measured_distance(double unit) const {
   const bool is_contact = query_.separation == 0;
   const Enclosure ratio = is_contact ? distance_in_units(query_, unit, Histogram::lower_border)
                                      : distance_beyond_separation(query_, unit, Histogram::lower_border);
-  // For contact, the enclosure usually decides whether the ratio is above 1.
+  // For contact, the enclosure usually decides whether the ratio of the distance to the unit is above 1.
   const bool beyond = is_contact && ratio.hi <= 1 ? false : is_contact && ratio.lo > 1 ? true : exceeds(unit);
   return {std::min(ratio.hi, beyond ? most : 1.0), beyond};
 }

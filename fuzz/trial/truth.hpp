@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// The constructor gets or computes the decision; each further answer is computed at most once. The query
-/// must outlive this object.
+/// The constructor gets or computes the oracle's decision; each further answer is computed at most once. The
+/// query must outlive this object.
 class Truth {
  public:
   explicit Truth(const Query& query);
@@ -26,7 +26,8 @@ class Truth {
 
   [[nodiscard]] Answers ask_methods() const;
 
-  /// Whether t* exists: for a collision, or if the smallest distance is exactly the separation.
+  /// Whether t*, the earliest time at which the distance is at most the separation, exists: for a collision
+  /// or a tie.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
   /// Returns the signature of a disagreement, or "" if the methods agree. They disagree if `answers` differ
@@ -44,7 +45,7 @@ class Truth {
   /// The earliest time at which the distance is at most h, for a collision or a tie.
   EarliestTime& time();
   /// The largest speed of a vertex of one primitive relative to a vertex of the other primitive, divided by
-  /// the pair's distance bound B. The result is rounded.
+  /// B, the size of the pair (pair_bound). The result is rounded.
   [[nodiscard]] double relative_speed() const;
 
   /// The smallest distance in a false positive, minus the separation, divided by a unit of length.

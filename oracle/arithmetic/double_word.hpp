@@ -8,8 +8,8 @@ namespace nearmiss::certified {
 /// A double-word number hi + lo with |lo| at most half an ulp of hi; Half is double, or one double per lane.
 /// The operations are Algorithms 6 (sum) and 10 (product) of Joldes, Muller and Popescu, "Tight and rigorous
 /// error bounds for basic building blocks of double-word arithmetic", ACM TOMS 2017: their relative errors
-/// are at most 3u² + 13u³ and 5u² with u = 2^-53, for rounding to nearest. These bounds hold unless something
-/// overflows (the result is then NaN) or underflows (see `product_underflow`).
+/// are at most 3u² + 13u³ for a sum and 5u² for a product, with u = 2^-53, for rounding to nearest. These
+/// bounds hold unless something overflows (the result is then NaN) or underflows (see `product_underflow`).
 template <class Half>
 struct DoubleWordOf {
   Half hi = 0;

@@ -1,9 +1,9 @@
 // Moving planes prove that a pair stays apart. At any time, two directions separate the primitives strictly:
 // the one between the closest points, and the normal of the closest features, which moves with these features
 // (tools/certificates/README.md gives its formulas). A direction that separates at a time also separates for
-// a while, and [from, to] is compact. So the search, which cuts [from, to] into parts, comes to an end unless
-// the smallest distance is exactly h. Near a time at which the closest features change, parts may have to be
-// very short. Cuts approach such a time as fast as root finding does.
+// a while, and the span [from, to] is compact. So the search, which cuts the span into parts, comes to an end
+// unless the smallest distance is exactly the separation. Near a time at which the closest features change,
+// parts may have to be very short. Cuts approach such a time as fast as root finding does.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -84,7 +84,7 @@ class ClosestWeights {
     const Vec<Real> N = cross(q, r);
     const Real squared = dot(N, N);
     if (!(squared > 0)) return;
-    // p = a q + b r + c N for a triangle, and a q - b r + c N for edges.
+    // Vertex-triangle: p = a q + b r + c N. Edge-edge: p = a q - b r + c N.
     const Vec<Real> p = difference(p_pair);
     const Real a = dot(N, cross(p, r)) / squared;
     const Real b = dot(N, has_triangle(kind_) ? cross(q, p) : cross(p, q)) / squared;

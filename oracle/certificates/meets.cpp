@@ -1,7 +1,7 @@
-// Two points that are within h of each other at a rational time prove that the primitives come within h. For
-// h = 0, the time of contact may be irrational. Then one of two facts proves the contact: the four vertices
-// become coplanar while all weights are positive, or a vertex passes through the inside of an edge
-// (tools/certificates/README.md says why).
+// Two points that are within h, the separation, of each other at a rational time prove that the primitives
+// come within h. For h = 0, the time of contact may be irrational. Then one of two facts proves the contact:
+// the four vertices become coplanar while all weights are positive, or a vertex passes through the inside of
+// an edge (tools/certificates/README.md says why).
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -197,7 +197,7 @@ class Crossing {
         x_(moving_points(query, exact::Unit(query))),
         of_(interiors(query.kind, x_)) {}
 
-  /// The proof that the vertices become coplanar in [p, q] while all weights are positive.
+  /// The proof that the vertices become coplanar at a time in [p, q], while all weights are positive.
   [[nodiscard]] std::optional<std::string> bracket(const Number& p, const Number& q) const {
     const auto is_negative = [&](const Polynomial& each) { return is_positive(Polynomial() - each, p, q); };
     const bool is_proof = is_within_span(p, q) && of_.F.sign_at(p) * of_.F.sign_at(q) <= 0 &&
@@ -330,8 +330,8 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
     if (auto text = meeting.at(t)) return text;
   const auto approach = times.exactly ? *times.exactly : exact::first_approach(query);
   if (!approach) return std::nullopt;
-  // If the distance falls below h, points near the closest ones are within h of each other, too, and have
-  // weights of fewer digits.
+  // If the distance falls below h, points near the closest ones are within h of each other, too. Among them
+  // are some whose weights have few digits, which keeps the proof short.
   if (approach->below)
     if (auto text = certify_below(*approach->below, meeting)) return text;
   return is_strict ? std::nullopt : certify_touch(approach->time, meeting);

@@ -32,8 +32,8 @@ struct ClosestFeatures {
 };
 
 /// Points of the two primitives, and their distance. These points certainly belong to the primitives: their
-/// weights are not negative and add up to 1. (For a triangle, rounding may add 2 U to the sum; see
-/// points_error() in moment.hpp.) It is not certain that they are the closest points.
+/// weights are not negative and add up to 1. (For a triangle, rounding may add 2 roundoff<Real> to the sum;
+/// see points_error() in moment.hpp.) It is not certain that they are the closest points.
 template <class Real>
 struct ClosestPoints {
   ClosestFeatures features;
@@ -87,8 +87,8 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
 }
 
 /// Considers the candidate of the interiors, the feet of the common normal N. Their weights a and b solve p =
-/// a q + b r + c N. The candidate counts if a, b >= 0 and, for a triangle, a + b <= 1 or, for edges, a, b <=
-/// 1.
+/// a q + b r + c N. Vertex-triangle: the candidate counts if a, b >= 0 and a + b <= 1. Edge-edge: the
+/// candidate counts if a and b are in [0, 1].
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const Kind kind = x.differences().kind();

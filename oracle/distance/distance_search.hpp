@@ -58,7 +58,7 @@ class DistanceSearch {
   }
 
  private:
-  /// How far certified bounds around a time reach in one direction: `value`, at most `most`.
+  /// How far (`value`, at most `most`) certified bounds around a time reach in one direction.
   struct Reach {
     double required = 0;  ///< the distance that the bounds certify
     double most = 0, value = 0;

@@ -46,9 +46,10 @@ inline void predict(Moment& moment, const Vec<double>& difference, const Vec<dou
   moment.predicted = std::sqrt(std::max(0.0, squared_distance + moment.slope * moment.step));
 }
 
-/// Predicts the minimum for interiors. The distance is |F| / |N|, and N changes little while F goes to zero
-/// or to its extremum. (The difference of the closest points is less useful: if the primitives slide along
-/// each other, the component of this difference along the velocity consists of rounding errors only.)
+/// Predicts the minimum for interiors. Their distance is |F| / |N|, for the coplanarity cubic F and the
+/// normal N, and N changes little while F goes to zero or to its extremum. (The difference of the closest
+/// points is less useful: if the primitives slide along each other, the component of this difference along
+/// the velocity consists of rounding errors only.)
 inline void predict(Moment& moment, double distance, const Powers<double>& F) {
   moment.predicted = distance;
   if (!(F.c[0] > 0)) return;
@@ -66,7 +67,7 @@ inline void predict(Moment& moment, double distance, const Powers<double>& F) {
 
 /// A bound of the error of the difference of closest points. The difference is a sum of at most three vertex
 /// differences, each rounded four times and multiplied by an exact weight of at most 1. The additions take at
-/// most three more roundings. The weights of interiors may add up to 1 + 2 U.
+/// most three more roundings. The weights of interiors may add up to 1 + 2 roundoff<Real>.
 template <class Real>
 double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();

@@ -115,7 +115,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
     separation.add({to_double(dot(n0, p)), to_double(dot(n0, w) + dot(n1, p)), to_double(dot(n1, w)), 0},
                    {error, 4 * error, 4 * error, 0});
   };
-  // `to` has the same products as `from`.
+  // The vertex `to` has the same products as the vertex `from`.
   for (const auto& [i, j] : topology(differences.kind()).gaps)
     if (i != to && j != to) add(i, j);
   return separation;

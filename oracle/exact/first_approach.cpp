@@ -1,6 +1,6 @@
-// The sign of (distance - h) only changes at the times of Nearness::candidates(). So the sign is constant
-// between two neighbouring candidates, and the distance falls below h at the first candidate after which the
-// sign is -1.
+// The sign of (distance - h), where h is the separation, only changes at the times of Nearness::candidates().
+// So the sign is constant between two neighbouring candidates, and the distance falls below h at the first
+// candidate after which the sign is -1.
 #include "oracle/exact/first_approach.hpp"
 
 #include <algorithm>

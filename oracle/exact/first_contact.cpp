@@ -1,5 +1,6 @@
-// Every first contact is at a root of F or, if F is identically zero, at t = 0 or at a root of one of
-// deciding_polynomials(). At each of these times, signs of polynomials decide whether the primitives meet.
+// Every first contact is at a root of F, the coplanarity cubic, or, if F is identically zero, at t = 0 or at
+// a root of one of deciding_polynomials(). At each of these times, signs of polynomials decide whether the
+// primitives meet.
 #include "oracle/exact/first_contact.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// The distance at a time is at most b if and only if one of finitely many statements holds. Each is about a
-// pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the triangle, or two
-// edges. A statement says that the closest points of the lines or planes through the two features lie in the
-// features and are within b of each other. The statement holds at t iff the polynomials `excess` and
+// The distance at a time is at most a number b if and only if one of finitely many statements holds. Each is
+// about a pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the triangle, or
+// two edges. A statement says that the closest points of the lines or planes through the two features lie in
+// the features and are within b of each other. The statement holds at t iff the polynomials `excess` and
 // `outside` are at most 0 at t, and `extents` are positive. (An extent is 0 if the features are degenerate;
 // then another statement covers the same points.) If the distance is at most b, the statement about the
 // closest pair of features holds; if any statement holds, two points are within b of each other.
@@ -146,7 +146,7 @@ SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
     };
     for (const int end : {0, 1}) add_time(Root(Number(end)));
     if (each.features == Features::interiors) {
-      // F is a factor of the derivative's numerator.
+      // The squared distance is F² / N². The numerator of its derivative has the factor F.
       const Polynomial twice({Number(2)});
       add_roots(of.F);
       add_roots(twice * of.F.derivative() * denominator - of.F * denominator.derivative());

@@ -12,10 +12,10 @@
 namespace nearmiss::exact {
 
 /// A statement about two features of the primitives, such as a vertex and an edge: the closest points of the
-/// lines or planes through the features lie in the features, and are within b of each other.
+/// lines or planes through the features lie in the features, and are within a number b of each other.
 struct FeatureNearness {
-  /// What the features are. `interiors` are the insides of both edges, or the vertex and the inside of the
-  /// triangle.
+  /// What the features are. Vertex-triangle: `interiors` are the vertex and the inside of the triangle.
+  /// Edge-edge: `interiors` are the insides of both edges.
   enum class Features : std::uint8_t { vertices, vertex_and_edge, interiors };
 
   Features features{};
@@ -34,10 +34,10 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The polynomials about the vertex and the plane of the triangle, or about the lines of both edges. At a
-/// time at which squared_N is positive, the distance of the vertex and the plane, or of the lines, is |F| /
-/// |N|. The closest points then lie in the features iff all `outside` are at most 0, and strictly inside the
-/// features iff all `outside` are negative.
+/// The polynomials about the `interiors`. At a time at which squared_N is positive, |F| / |N| is a distance.
+/// Vertex-triangle: the distance of the vertex from the triangle's plane. Edge-edge: the distance between the
+/// lines of both edges. The closest points of these then lie in the features iff all `outside` are at most 0,
+/// and strictly inside the features iff all `outside` are negative.
 struct Interiors {
   Polynomial F;
   Polynomial squared_N;

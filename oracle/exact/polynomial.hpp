@@ -13,7 +13,8 @@ namespace nearmiss::exact {
 /// A binary floating-point number of any length: sums, differences and products are exact.
 using Number = CGAL::Mpzf;
 
-/// A list of numbers. Lists of up to four numbers, as many as F has coefficients, need no allocation.
+/// A list of numbers. Lists of up to four numbers, as many as the coplanarity cubic has coefficients, need no
+/// allocation.
 using Numbers = boost::container::small_vector<Number, 4>;
 
 int sign(const Number& x);

@@ -18,7 +18,7 @@ struct OnSegment {
   Polynomial dot;
 };
 
-/// The polynomials that decide a query (degree 3 for F, 2 for the others), computed on first use. The
+/// The polynomials that decide a query, computed on first use: F, the coplanarity cubic, and quadratics. The
 /// coordinates are those of the query times a power of two (`Unit`). The vectors p, q, r are those of Wang
 /// (2014): x0 - x1, x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
 ///

@@ -19,10 +19,10 @@
 
 namespace nearmiss::certified {
 
-/// Processes the queries in stages: boxes and moving planes; the sign of F; parts of the step. Each stage
-/// takes the queries that are still undecided, side by side in n lanes. The last stage is a simpler version
-/// of ContactSearch, and leaves difficult queries undecided. The results of a lane depend only on its query,
-/// so n changes no answer.
+/// Processes the queries in stages: boxes and moving planes; the sign of F, the coplanarity cubic; parts of
+/// the step. Each stage takes the queries that are still undecided, side by side in n lanes. The last stage
+/// is a simpler version of ContactSearch, and leaves difficult queries undecided. The results of a lane
+/// depend only on its query, so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
@@ -54,7 +54,7 @@ class BatchFilter {
   class Rows {
    public:
     Rows() = default;
-    /// Selects, among the first `count` rows, the rows for which `wanted` holds.
+    /// Selects the indices below `count` for which `wanted` holds.
     template <class Wanted>
     Rows(std::size_t count, const Wanted& wanted) {
       std::size_t size = 0;
@@ -65,7 +65,7 @@ class BatchFilter {
       size_ = size;
     }
     void add(std::size_t row) { add_if(true, row); }
-    /// Adds a row if it is wanted, without a branch, which would be unpredictable.
+    /// Adds an index if it is wanted, without a branch, which would be unpredictable.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
@@ -144,7 +144,8 @@ class BatchFilter {
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
-      // The stage for each code: not finite; not separated; separated by a plane, by the boxes, or by both.
+      // The stage for the codes 0 to 4: a coordinate is not finite; the primitives are not separated; they
+      // are separated by a plane; by their boxes; by both.
       constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
                                     FilterStage::boxes, FilterStage::boxes};
       constexpr int unsure = 1;

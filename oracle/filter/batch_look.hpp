@@ -89,8 +89,9 @@ struct Look {
   Lanes<n> left, right;
 };
 
-/// The lanes in which F certainly rises through 0 from the left to the right end of a part, or changes its
-/// sign in either direction, and those in which the sign of F is known at one end or at both.
+/// In each lane, what is certain about F, the coplanarity cubic, at the ends of a part. `rises`: F rises
+/// through 0 from the left to the right end. `changes`: F changes its sign in either direction. The other
+/// members say at which ends the sign of F is known.
 template <int n>
 struct EndSigns {
   typename Lanes<n>::Mask rises, changes, left_known, right_known, known;
@@ -106,7 +107,8 @@ struct EndSigns {
   }
 };
 
-/// An estimate t of F's root in [lo, hi], and the bracket [before, behind] around it, within h of t.
+/// An estimate t of the root of the coplanarity cubic F in [lo, hi], and the bracket [before, behind] around
+/// it, within h of t.
 template <int n>
 struct RootBracket {
   Lanes<n> t, h, before, behind;

@@ -36,7 +36,8 @@ bool separated_by_a_plane(const Query& query) {
          });
 }
 
-/// The results of ContactSearch: run(), and first() with is_between().
+/// What a ContactSearch found: `stage` is the result of run(); `time` has the results of first() and
+/// is_between(), and is empty if first() returns nothing.
 struct Found {
   FilterStage stage;
   std::optional<KnownTime> time;
@@ -74,8 +75,8 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return KnownTime{{t, t}};
 }
 
-/// Decides a query whose F may have a root. If `time` is not null, sets it to two neighbouring doubles around
-/// the first contact, or to the time of the contact, if either is found.
+/// Decides a query whose coplanarity cubic F may have a root. If `time` is not null, sets it to two
+/// neighbouring doubles around the first contact, or to the time of the contact, if either is found.
 [[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
                                                         const Bernstein<double, 4>& F, KnownTime* time) {
   const auto may_touch_at = [&](int end) { return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error); };

@@ -24,8 +24,9 @@ struct Neighbours {
   Mask hold;
 };
 
-/// Looks for the neighbouring doubles around a root of F that lies in [lo, hi]; F is given over the whole
-/// `step`. `hold` is true only if F is certainly monotone in [lo, hi], so that F has no other root there.
+/// Looks for the neighbouring doubles around a root of F, the coplanarity cubic, that lies in [lo, hi]; F is
+/// given over the whole `step`. `hold` is true only if F is certainly monotone in [lo, hi], so that F has no
+/// other root there.
 ///
 /// After Newton's method in double, one more step from a time t, with F in double words, gives both doubles.
 /// The mean value theorem gives the sign of F at each double d: F(d) = F(t) + F'(s) (d - t) for an s between

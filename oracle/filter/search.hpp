@@ -1,4 +1,5 @@
-// The search for the zeros of F in a part of the step, and for the signs of the weights near these zeros.
+// The search for the zeros of F, the coplanarity cubic, in a part of the step, and for the signs of the
+// weights near these zeros, which tell whether the primitives meet there.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// A query over a part of the step: F and the weights as polynomials with certified error bounds.
+// A query over a part of the step: F, the coplanarity cubic, and the weights as polynomials with certified
+// error bounds.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Contacts that no search in floating-point arithmetic finds, because F or a weight is exactly zero at the
-// contact.
+// Contacts that no search in floating-point arithmetic finds, because F, the coplanarity cubic, or a weight
+// is exactly zero at the contact.
 #pragma once
 
 #include "ccd/query/query.hpp"

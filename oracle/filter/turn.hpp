@@ -10,8 +10,8 @@
 
 namespace nearmiss::certified {
 
-/// Permutes the components of vectors cyclically, so that the component in which the normal is largest at
-/// some time comes first. Only the other two components are kept, because they determine the weights in that
+/// Permutes the components of vectors cyclically, so that the component in which the normal is largest at a
+/// given time comes first. Only the other two components are kept, because they determine the weights in that
 /// first component.
 template <int n, Kind kind>
 class Turn {

@@ -30,8 +30,8 @@ extern "C" {
 #define NEARMISS_PROVE_DISTANCE 2 /**< bounds of the smallest distance, of a relative width of 1e-3 */
 
 /** Whether each query is a collision: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
- * NEARMISS_NO_ANSWER. A smallest distance of exactly h counts as a collision. `decided_by` says what decided,
- * and may be null. */
+ * NEARMISS_NO_ANSWER. A smallest distance of exactly h, the separation, counts as a collision. `decided_by`
+ * says what decided, and may be null. */
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by);
 
 /** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are equal

@@ -112,14 +112,14 @@ using RationalQuadratic = std::array<Rational, 3>;
 
 bool is_zero(const RationalQuadratic& f) { return f[0] == 0 && f[1] == 0 && f[2] == 0; }
 
-/// Whether h <= 0 at some t in [0, 1].
+/// Whether the quadratic h is at most 0 at some t in [0, 1].
 bool reaches_zero(const RationalQuadratic& h) {
   if (sign(h[0]) <= 0 || sign(h[0] + h[1] + h[2]) <= 0) return true;
   return sign(h[2]) > 0 && sign(h[1]) < 0 && sign(h[1] + 2 * h[2]) > 0 &&
          sign(h[1] * h[1] - 4 * h[0] * h[2]) >= 0;
 }
 
-/// Whether h <= 0 at a root of g in [0, 1]; g must not be identically zero.
+/// Whether the quadratic h is at most 0 at a root of g in [0, 1]; g must not be identically zero.
 bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h) {
   if (g[2] == 0) {
     if (g[1] == 0) return false;
@@ -193,8 +193,8 @@ Position position(const BilinearPatch& patch) {
   return result;
 }
 
-/// The crossings with a patch that does not contain the origin. Two triangles replace the patch. They have
-/// the border of the patch, and the origin is not between the triangles and the patch.
+/// The crossings with a patch that does not contain the origin. Two triangles with the border of the patch
+/// replace it; the origin is not between the triangles and the patch.
 Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
   const auto& [p00, p10, p01, p11] = patch;
   if (position.in_plane) {
@@ -254,8 +254,8 @@ IntegerVector difference(const Query& query, int i, int j, std::size_t time, con
   return {along(0), along(1), along(2)};
 }
 
-/// The images under f (parity.hpp) of the faces of the prism or the cube. A triangle is stored as a patch
-/// with a side of length 0.
+/// The images under f (parity.hpp) of the faces of its domain, a prism or a cube. A triangle is stored as a
+/// patch with a side of length 0.
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>

@@ -23,8 +23,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Sorts the findings of all shards into the order in which a single machine would have found them, and drops
-/// the findings that a single machine would not have kept.
+/// Sorts the findings of a run's shards into the order in which a single machine would have found them, and
+/// drops the findings that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
   // A stable sort keeps the order of the findings of a case: they come from one shard, which has them in
   // order.
@@ -248,8 +248,8 @@ bool is_of_files(std::string_view root) { return root == "mesh" || root == "near
 class AskedQueries {
  public:
   /// Adds a campaign; `name` is the name of its store. Throws Error if this campaign and an earlier one have
-  /// the same step of a simulation, or if a run of each has the same seed, and both runs asked one subject
-  /// queries of one family. Shards of one run do not count as two runs, because they ask different queries.
+  /// the same step of a simulation, or have runs with the same seed that asked the same subject queries of
+  /// the same family. Shards of one run do not count as two runs, because they ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:

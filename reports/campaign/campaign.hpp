@@ -15,13 +15,13 @@
 
 namespace nearmiss {
 
-/// The order of findings for display: by the class of the query, then shrunk findings first, then by the
-/// exoticness of the shrunk query.
+/// The order of findings for display: by the class of the query, then shrunk findings first, then by
+/// exoticness(), the rank of the shrunk query.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }
 
-/// Facts about a run, or about the machine of a shard, by name.
+/// Facts about a run, or about the machine of a shard (one machine's part of a run), by name.
 using RunInfo = std::map<std::string, std::string>;
 
 /// The value of a fact; "" if `info` does not have the fact.

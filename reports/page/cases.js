@@ -220,9 +220,9 @@ function drawExtremeTimes() {
   const rows = report.extreme_times;
   if (rows.length === 0) return;
   show("extreme-times-section");
-  // A time after t* is not late if the primitives come no closer than h before that time. If a subject gives
-  // both lower bounds and estimates, the report does not say which of the two a time is, so the page does not
-  // call the time late.
+  // A time after t*, the exact earliest time, is not late if the primitives come no closer than the
+  // separation before that time. If a subject gives both lower bounds and estimates, the report does not say
+  // which of the two a time is, so the page does not call the time late.
   const isLate = ({ subject, kind, side }) => {
     const { late, after_histogram: after } = report.subjects[subject][kind];
     return side === "after" && late === after.reduce((a, b) => a + b, 0);

@@ -99,7 +99,7 @@ function drawRates() {
     { data: { values: rows }, hconcat: kindNames.filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
-/** The counters of each subject, kind and family with collisions, except sweeps. */
+/** The counters of each subject, kind and family that have collisions, except sweeps. */
 const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row));
 
 /** The misses of all kinds together, by subject and family, with a text for each kind. */

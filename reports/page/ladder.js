@@ -1,4 +1,5 @@
-// Draws the ladder of precisions, and the audit of the rounding constants.
+// Draws the ladder of precisions (one algorithm in several scalar types), and the audit of the rounding
+// constants.
 "use strict";
 
 const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;

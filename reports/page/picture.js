@@ -135,7 +135,10 @@ function planeBetween(points, normal) {
   return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => middle.map((c, k) => c + height * normal[k] + 0.7 * (a * side[k] + b * up[k])));
 }
 
-/** Lines of the legend: the separation, t*, the subject's time, and the committed step, if the query has them. */
+/**
+ * Lines of the legend: the separation, the exact earliest time t*, the subject's time, and the committed
+ * step, if the query has them.
+ */
 function pictureLegend({ query, time, toi, step }) {
   const line = (name, content) => made("div", [made("span", "", { class: `swatch ${name}` }), ` ${content}`]);
   const difference = toi - time;

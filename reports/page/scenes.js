@@ -19,7 +19,7 @@ function summed(rows, by) {
   return [...sums.values()];
 }
 
-/** The number of pairs with each PairFate, for each step and kind. */
+/** The number of pairs with each PairFate (asked, or why they were left out), for each step and kind. */
 const funnelRows = () => Object.entries(report.scenes ?? {}).flatMap(([step, ofKind]) =>
   Object.entries(ofKind).map(([kind, { times, ...funnel }]) =>
     ({ scene: sceneOf(step), step: stepNumber(step), kind, ...funnel, ...times })));

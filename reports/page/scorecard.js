@@ -127,9 +127,9 @@ function inOrder(verdicts) {
 const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
 
 /**
- * The rows of clean subjects to fold into one row. These are the clean subjects on the precision ladder or,
- * if too many other clean subjects would remain, all clean subjects. Nothing is folded if there are few clean
- * subjects.
+ * The rows of clean subjects to fold into one row. These are the clean subjects on the precision ladder (one
+ * algorithm in several scalar types) or, if too many other clean subjects would remain, all clean subjects.
+ * Nothing is folded if there are few clean subjects.
  */
 function foldedRows(rows) {
   const good = rows.filter(isGood);

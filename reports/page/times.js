@@ -1,4 +1,5 @@
-// Draws times of impact: their error against run time, a table, and histograms on both sides of t*.
+// Draws times of impact: their error against run time, a table, and histograms on both sides of t*, the exact
+// earliest time.
 "use strict";
 
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
@@ -88,8 +89,8 @@ function drawTimes() {
 // --- histograms -----------------------------------------------------------------------------------
 
 /**
- * The two histograms of a row as one, from the earliest time to the latest: bin i of the times before t* is
- * at place -i, bin i of the times after t* at place i.
+ * The two histograms of a subject and kind as one, from the earliest time to the latest: bin i of the times
+ * before t* (the exact earliest time) is at place -i, bin i of the times after t* at place i.
  */
 function binsOfErrors(row) {
   const { early_histogram: early, after_histogram: after } = row;

@@ -119,7 +119,8 @@ function makeViewer(shown) {
   const now = made("output");
   const play = made("button", "play", { type: "button" });
   /**
-   * The span of time that the slider covers. It surrounds t*, and becomes shorter when the user zooms in.
+   * The span of time that the slider covers. It surrounds the time of the contact (without contact, that of
+   * the smallest distance), and becomes shorter when the user zooms in.
    */
   const span = () => [Math.max(0, shown.time - 1 / view.zoom), Math.min(1, shown.time + 1 / view.zoom)];
 

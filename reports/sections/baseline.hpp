@@ -32,10 +32,10 @@ struct SubjectCode {
 
 SubjectCode code_of(const Campaign& campaign, const std::string& subject);
 
-/// When the baseline saw a signature: the dates of the first and the last campaign that saw it, the subject's
-/// code in these two campaigns, and the number of campaigns that saw it. `next_code` is the subject's code in
-/// the first later campaign that had other code and did not show the signature; it is empty if the baseline
-/// has no such campaign.
+/// When the baseline saw a signature (a way to fail): the dates of the first and the last campaign that saw
+/// it, the subject's code in these two campaigns, and the number of campaigns that saw it. `next_code` is the
+/// subject's code in the first later campaign that had other code and did not show the signature; it is empty
+/// if the baseline has no such campaign.
 struct Sightings {
   std::string first, last;
   std::size_t campaigns = 0;
@@ -65,7 +65,8 @@ struct ChangedSignatures {
   std::vector<std::string> absent_subjects = {};
 };
 
-/// Compares the signatures of a campaign with those of its baseline: earlier campaigns, the oldest first.
+/// Compares the signatures (ways to fail) of a campaign with those of its baseline: earlier campaigns, the
+/// oldest first.
 ///
 /// If a subject has no failure of a sort (Finding::What) in the baseline, each failure of that sort is new. A
 /// failure of the oracle that the baseline does not have is always new. A subject that already fails in the
@@ -80,9 +81,9 @@ struct ChangedSignatures {
 /// explains, than in the last campaign of the baseline. Therefore campaigns in which a fault was absent do
 /// not make the fault new again.
 ///
-/// The steps of a sweep share their random draws, so the queries of a campaign with sweeps are not
-/// independent samples. Therefore the test counts draws: the smallest number of draws that could have made
-/// the queries.
+/// The steps of a sweep (a family with different values of its parameter) share their random draws, so the
+/// queries of a campaign with sweeps are not independent samples. Therefore the test counts draws: the
+/// smallest number of draws that could have made the queries.
 ///
 /// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
 /// different ratios for different families, and the families in which a signature was seen are not recorded.
@@ -163,9 +164,9 @@ struct ComparedTimes {
 ///
 /// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
 /// parts. One part follows from the spread among batches. The other part is estimated from the spread among
-/// the subject's families, most of which have not changed; for a subject as a whole, or with only a few
-/// families, it is an assumed value. If there are several earlier campaigns, the variance is at least the
-/// variance between these campaigns.
+/// the subject's families, most of which have not changed; it is an assumed value for a subject as a whole,
+/// and for the families of a subject that has only a few. If there are several earlier campaigns, the
+/// variance is at least the variance between these campaigns.
 ///
 /// @param risk the probability of calling some time changed although none has changed; each comparison has an
 /// equal part of this risk (Bonferroni)

@@ -28,7 +28,7 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// The sum of the last proportion and of all earlier proportions that differ from the last one by no more
+/// The sum of the last campaign's proportion and of those of earlier campaigns that differ from it by no more
 /// than chance explains.
 Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   Proportion sum;
@@ -60,8 +60,8 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// The largest numbers of failures that count as few. rates_where_few() tries all three thresholds, because
-/// larger campaigns have more failures.
+/// Up to such a number, failures count as few. rates_where_few() tries all three thresholds, because larger
+/// campaigns have more failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
@@ -74,9 +74,10 @@ struct FewFailures {
 };
 
 /// For each rate, the pairs of family and kind with 1 to `few` failures in the campaign and its baseline
-/// together. The steps of a sweep share their draws, so they are not independent samples: only the step with
-/// the most failures is included. Selecting pairs by the sum of both counts favours neither the campaign nor
-/// the baseline, so a test of the selected pairs stays valid.
+/// together. The steps of a sweep (a family with different values of its parameter) share their draws, so
+/// they are not independent samples: only the step with the most failures is included. Selecting pairs by the
+/// sum of both counts favours neither the campaign nor the baseline, so a test of the selected pairs stays
+/// valid.
 std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
   std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;

@@ -45,7 +45,7 @@ std::vector<std::string> absent_subjects(const Statistics& now, const Statistics
   return absent;
 }
 
-/// The date of a campaign: the earliest start of a shard; "" if it is not known.
+/// The date of a campaign: the start of the shard that began first; "" if it is not known.
 std::string date_of(const Campaign& campaign) {
   std::string date;
   for (const Run& run : campaign.runs)
@@ -106,9 +106,9 @@ struct Chances {
   std::uint64_t before = 0;  ///< number of random queries in the baseline that could have shown the failure
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
   double most = 0;           ///< the largest such ratio
-  /// The largest number of queries that share one random draw. The steps of a sweep share their draws: a
-  /// failure that was seen 40 times in 20 steps may come from two draws. To be safe, the tests count draws
-  /// and not queries.
+  /// The largest number of queries that share one random draw. The steps of a sweep (a family with different
+  /// values of its parameter) share their draws: a failure that was seen 40 times in 20 steps may come from
+  /// two draws. To be safe, the tests count draws and not queries.
   std::uint64_t repeats = 1;
 
   [[nodiscard]] bool known() const { return before != 0; }

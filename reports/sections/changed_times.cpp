@@ -20,10 +20,11 @@ namespace {
 /// A subject's families are compared with each other if there are at least this many pairs of family and
 /// kind.
 constexpr std::size_t fewest_families = 8;
-/// Assumed standard deviations of log(time now / time before) if nothing has changed. Their squares are added
-/// to the variance that follows from the spread among batches. `spread_of_family` is a lower limit, for a
-/// family that is compared with the subject's other families. `spread_of_subject` is for a subject that is
-/// compared with other subjects, `spread_of_machine` for the only subject of a campaign.
+/// Standard deviations of log(time now / time before) if nothing has changed. Their squares are added to the
+/// variance that follows from the spread among batches. For a family that is compared with the subject's
+/// other families, the standard deviation is estimated from their spread; it is at least `spread_of_family`.
+/// It is assumed to be `spread_of_subject` for a subject that is compared with other subjects, and
+/// `spread_of_machine` for the only subject of a campaign.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
@@ -79,7 +80,8 @@ struct Variance {
     product.weight = square(factor) * weight;
     return product;
   }
-  /// The degrees of freedom; for a sum of variances, the approximation of Welch and Satterthwaite.
+  /// The degrees of freedom of the variance; for a sum of variances, the approximation of Welch and
+  /// Satterthwaite.
   [[nodiscard]] double degrees_of_freedom() const { return std::min(square(value) / weight, 1e6); }
 };
 

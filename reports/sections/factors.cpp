@@ -47,7 +47,7 @@ ordered_json common_factors_json(const Statistics& statistics) {
 
 namespace {
 
-/// The ranges of values at which a subject is right, by factor and kind.
+/// The ranges of values at which a subject is right, by factor (such as the edge length) and kind.
 using Ranges = std::map<std::pair<std::string, Kind>, RightRange>;
 
 /// The edge lengths and the distances at which a subject is right, for one kind or for all kinds.

@@ -57,7 +57,7 @@ struct Fit {
   [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 
-/// The distance bound that an algorithm claims for ε = 2^exponent, in units of B.
+/// The distance bound that an algorithm claims for ε = 2^exponent, in units of B, the size of a pair.
 double claimed_distance(const std::string& algorithm, int exponent) {
   const ToleranceConstants c = algorithm == "wang" ? closed_forms(exponent) : solve_tight(exponent);
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
@@ -103,11 +103,13 @@ nlohmann::ordered_json place_json(const LadderPlace& place) {
 
 namespace {
 
-/// The rungs of wang and wang-tight, one for each scalar in the statistics, by ascending precision. Counts
-/// only queries of the origin `only` (family.hpp), or of all origins if it is "".
+/// The rungs (subjects of the precision ladder) of wang and wang-tight, one for each scalar in the
+/// statistics, by ascending precision. Counts only queries of the origin `only` (family.hpp), or of all
+/// origins if it is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
-  // The fits test the exponent of the bound 41 B ε^¼, which holds for vertex-triangle and edge-edge.
+  // The fits test the exponent of ε in the bound 41 B ε^¼ (B: the size of the pair), which holds for
+  // vertex-triangle and edge-edge.
   for (const auto& [key, counts] : statistics.counts)
     if (is_of_meshes(key.kind) && (only.empty() || origin(key.family) == only))
       by_subject[key.subject].add(key.family, counts);

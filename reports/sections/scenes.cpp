@@ -18,7 +18,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The first cell of the row for each PairFate.
+/// The first cell of the table's row for each PairFate, which says what becomes of a pair.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};

@@ -30,8 +30,8 @@ nlohmann::ordered_json sizes_json(const Statistics& statistics);
 /// "89 % of the missed ones have scale=1e-6, and 20 % of all": percentages of the missed collisions and of
 /// all collisions.
 std::string to_text(const CommonFactors& common);
-/// The factors that missed collisions have in common: a line (or an object in JSON) for each subject, kind
-/// and family with factors and misses.
+/// The values of factors (properties that a family varies) that missed collisions have in common: a line (or
+/// an object in JSON) for each subject, kind and family with factors and misses.
 std::string common_factors_lines(const Statistics& statistics);
 nlohmann::ordered_json common_factors_json(const Statistics& statistics);
 
@@ -81,14 +81,15 @@ nlohmann::ordered_json ladder_json(const Statistics& statistics);
 /// Error against run time, over the kinds and families that all compared subjects were asked about:
 ///   "left_out"            the names of the timed subjects that are not compared
 ///   "subjects"            for each subject ns_per_query, rates, the farthest distance, the sort of its
-///                         times, and the median, the 99 % quantile and the largest magnitude of time - t*;
-///                         for a sound lower bound this magnitude is how early the time is
+///                         times, and the median, the 99 % quantile and the largest magnitude of time - t*,
+///                         where t* is the exact earliest time; for a sound lower bound this magnitude is
+///                         how early the time is
 ///   "front_by_distance"   the Pareto front by the farthest distance
 ///   "front_by_rate"       the Pareto front by the rate of false positives
 ///   "front_by_earliness"  the Pareto front by the 99 % quantile of earliness, for sound lower bounds
 ///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
-///                         B, because fractions of different bounds cannot be compared, and the
-///                         "paper_bound" of double
+///                         B, the size of a pair, because fractions of different bounds cannot be compared,
+///                         and the "paper_bound" of double
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
 /// A subject's place on a precision ladder (one algorithm in several scalar types). For a subject that is not

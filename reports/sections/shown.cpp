@@ -92,7 +92,8 @@ const Run* run_of(const Campaign& campaign, const Finding& finding) {
   return nullptr;
 }
 
-/// The argument that names a subject's plug-in on the machine that ran it; nothing for a built-in subject.
+/// The argument of --subject that names a subject's plug-in, with its path on the machine that ran the
+/// subject; nothing for a built-in subject.
 std::optional<std::string> plugin_text(const Run& run, const std::string& subject) {
   for (const Shard& shard : run.shards)
     if (const auto text = shard.environment.find(std::string(about_plugin) + subject);
@@ -101,7 +102,7 @@ std::optional<std::string> plugin_text(const Run& run, const std::string& subjec
   return std::nullopt;
 }
 
-/// The argument that names a subject of a run. The argument includes the scene's bound if the subject was
+/// The argument of --subject that names a subject of a run. It includes the scene's bound if the subject was
 /// asked with that bound.
 std::string text_of(const Run& run, std::string subject) {
   if (is_beyond_contract(subject)) subject.resize(subject.size() - beyond_contract.size());

@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Sums of counters over all kinds, by the value of a sweep's parameter.
+/// Sums of counters over all kinds, by the value of the parameter that a sweep varies.
 using Sweep = std::map<double, CountsSum>;
 
 /// Sums of counters over all kinds, by class of families and value of a subject's option.

@@ -32,7 +32,8 @@ struct TradeOff {
   CountsSum all;
   LadderPlace place;
 
-  /// Distance of the subject's farthest false positive in units of B; nothing if the unit is not known.
+  /// Distance of the subject's farthest false positive in units of B, the size of a pair; nothing if the
+  /// bound by which the subject's distances are divided is not known.
   [[nodiscard]] std::optional<double> farthest() const {
     if (all.counts.false_positives == 0) return 0;
     return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;

@@ -47,7 +47,7 @@ struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count
 
-  /// The two-sided p-value: twice the smaller of both probabilities, but at most 1.
+  /// The two-sided p-value: twice the smaller one-sided p-value, but at most 1.
   [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
 };
 

@@ -59,7 +59,8 @@ constexpr bool declares_all_members() {
   return declared == sizeof(Owner);
 }
 
-/// The largest sum of counts, or of nanoseconds (36 years). A few sums of this size add up without overflow.
+/// The largest sum of counts; as a sum of nanoseconds, 36 years. A few sums of this size add up without
+/// overflow.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
 /// Throws Error if the sum is greater than largest_count.

@@ -22,7 +22,8 @@
 namespace nearmiss {
 
 /// A query that is kept because its answer is among the most extreme: a false positive whose primitives are
-/// among the farthest apart, or a time that is among the earliest or the latest relative to t* (TimeError).
+/// among the farthest apart, or a time that is among the earliest or the latest relative to t*, the exact
+/// earliest time.
 struct FarCase {
   double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or |time - t*|
   Query query;
@@ -42,9 +43,9 @@ void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
 struct TimeError {
   double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
   double after = 0;  ///< time - t* if that is positive, as precise as Outcome::ratio
-  /// How early the time is, as a distance divided by the pair's bound B, rounded. The distance is an upper
-  /// bound of how far a vertex of one primitive moves relative to a vertex of the other between the time and
-  /// t*.
+  /// How early the time is, as a distance divided by B, the size of the pair, rounded. The distance is an
+  /// upper bound of how far a vertex of one primitive moves relative to a vertex of the other between the
+  /// time and t*.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below the separation h, before a promised lower bound
@@ -186,9 +187,9 @@ struct Counts {
     return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
-  /// The largest t* - time (0 if no time is early); max_after() is the largest time - t* (0 if no time is
-  /// after t*).
+  /// The largest t* - time, where t* is the exact earliest time; 0 if no time is before t*.
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
+  /// The largest time - t*; 0 if no time is after t*.
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
   /// The smallest ratio of a further case that the list `kept` would keep; 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {

@@ -67,7 +67,7 @@ std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
 std::vector<CommonFactors> common_factors(const FactorTable& table) {
   std::vector<CommonFactors> best;
   for (const auto& [key, with] : table) {
-    // right_ranges() covers the factors that are powers of two.
+    // right_ranges() covers the factors whose values are powers of two.
     if (key.values.empty() || with.false_negatives == 0 || power(key.values)) continue;
     FactorKey all = key;
     all.values.clear();
@@ -96,7 +96,7 @@ double false_positive_rate(const FactorCounts& counts) {
 
 constexpr double improbable = 1e-4;
 
-/// The answers at one value 2^x, and whether they have misses or too many false positives.
+/// The answers at one value 2^x of a factor, and whether they have misses or too many false positives.
 struct Level {
   int x;
   FactorCounts counts;
@@ -159,9 +159,9 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
   return longest;
 }
 
-/// Whether chance may explain that none of the `collisions` in a run of levels is missed. `outside` has the
-/// levels on one side of the run, nearest first. Tries several rates of misses: that of the nearest level,
-/// that of the nearest two levels together, and so on. False if the nearest level has no misses.
+/// Whether chance may explain that none of the `collisions` at a run of values is missed. `outside` has the
+/// values on one side of the run, nearest first. Tries several rates of misses: that of the nearest value,
+/// that of the nearest two values together, and so on. False if the nearest value has no misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

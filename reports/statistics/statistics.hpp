@@ -1,5 +1,5 @@
-// The counters of a campaign. The result of merging the statistics of its shards is the same to the last
-// byte, whatever the number and the order of the shards.
+// The counters of a campaign. The result of merging the statistics of its shards (parts that run separately)
+// is the same to the last byte, whatever the number and the order of the shards.
 #pragma once
 
 #include <cstdint>

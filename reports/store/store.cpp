@@ -72,7 +72,8 @@ std::vector<Run> read_runs(Reader& read) {
   return all;
 }
 
-/// Rows for consecutive findings of a run. `first` is the place of the first of these findings in the run.
+/// The rows of the table of findings for consecutive findings of a run. `first` is the place of the first of
+/// these findings in the run.
 Findings rows_of(std::uint64_t run, std::span<const Finding> findings, std::uint64_t first = 0) {
   Findings rows;
   for (const Finding& each : findings) rows.emplace(std::pair{run, first++}, each);

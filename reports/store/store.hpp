@@ -19,9 +19,9 @@ class StoreIsLocked : public Error {
   using Error::Error;
 };
 
-/// The file to which a running shard saves its results. Every save is one transaction: the file gets all of
-/// it or nothing. Earlier saves survive a full disk, an interrupt or a kill. Only one process at a time
-/// writes a file; others may read it meanwhile.
+/// The file to which a shard (one machine's part of a run) saves its results while it runs. Every save is
+/// one transaction: the file gets all of it or nothing. Earlier saves survive a full disk, an interrupt or a
+/// kill. Only one process at a time writes a file; others may read it meanwhile.
 class Store {
  public:
   /// Whether the file is a store that can be resumed. A kill while a store is made may leave a database
@@ -38,7 +38,7 @@ class Store {
                  const std::function<void()>& check = {});
   ~Store();
 
-  /// Replaces the statistics and the shard, and adds the findings that are new since the last save. If the
+  /// Replaces the file's statistics and shard, and adds the findings that are new since the last save. If the
   /// file cannot be written, throws Error (for example StoreIsLocked) and leaves the file unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 

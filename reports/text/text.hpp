@@ -21,7 +21,7 @@ std::string with_separators(std::uint64_t number);
 /// A part of a total as "12.3 %"; "" if the total is 0.
 std::string percent(std::uint64_t part, std::uint64_t total);
 
-/// The number that the whole text represents; nothing if it is not a number.
+/// The number that the whole text represents; nothing if the text is not a number.
 std::optional<double> number_in(std::string_view text);
 
 /// A time in ns, rounded to a whole number; "-" if the time is not known.

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double eps = 0x1p-52;
 
-/// A pair whose bound B is 1, and whose velocities are within 1. Its vectors are not used.
+/// A pair with B = 1, the bound of its relative positions and velocities, and W = 1, the bound of the
+/// velocities alone. Its vectors are not used.
 Pair<Kind::vertex_triangle, double> unit_pair() {
   Pair<Kind::vertex_triangle, double> pair;
   for (Moving<double>* vector : {&pair.p, &pair.q, &pair.r}) vector->xv.setZero();
@@ -22,7 +23,8 @@ Pair<Kind::vertex_triangle, double> unit_pair() {
   return pair;
 }
 
-/// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, and a vertex whose first weight is `weight`.
+/// A triangle with ‖q‖₁ = ‖r‖₁ = 1 for its edges q and r, and ‖N‖₁ = 1 for its normal N, and a vertex whose
+/// first weight is `weight`.
 template <class Wide = double>
 Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
   Configuration<Kind::vertex_triangle, double, Wide> configuration(unit_pair(), 0.5);
@@ -34,10 +36,11 @@ Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
   return configuration;
 }
 
-/// A linear F with this slope and with the root 1/2.
+/// A linear F, the coplanarity cubic, with this slope and with the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
-/// Tolerances with μ = 2^-40 and with `h`; all other tolerances are 0.
+/// Tolerances with μ = 2^-40, the limit for |F| at a computed root, and with `h`, half the width of an
+/// interval around the root; all other tolerances are 0.
 Tolerances<double> tolerances(double h) {
   Tolerances<double> tol{};
   tol.mu = 0x1p-40;
@@ -45,7 +48,8 @@ Tolerances<double> tolerances(double h) {
   return tol;
 }
 
-/// The value that |F| must exceed next to a root: μ + 2E + m, with E = 865 ε and m = 60 ε.
+/// The value that |F| must exceed next to a root: μ + 2E + m, with E = 865 ε, the error of the computed F,
+/// and m = 60 ε, which the solver's nodes add.
 constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
 /// The rounding errors of a weight, and of the bound on the weight's movement.
 constexpr double rounding = (1160 + 4400) * eps;
@@ -55,7 +59,8 @@ bool culled(double slope, double weight, double h = 0) {
   return excludes_collision<culling>(unit_pair(), line(slope), with_weight<Wide>(weight), 0.5, tolerances(h));
 }
 
-// For a line of slope 1, h is 4 * threshold. A weight may then move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
+// For a line of slope 1, the interval around the root has the half width h = 4 * threshold. In this interval,
+// a weight may move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
 TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRounding) {
   const double slack = 2 * std::sqrt(3.0) * 4 * threshold + rounding;
   for (const double outside : {-slack, 1 + slack}) {
@@ -78,7 +83,7 @@ TEST(VeCulling, TheFixedIntervalOfThePaperIsTheSquareRootOfEpsilon) {
   EXPECT_EQ(paper_tolerances(3.0).h, 0x1p-26);
 }
 
-// A weight moves by at most 9 B⁴ h.
+// In the interval of half width h, a weight moves by at most 9 B⁴ h.
 TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
   for (const double h : {0x1p-26, 0x1p-10}) {
     const double slack = 9 * h + rounding;
@@ -115,7 +120,7 @@ TEST(VeCulling, TimesOutsideTheStepNeedNotBeBracketed) {
   EXPECT_FALSE(detail::brackets_root(F, 0.75, 0.5, 1.0));
 }
 
-// Four thresholds must be less than the slope, so that h, their quotient, is less than 1.
+// Four thresholds must be less than the slope, so that the half width h, their quotient, is less than 1.
 TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
   EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
   EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));

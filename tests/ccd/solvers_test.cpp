@@ -63,7 +63,7 @@ TEST(Cubic, ThreeRoots) {
 TEST(Cubic, NoRoot) { EXPECT_TRUE(cubic_roots({0, 1, -1, 1}, 1e-9).empty()); }
 
 TEST(Cubic, NearlyNoRootWithinTheResidual) {
-  // (t - 1/2)² + 1e-12 is above 0 everywhere, but its minimum is below μ.
+  // (t - 1/2)² + 1e-12 is above 0 everywhere, but its minimum is below μ, the limit for |F|.
   EXPECT_FALSE(cubic_roots({0, 1, -1, 0.25 + 1e-12}, 1e-9).empty());
 }
 
@@ -82,8 +82,8 @@ TEST(Cubic, EndsEvenWhereTheResidualCannotBeReached) {
   }
 }
 
-// The claim of the paper's Appendix B: for each root t0, the solver returns a t such that |F| <= μ from t0 to
-// t.
+// The claim of the paper's Appendix B: for each root t0 of the cubic F, the solver returns a t such that |F|
+// is at most its limit μ from t0 to t.
 TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
   const double mu = 64 * std::ldexp(1.0, -39);
   for (std::uint64_t i = 0; i < 5000; ++i) {

@@ -41,14 +41,15 @@ TEST(Tolerances, AreThePapersForDouble) {
 
 TEST(VertexVertex, ReportsWhatIsWithinD) {
   const double D = std::sqrt(tol.D2);
-  // Two vertices pass each other at distance D at t = 1/2, rest at this distance, or pass slightly farther
-  // apart.
+  // D is the threshold of the test. Two vertices pass each other at distance D at t = 1/2, rest at this
+  // distance, or pass slightly farther apart.
   EXPECT_EQ(vertex_vertex(moving({D, -0.5, 0}, {0, 1, 0}), tol), 0.5);
   EXPECT_EQ(vertex_vertex(moving({D, 0, 0}, {0, 0, 0}), tol), 0);
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
 }
 
-// D² = 1, δ = 2^-10 and the squared distance, which is their sum, have no rounding errors.
+// The test accepts squared distances up to D² + δ. Here, D² = 1, δ = 2^-10 and their sum have no rounding
+// errors.
 TEST(VertexVertex, AcceptsASquaredDistanceOfD2AndDelta) {
   Tolerances<double> unit{};
   unit.D2 = 1;
@@ -63,8 +64,8 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_EQ(vertex_vertex(moving({0.5, 0, 0}, {-0.5, 0, 0}), tol), 1);
 }
 
-// The tests below have a vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. No case that
-// the algorithm tries earlier reports the pair.
+// The paper's Algorithm 2 tries the cases of the Karush-Kuhn-Tucker conditions one after the other. For each
+// case, a test below has a vertex-edge pair that no earlier case reports.
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -83,7 +84,8 @@ TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
 
 TEST(VertexEdge, Case2AtTheMinimumOfOnePiece) {
   // A vertex grazes a turning edge. No component of the cross product of the edge and x0i comes near zero;
-  // otherwise, case 4 would report the pair. The pair was found by random search; its bound B is 2.64.
+  // otherwise, case 4 would report the pair. The pair was found by random search; B, the bound of its
+  // relative positions and velocities, is 2.64.
   const Vector vertex(-0x1.5d08p+0, 0x1.3c7p-2, 0x1.075cp-2);
   const Vector vertex_end(0x1.4418p-2, -0x1.629p-4, -0x1.50ap-4);
   const Vector edge(-0x1.ebc8p-1, 0x1.6ce8p-2, 0x1.7e48p-2);
@@ -117,8 +119,8 @@ TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {
-  // The vertex passes the end xj at a third of D, outside of the edge, so the vertex's projection is never
-  // inside the edge.
+  // D is the threshold for two vertices. The vertex passes the end xj at a third of D, outside of the edge,
+  // so the vertex's projection is never inside the edge.
   const double d = std::sqrt(tol.D2) / 3;
   const auto pair = vertex_edge_pair(moving({0.5 + d, -0.5, 0}, {0, 1, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
@@ -158,7 +160,8 @@ std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   return text.str();
 }
 
-// Algorithm 2's promise, on which VT and EE rely: every vertex that comes within R of the edge is reported.
+// Algorithm 2's promise, on which vertex-triangle and edge-edge tests rely: every vertex that comes within
+// the threshold R of the edge is reported.
 TEST(VertexEdge, ReportsWhateverComesWithinR) {
   for (std::uint64_t i = 0; i < 50000; ++i) {
     Random random(3, 0, i);

@@ -62,8 +62,8 @@ TEST(Wang, TellsWhatRejectedAPair) {
   EXPECT_EQ(rejection("wang", falling_vertex(0.25, 0.25, 1, -1)), Rejection::untold);
 }
 
-// |F| is always below its threshold, so the solver returns only t = 0, where the vertex is outside of the
-// triangle. Therefore t = 1 must be tested separately.
+// |F|, the magnitude of the coplanarity cubic, is always below its threshold, so the solver returns only t =
+// 0, where the vertex is outside of the triangle. Therefore t = 1 must be tested separately.
 TEST_P(EveryWang, TestsTheEndOfTheStepWhereTheCubicSeesOnlyItsStart) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
   const Verdict verdict =
@@ -80,7 +80,8 @@ TEST_P(EveryWang, DoesNotReportWhatStaysFarAway) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 5, 5)).hit);
 }
 
-// If B = 0, every threshold is 0, so each test must accept equality.
+// If B, the bound of all relative positions and velocities, is 0, every threshold is 0, so each test must
+// accept equality.
 TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   const Tolerances<double> tol = paper_tolerances(0.0);
   Moving<double> rest;

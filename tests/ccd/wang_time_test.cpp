@@ -95,8 +95,8 @@ TEST(WangTime, DoesNotDependOnAGivenBound) {
   EXPECT_EQ(make_subject("wang-time@1e3")->decide(query).time, decide(query).time);
 }
 
-// The pair is reported only because the caller gives a large bound B, 1e6. It has no contact, so 1 is a lower
-// bound.
+// The pair is reported only because the caller gives a large bound of all lengths, B = 1e6. It has no
+// contact, so 1 is a lower bound.
 TEST(WangTime, IsOneWithoutContact) {
   const Query query = falling_vertex(0.25, 0.25, 2, 1);
   const Verdict verdict =

@@ -20,7 +20,8 @@ using testing::expect_more;
 using testing::first_queries;
 using testing::first_time;
 
-/// Expects that the distance first reaches h at `time`, and is below h immediately after that time.
+/// Expects that the distance first reaches the query's separation h at `time`, and is below h immediately
+/// after that time.
 void expect_above_before_and_below_after(const Query& query, double time) {
   const Span before{0, time, true};
   if (time > 0) {

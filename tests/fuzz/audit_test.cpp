@@ -24,8 +24,8 @@ std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() cons
   return names;
 }
 
-// The paper assumes that relative positions of edges are within B. All constants that depend on this
-// assumption, except δ, are too small.
+// The paper assumes that relative positions of edges are within B, the pair's bound. All constants that
+// depend on this assumption, except δ, that of a squared distance, are too small.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   EXPECT_THAT(names_of(&RoundingConstant::is_too_small),
               ElementsAre("VE of EE: weight", "VE of EE: barycentric test", "EE: weight, far p",

@@ -1,4 +1,5 @@
-// A campaign gives the same result with any number of threads, shards and interruptions.
+// A campaign gives the same result with any number of threads, shards (parts that run separately) and
+// interruptions.
 #include "fuzz/trial/campaign.hpp"
 
 #include <gtest/gtest.h>

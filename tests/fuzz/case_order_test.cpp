@@ -9,7 +9,7 @@
 namespace nearmiss {
 namespace {
 
-/// A plan of three families, with blocks of 10, 20 and 30 cases.
+/// A plan of three families, of which the first round asks 10, 20 and 30 cases.
 CampaignPlan plan_of(std::uint64_t cases) {
   CampaignPlan plan;
   plan.cases = cases;
@@ -20,7 +20,8 @@ CampaignPlan plan_of(std::uint64_t cases) {
   return plan;
 }
 
-/// The blocks of a plan's shard, in order, joined from the slices that CasesOfShard gives.
+/// The blocks of a plan's shard, in order. A block has the cases of one family in one round; CasesOfShard
+/// gives it in slices, which are joined here.
 class Blocks {
  public:
   explicit Blocks(const CampaignPlan& plan, std::uint64_t done = 0) : cases_(plan, done) {

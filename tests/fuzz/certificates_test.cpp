@@ -57,7 +57,8 @@ TEST(CertificateOfEveryFamily, ProvesTheDecision) {
   });
 }
 
-/// Expects a proof that, before the given time, the primitives touch or, for h > 0, are closer than h.
+/// Expects a proof that a time is late. Without a separation: the primitives touch before this time. With a
+/// separation: they are closer than the separation before this time.
 void expect_late(const Query& query, double time) {
   const auto text = certify_meets(query, {0, time, true}, query.separation > 0);
   ASSERT_TRUE(text);
@@ -125,7 +126,7 @@ TEST(Certificate, HasNoLongerNumbersThanTheCheckersRead) {
   }
 }
 
-// The distance is below h for less than 2^-5000 of the step, at an irrational time.
+// The distance is below the separation for less than 2^-5000 of the step, at an irrational time.
 TEST(Certificate, ProvesACollisionThatLastsNearlyNoTime) {
   constexpr double far = 0x1p1018;
   constexpr double tiny = 0x1p-1070;

@@ -98,7 +98,8 @@ TEST(Classify, EdgesThatDifferByMoreThan1000AreDegenerate) {
 }
 
 TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
-  // For the vertex at height z: F = z, A = 4 / 3, g² = 6 + z² (fuzz/families/README.md).
+  // The limit is |F| = 1e-6 A g (fuzz/families/README.md). For a vertex at height z, F = z, A = 4 / 3 and g²
+  // = 6 + z².
   const double border = 0x1.b65a6f833cc0fp-19;
   EXPECT_TRUE(is_degenerate(falling_vertex(2, 2, border, 1)));
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, above(border), 1)));
@@ -175,7 +176,8 @@ TEST(Classify, ContactNearlyAtAnEndOfAnEdgeIsDegenerate) {
   EXPECT_TRUE(is_ordinary(query));
 }
 
-/// A query with F = 2 (ε² - a²), where a = 2 t - 1. The edges cross at both roots, a = ε and a = -ε.
+/// A query whose coplanarity cubic F is 2 (ε² - a²), where a = 2 t - 1. The edges cross at both roots, a = ε
+/// and a = -ε.
 Query turning_edge(double squared_epsilon) {
   const double e = squared_epsilon / 2;
   const Vector a(-1, 0, 0), b(1, 0, 0);

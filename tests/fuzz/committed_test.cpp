@@ -63,7 +63,7 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
 }
 
 /// A subject that reports every collision. The subject's time is the largest double or float that is not
-/// after t*, minus `early`.
+/// after the earliest time t*, minus `early`.
 std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;

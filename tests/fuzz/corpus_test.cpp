@@ -85,7 +85,8 @@ TEST(Corpus, EachDefectMissesItsOwnCase) {
   EXPECT_GE(missed.size(), 35U);
 }
 
-// For each KKT case of Algorithm 2, the corpus has a query that no other case reports.
+// The paper's Algorithm 2 tries several cases in turn. For each of them, the corpus has a query that no
+// earlier case reports.
 TEST(Corpus, EachVertexEdgeCaseAcceptsItsOwn) {
   const std::map<std::string, Stage> stages{
       {"case-1-end.case", Stage::ve_end},     {"case-2-minimum.case", Stage::ve_minimum},

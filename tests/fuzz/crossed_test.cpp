@@ -1,5 +1,5 @@
 // The family `crossed`: queries have the properties that the values of their factors name, contacts are
-// exact, and no pair of values is missing that the family makes.
+// exact, and every pair of values that the family can make occurs.
 #include "fuzz/families/crossed.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ using testing::at_rest;
 
 constexpr std::uint64_t seed = 5;
 
-/// Whether, in queries with these levels, the primitives touch exactly at the time of contact, by
-/// construction.
+/// Whether the family makes queries with these levels (values of its factors) such that the primitives touch
+/// exactly, without rounding, at a time in [0, 1].
 bool touches(const Levels& levels) {
   return levels.when() != When::outside && levels.where() != Where::outside;
 }
@@ -66,7 +66,7 @@ TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
   });
 }
 
-/// The number of sign changes of F from just before t = 0 to just after t = 1.
+/// The number of sign changes of F, the coplanarity cubic, from just before t = 0 to just after t = 1.
 int sign_changes(const Query& query) {
   const auto at = [&](int vertex, double t) -> Vector3<double> {
     return query.start(vertex) + t * (query.end(vertex) - query.start(vertex));
@@ -84,8 +84,9 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // For values of `roots`, `at_contact` has the multiplicity of the root at the contact, if it is not 1 (0 if
-  // F is zero). `simple` has the number of roots in the step, if all of them are simple.
+  // For a value of the factor `roots`, `at_contact` has the multiplicity of the root at the contact, or 0 if
+  // F is zero everywhere; values with multiplicity 1 are left out. `simple` has the number of roots in the
+  // step for each value with which all of them are simple.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

@@ -87,7 +87,7 @@ inline Query reversed(Query query) {
   return query;
 }
 
-/// The earliest time at which the distance is at most h. This time must be a double.
+/// The earliest time at which the distance is at most the separation. This time must be a double.
 inline double first_time(const Query& query) {
   const auto [lo, hi] = earliest_time(query)->enclosure();
   EXPECT_EQ(lo, hi);

@@ -16,7 +16,7 @@ namespace {
 using testing::falling_vertex;
 
 /// A vertex at a height above the triangle with the corners (0 0 0), (width 0 0) and (0 1 0). Width and
-/// height change linearly, and F is a multiple of their product.
+/// height change linearly, and F, the coplanarity cubic, is a multiple of their product.
 Query two_factors(double width_start, double width_end, double height_start, double height_end) {
   Query query = falling_vertex(0.25, 0.25, height_start, height_end);
   query.set_start(2, {width_start, 0, 0});

@@ -28,7 +28,7 @@ using Rational = mp::mpq_rational;
 
 Rational exactly(const DoubleDouble& a) { return Rational(a.value().x[0]) + Rational(a.value().x[1]); }
 
-/// The relative error of a result, in units of ε.
+/// The relative error of a result, in units of double-double's ε, 2^-102.
 double error(const DoubleDouble& computed, const Rational& exact) {
   if (exact == 0) return exactly(computed) == 0 ? 0 : std::numeric_limits<double>::infinity();
   const Rational relative = abs((exactly(computed) - exact) / exact);

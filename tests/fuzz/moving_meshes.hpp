@@ -64,8 +64,8 @@ inline Scene scene_of(const MovingMesh& mesh) {
           .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
 }
 
-/// How many of a plan's pairs have each PairFate, and which pairs collide. The oracle decides the pairs about
-/// which the plan asks.
+/// How many of a plan's pairs have each PairFate (what the plan does with a pair), and which pairs collide.
+/// The oracle decides the pairs about which the plan asks.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

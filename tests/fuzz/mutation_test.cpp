@@ -74,7 +74,8 @@ TEST(Mutated, IsWhatItAlwaysWas) {
 
 // --- places ---------------------------------------------------------------------------------------------
 
-/// The vector between the two points of a Place, computed in more bits than a double has.
+/// The vector between the two points of a Place, one on each primitive, computed in more bits than a double
+/// has.
 std::array<long double, 3> gap(const Query& query, const Place& place) {
   const long double alpha = place.alpha;
   const long double beta = place.beta;

@@ -84,9 +84,9 @@ void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   EXPECT_GT(ratio, wanted);
 }
 
-// In float, the bound is 0.76 B, so the primitives of far false positives are nearly separated by many of the
-// planes that culling tests. In a fine scalar, the bound is tiny, and the search must make primitives as
-// small as the bound.
+// In float, the claimed bound is 0.76 times the pair's size B, so the primitives of far false positives are
+// nearly separated by many of the planes that culling tests. In a fine scalar, the bound is tiny, and the
+// search must make primitives as small as the bound.
 TEST(FarSearch, ComesNearTheBoundPastPlaneCullingAndInFineScalars) {
   expect_far(*make_any_subject("wang:float"), 0.8, 40);
   expect_far(*make_any_subject("wang-tight:p112"), 0.9, 10);

@@ -45,7 +45,8 @@ Tolerances<CgalInterval> enclosed(const T& B) {
   return all;
 }
 
-/// The largest E that the constraints allow: E² = 4 (R² - r²), with R² = S²/8 as in `constraints`.
+/// The largest E that the constraints allow for the length below which an edge counts as short: E² = 4 (R² -
+/// r²), with R² = S²/8 and r as in `constraints`.
 CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
                                 const RoundingErrors<CgalInterval>& errors) {
   const CgalInterval r = (tol.mu + errors.residual) / (tol.tau - errors.area);
@@ -54,8 +55,8 @@ CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
 
 void expect_constraints(const Tolerances<CgalInterval>& tol, const CgalInterval& eps, int exponent) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
-  // The constraints need to hold only for some E, so the test takes the lower end of the interval of the
-  // largest E.
+  // The constraints need to hold only for some length E, so the test takes the lower end of the interval of
+  // the largest E.
   const CgalInterval E = longest_short_edge(tol, errors).inf();
   for (const auto& each : constraints(tol, E, E, errors))
     EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
@@ -91,8 +92,8 @@ TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
   }
 }
 
-/// The constraints as functions of nine variables: the logarithms of τ, η, S, λ², D², both E, ψ and μ, each
-/// divided by a power of e = ε^¼. ρ is fixed.
+/// The constraints as functions of nine variables: the logarithms of τ, η, S, λ², D², E_vt, E_ee, ψ and μ,
+/// each divided by a power of e = ε^¼. ρ is fixed.
 struct ToleranceProblem {
   double eps;
   double rho;
@@ -119,8 +120,8 @@ struct ToleranceProblem {
   }
 };
 
-/// The smallest D² that NLopt finds when it starts at a point that satisfies the constraints, far from our
-/// solution.
+/// The smallest D² that NLopt finds when it starts at a point that satisfies the constraints, far from the
+/// solution of `solve_tight`.
 double lowest_D2(int exponent) {
   const ToleranceConstants c = solve_tight(exponent);
   ToleranceProblem problem{std::ldexp(1.0, exponent), c.rho};
@@ -170,8 +171,9 @@ TEST(ToleranceTable, HasTheseBounds) {
   }
 }
 
-// As ε grows, 64 ε^¾ >= 33492 ε is the first of the paper's constraints that the closed forms violate. The
-// solver needs less than 33492 ε, so μ is too small only below 13 bits.
+// As ε grows, the closed forms, which are the paper's formulas for the tolerances, first violate the
+// constraint of the cubic solver: μ = 64 ε^¾ must be at least 33492 ε. The solver needs less than 33492 ε, so
+// μ is too small only below 13 bits.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;

@@ -1,4 +1,4 @@
-// Measures the tightness of known tolerances.
+// Measures the tightness of known tolerances: how much smaller they could be.
 #include "fuzz/studies/tightness.hpp"
 
 #include <gmock/gmock.h>

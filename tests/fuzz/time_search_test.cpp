@@ -65,7 +65,8 @@ std::optional<Error> error_of(const Subject& subject, const Query& query) {
   return Error{verdict.time - earliest->enclosure().lo, earliest->makes_late(verdict.time)};
 }
 
-/// The largest value of sign * (time - t*) among the first queries of a family, where `sign` is 1 or -1.
+/// The largest value of sign * (time - t*) among the first queries of a family, where t* is the earliest
+/// time, and `sign` is 1 or -1.
 double largest(const Subject& subject, const Family& family, std::uint64_t queries, int sign) {
   double found = -1;
   for (std::uint64_t i = 0; i < queries; ++i)
@@ -167,7 +168,7 @@ TEST(TimeSearches, AreMadeForSubjectsThatGiveTimes) {
     EXPECT_THROW(names(*make_any_subject("exact"), none), nearmiss::Error) << none;
 }
 
-/// The subject misses collisions whose smallest distance is at least 0.999 h.
+/// The subject misses collisions whose smallest distance is at least 0.999 times the separation.
 TEST(MissSearch, FindsMissesNextToTheSeparation) {
   const MadeUpSubject subject = altered([](const Query& query, const Verdict& verdict) {
     const bool near = query.separation > 0 && distance_exceeds(query, 0.999 * query.separation);
@@ -181,7 +182,8 @@ TEST(MissSearch, FindsMissesNextToTheSeparation) {
   EXPECT_GE(missed, 5);
 }
 
-/// The subject reports pairs that come within h + 1e-3, but claims only half of this margin as its bound.
+/// The subject reports pairs that come within the separation plus 1e-3, but claims only half of this margin
+/// as its bound.
 TEST(FarSearch, RefutesBoundsBeyondTheSeparation) {
   const MadeUpSubject subject = altered(
       [](const Query& query, Verdict verdict) {

@@ -144,7 +144,7 @@ TEST(TimesOfSubjects, OnlyAdvanceAndTheExactOnesTakeASeparation) {
     }
 }
 
-// The time that basic gives is the root of F at which basic accepts the pair.
+// The time that basic gives is the root of F, the coplanarity cubic, at which basic accepts the pair.
 TEST(TimesOfSubjects, BasicGivesTheTimeOfContact) {
   const auto basic = make_any_subject("basic");
   int hits = 0;

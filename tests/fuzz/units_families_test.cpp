@@ -30,8 +30,8 @@ TEST(MetresFamily, HasTheFactorsThatItNames) {
     ASSERT_EQ(factors.size(), 3);
     const auto value = [&](std::size_t k) { return std::stod(factors[k].substr(factors[k].find('=') + 1)); };
     const double edge = value(0), motion = value(1) * edge, scene = value(2);
-    // x2x3 is an edge of the triangle or, for two edges, the second edge. At the start, the components of a
-    // side are at most `edge`.
+    // The family draws two sides, whose components are at most `edge` at the start. Vertex-triangle: x2x3 is
+    // one of these sides, or their difference. Edge-edge: x2x3 is one of these sides.
     const double side = (query.start(3) - query.start(2)).cwiseAbs().maxCoeff();
     ASSERT_LE(side, 2.001 * (edge + motion)) << i;
     for (int v = 0; v < 4; ++v) {

@@ -1,4 +1,5 @@
-// For vv and ve, wang reports every pair that comes within h, and no pair that stays beyond its bound.
+// For vv and ve, wang reports every pair that comes within the separation h, and no pair that stays farther
+// apart than h plus wang's bound.
 #include <CGAL/Interval_nt.h>
 #include <gtest/gtest.h>
 
@@ -50,8 +51,8 @@ TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
 /// Encloses the number that was rounded to x.
 Interval enclosure(double x) { return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)}; }
 
-/// Expects that tolerances computed for B satisfy the constraints for vv or, with `of_edge`, the constraints
-/// for ve.
+/// Expects that tolerances computed for the bound B satisfy the constraints: those for ve if `of_edge` is
+/// true, otherwise those for vv.
 void expect_constraints(const Tolerances<double>& computed, double B, bool of_edge) {
   const Interval b(B);
   Tolerances<Interval> tol;
@@ -69,7 +70,8 @@ void expect_constraints(const Tolerances<double>& computed, double B, bool of_ed
     }
 }
 
-/// Calls check(R) for many R from 0 to 4 B. With a larger R, primitives are always within R of each other.
+/// Calls check(R) for many thresholds R of the distance, from 0 to 4 B, where B is the pair's bound. With a
+/// larger R, primitives are always within R of each other.
 template <class Check>
 void for_each_R(double B, const Check& check) {
   check(0);
@@ -132,8 +134,8 @@ TEST(TolerancesOfVertices, AGivenBReplacesThePairs) {
   EXPECT_REFUSED(make_subject("wang-plain@1e-9")->decide(query), "is smaller than a pair's own");
 }
 
-// Tests bounds for primitives with the smallest coordinates, and with a given B that the scalar cannot
-// represent.
+// Tests wang's bounds in two cases: the primitives have the smallest coordinates, or the given B is one that
+// the scalar cannot represent.
 TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
   for (const char* name : {"wang:float", "wang-tight:float", "wang:p16", "wang-tight:dd"}) {
     const auto subject = make_any_subject(name);
@@ -182,8 +184,9 @@ TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
   }
 }
 
-/// For each KKT case of Algorithm 2, whether the vertex is near the edge at a candidate time of this case. In
-/// case 5, the vertex is near an end of the edge.
+/// For each of the five cases of the paper's Algorithm 2, whether this case accepts the vertex. Cases 1 to 4:
+/// the vertex is near the edge at a candidate time of the case. Case 5: the vertex is near an end of the
+/// edge.
 std::array<bool, 5> cases_that_accept(const Query& query) {
   const WithinQuery<double> pair(query);
   const Tolerances<double> tol = pair.tolerances(query.kind, PaperTolerances());

@@ -1,5 +1,5 @@
-// wang in lanes gives the same verdicts, bit for bit, as wang for one query at a time. To test more queries,
-// such as 10^8:
+// wang in lanes (several queries at once) gives the same verdicts, bit for bit, as wang for one query at a
+// time. To test more queries, such as 10^8:
 //   NEARMISS_QUERIES=2300000 fuzz_tests --gtest_filter='*InLanes*'
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ Answer answer_of(const Decide& decide) {
 }
 
 /// The answers of wang with the bound `given`. Every pair that no plane separates is decided by
-/// wang_careful(), which is meant for pairs that may need another frame.
+/// wang_careful(), which is meant for pairs that may need another scale.
 std::vector<Answer> careful(std::span<const Query> queries, double given) {
   const auto decide = [&]<Kind kind>(const Query& query) {
     if (separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);

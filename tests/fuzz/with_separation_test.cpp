@@ -1,4 +1,5 @@
-// The families NAME~H and NAME~drawn: queries of NAME, which asks for contact, get separations.
+// The families NAME~H and NAME~drawn. Queries of the family NAME, which ask for contact, get a separation: H,
+// or one that is drawn for each query.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -86,7 +86,8 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The decision claims a tie, but there is none, and there is no method that could contradict the decision.
+// The decision claims a tie, a smallest distance of exactly h, but there is none, and there is no method that
+// could contradict the decision.
 TEST(Agreement, AWrongDecisionIsNotProved) {
   const Query far = with_separation(miss, 0.5);  // miss has the distance 1
   const Query near = with_separation(miss, 2);
@@ -100,7 +101,8 @@ TEST(Agreement, AWrongDecisionIsNotProved) {
 
 TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
   constexpr double M = std::numeric_limits<double>::max();
-  // The triangle is degenerate, a segment. It is exactly M below the vertex when 2 t² = 1, and never nearer.
+  // The triangle is degenerate, a segment. It is exactly M, the largest double, below the vertex when 2 t² =
+  // 1, and never nearer.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
                         -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},

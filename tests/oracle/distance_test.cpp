@@ -136,8 +136,8 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
-// Decisions examine the times at which the distance is h. SmallestDistance examines the times at which the
-// distance is smallest.
+// Decisions examine the times at which the distance is the separation h. SmallestDistance examines the times
+// at which the distance is smallest.
 TEST(SmallestDistance, IsComparedAsDecisionsAre) {
   int at_most = 0;
   int compared = 0;

@@ -21,7 +21,7 @@ namespace {
 
 using testing::Hard;
 
-/// Whether a stage agrees with exact arithmetic, or is undecided.
+/// Whether the stage that the filter returns agrees with exact arithmetic, or is `undecided`.
 ::testing::AssertionResult is_right(FilterStage stage, std::size_t index, const Query& query) {
   if (stage == FilterStage::undecided || is_collision(stage) == collides_exactly(query))
     return ::testing::AssertionSuccess();

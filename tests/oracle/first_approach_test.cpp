@@ -32,8 +32,8 @@ Truth truth(const Query& query, double h) {
   return decision.collision ? Truth::below : decision.is_tie ? Truth::tie : Truth::above;
 }
 
-/// The enclosure of t* as text: one number if t* is known exactly, otherwise two. "never" if the distance is
-/// always above h.
+/// The enclosure of t*, the first time with the distance h, as text: one number if t* is known exactly,
+/// otherwise two. "never" if the distance is always above h.
 std::string first_time(const Query& query, double h) {
   auto time = earliest_time(with_separation(query, h));
   if (!time) return "never";

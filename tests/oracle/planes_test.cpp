@@ -1,4 +1,5 @@
-// Tests whether a plane separates primitives by more than h. The comparisons are exact at every size.
+// Tests whether a plane separates primitives by more than a separation h. The comparisons are exact at every
+// size.
 #include "oracle/filter/planes.hpp"
 
 #include <gtest/gtest.h>

@@ -233,8 +233,8 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
     }
 }
 
-/// Expects the error of each coefficient to be at least the number of roundings, which the coefficient gives,
-/// times the element of `sizes`, an upper bound of the sum of the products' magnitudes.
+/// Expects each error to be at least n times its element of `sizes`. n is the coefficient, which counts
+/// roundings here; the element is an upper bound of the sum of the magnitudes of the coefficient's products.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
   constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)

@@ -1,4 +1,4 @@
-// A small library such as users have: a CCD with each signature that ccd/nearmiss_functions.hpp
+// A small library such as users have: a CCD with each function signature that ccd/nearmiss_functions.hpp
 // knows, and with several types of vectors. The CCD advances to the earliest time at which the axis-aligned
 // boxes of the two primitives may be as close as the separation. So it misses nothing, and never gives a late
 // time. It also reports pairs whose boxes meet although the primitives do not, and pairs that need 100 steps.

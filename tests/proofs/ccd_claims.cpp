@@ -25,9 +25,10 @@ constexpr std::string_view exact = "Gappa, of exact vectors";
 constexpr std::string_view of_coefficients = "Gappa, of exact coefficients";
 constexpr std::string_view sum = "Gappa, sum of three (proven.hpp)";
 
-// With ε = 1, printed_errors() gives the factors of ε.
+// With ε = 1, printed_errors() gives the factors of ε in the paper's bounds.
 const auto printed = printed_errors(1.0);
-// The factors of ε in `full_errors` are largest at the largest ε. They are computed for S = B.
+// The factors of ε in `full_errors` are largest at the largest ε. They are computed for S = B; S is a
+// tolerance of the vertex-edge test.
 constexpr double largest_eps = 0x1p-10;
 constexpr auto full = full_errors(largest_eps, 1.0, 0.0);
 constexpr double factor(double error) { return error / largest_eps; }

@@ -24,8 +24,9 @@ struct TracedPoints {
   std::array<Traced, 24> x;
 };
 
-/// Sample coordinates of a vertex that falls through a triangle, and of an edge that falls through an edge. F
-/// has a simple root far from both ends of the step, so that `excludes_collision` runs to its end.
+/// Sample coordinates of a vertex that falls through a triangle, and of an edge that falls through an edge.
+/// F, the coplanarity cubic, has a simple root far from both ends of the step, so that `excludes_collision`
+/// runs to its end.
 constexpr std::array<double, 24> falling_vertex{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,
                                                 0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 constexpr std::array<double, 24> falling_edge{-1, 0, 1,  1, 0, 1,  0, -1, 0, 0, 1, 0,
@@ -94,7 +95,7 @@ Problem configuration(Reach reach, ConfigurationPart part) {
   if (part == ConfigurationPart::height) {
     tol.eta = threshold(problem, "eta");
     std::ignore = configuration.well_shaped(tol);
-    // The third edge of a triangle is within B, too.
+    // The third edge of a triangle is within the bound B, too.
     if (kind == vt)
       for (int i = 0; i < 3; ++i)
         problem.facts.push_back({configuration.r[i] - configuration.q[i], -1, 1, 1});
@@ -166,8 +167,9 @@ Pair<kind, Traced> pair_with_bound(Problem& problem) {
   return pair;
 }
 
-/// The problem of the last comparison in `excludes_collision`, w > N·N + slack, and the slack itself. h, the
-/// half width of the interval around the root, is an input in [0, 1], from which the slack is computed.
+/// The problem of the last comparison in `excludes_collision`, w > N·N + slack for a weight w, and the slack
+/// itself. h, the half width of the interval around the root, is an input in [0, 1], from which the slack is
+/// computed.
 struct Culling {
   Problem problem;
   Traced slack;

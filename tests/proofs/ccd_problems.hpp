@@ -6,16 +6,16 @@
 
 namespace nearmiss::proofs {
 
-/// Bounds of the vectors of a pair. For two edges, p joins the end points that are closest at t = 0. So p is
-/// within B at t = 0, but only within 2B at other times. The paper assumes that all vectors are within B at
-/// all times.
+/// Bounds of the vectors of a pair, in terms of the pair's bound B. For two edges, p joins the end points
+/// that are closest at t = 0. So p is within B at t = 0, but only within 2B at other times. The paper assumes
+/// that all vectors are within B at all times.
 enum class Reach : std::uint8_t {
   near,  ///< all vectors are within B
   far,   ///< p of two edges, x_0i in a VE test, and x_ji in a VV test are within 2B
 };
 
-/// Parts of the configuration at a time (proximity.hpp): a component of N, or one or both sides of a
-/// comparison.
+/// Parts of the configuration at a time (proximity.hpp): a component of the normal N, or one or both sides of
+/// a comparison.
 enum class ConfigurationPart : std::uint8_t { normal, height, weight, inside };
 Problem configuration(Kind kind, Reach reach, ConfigurationPart part);
 
@@ -32,7 +32,7 @@ Problem clearance_of_exact();
 
 /// The bound B (motion.hpp).
 Problem bound(Kind kind);
-/// The part E + W of B.
+/// The part E + W of B: E bounds the edges at t = 0, and W the relative velocities.
 Problem extents(Kind kind);
 
 /// The bound of how far a weight moves, in the culling of vertex-edge tests (ve_culling.hpp).

@@ -1,7 +1,7 @@
 // Proves that two margins for rounding suffice. One margin is for heights along diagonals, in the test
-// whether planes separate primitives by more than h. The other margin is for the ends of gaps, which are
-// parts of the step that no bound covers yet, in the search for the first time at which the distance is
-// small.
+// whether planes separate primitives by more than a separation h. The other margin is for the ends of gaps,
+// which are parts of the step that no bound covers yet, in the search for the first time at which the
+// distance is small.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -49,7 +49,8 @@ std::vector<Number> Measure::results(const Inputs& inputs) const {
   return evaluate<Number>(program_, values, Number(0x1p-52), given);
 }
 
-// Computes B from the limits of degree 1 only. The limits of higher degree are then checked for this B.
+// Computes the pair's bound B from the limits of degree 1 only. The limits of higher degree are then checked
+// for this B.
 template <class Number>
 Number Measure::smallest_bound(const std::vector<Number>& exact) const {
   Number B = 0;

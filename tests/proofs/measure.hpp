@@ -14,8 +14,8 @@
 
 namespace nearmiss::proofs {
 
-/// Measures the rounding errors of a problem that is computed in double. B is the smallest value for which
-/// the inputs are within bounds.
+/// Measures the rounding errors of a problem that is computed in double. The pair's bound B is the smallest
+/// value for which the inputs are within bounds.
 class Measure {
  public:
   explicit Measure(const CcdClaim& claim);

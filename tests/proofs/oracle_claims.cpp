@@ -40,7 +40,7 @@ double seen_growth(const Inputs& in) {
   return ratio(abs((p + ep) * (q + eq) - p * q), abs(p * eq) + abs(q * ep) + abs(ep * eq));
 }
 
-/// The rounding error of t - h, in units of 2^-54.
+/// The rounding error of t - h, an end of the interval of `error_near`, in units of 2^-54.
 double seen_end(const Inputs& in) {
   const Rational exact = Rational(in.at("t")) - Rational(in.at("h"));
   return exact < 0 || exact > 1 ? 0
@@ -93,7 +93,8 @@ double seen_slope_rounding(const Inputs& in) {
 /// of a coefficient.
 double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
 
-/// The error of v + S (d - t), where v is F(t), in units of u (|v| + |S (d - t)|).
+/// The error of v + S (d - t), the value of F at a double d by its value v and slope S at t, in units of u
+/// (|v| + |S (d - t)|).
 double seen_secant(const Inputs& in) {
   const double v = in.at("v");
   const double S = in.at("S");

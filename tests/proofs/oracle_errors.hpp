@@ -35,7 +35,8 @@ class ResultsAt {
   std::vector<int> results_;
 };
 
-/// A_x (step_part.hpp): the larger of the magnitudes of component x of a at both ends.
+/// A_x (step_part.hpp): the larger of the magnitudes of component x of the vector a at both ends of the part
+/// of the step.
 Rational A_of(const Inputs& inputs);
 /// w (step_part.hpp) of component x of b × c: B_y C_z + B_z C_y, with the magnitudes B and C of b and c.
 Rational w_of(const Inputs& inputs);

@@ -130,8 +130,8 @@ double proven_leaf_growth() { return proven_growth(most_roundings(cubic_results<
 double proven_underflow_products() {
   double largest = 0;
   for (const Leaves leaves : {Leaves::rounded_once, Leaves::given_errors}) {
-    // `error_near` has two more products than the template. All other underflow in `error_near` is at most
-    // that in `error`.
+    // `error_near` has two more products than the template of the weights. All other underflow in
+    // `error_near` is at most that in `error`.
     largest = std::max(largest, proven_underflow<Traced>(weight_results<Traced>, leaves, 2));
     largest = std::max(largest, proven_underflow<Traced>(cubic_results<Traced>, leaves, 0));
     largest = std::max(largest, proven_underflow<Traced>(part_results<Traced>, leaves, 0));
@@ -201,9 +201,9 @@ double proven_slope_growth() {
       factors.script(quotient(grown, factors.product(roundings_of_slope_bound, u)) + " in ?"));
 }
 
-// In the value v + S g, the term S g is rounded three times. The term R g of the bound (neighbours.hpp) loses
-// up to four roundings, and R is at most |S|. The bound's term for these seven roundings is itself rounded at
-// most six times.
+// In v + S g, the value of F beside a time, the term S g is rounded three times. The term R g of the bound
+// (neighbours.hpp) loses up to four roundings, and R is at most |S|. The bound's term for these seven
+// roundings is itself rounded at most six times.
 double proven_secant_rounding() {
   Factors factors;
   const std::string missed =

@@ -1,5 +1,8 @@
 // For each rounding constant of oracle/, the least value that is proven to be enough, in the unit of the
-// constant. oracle/filter/step_part.hpp explains the letters U, w, M, l, L and H; u is U of double.
+// constant. The letters are those of oracle/filter/step_part.hpp. U: the relative error of an operation (u:
+// of double). w and M: sums of the magnitudes of products, for a weight and for F, the coplanarity cubic. l
+// and L: bounds of the errors of a weight and of F that come from the errors of the vectors. H: the largest
+// error of a product by underflow.
 #pragma once
 
 #include "tests/proofs/oracle_results.hpp"
@@ -35,7 +38,8 @@ double proven_slope_rounding();
 /// How many times the error of a coefficient enters a value of `derivative`.
 double proven_slope_growth();
 
-/// The rounding error of a value beside t in `neighbours_of_root`, in units of U (|v| + |S| g).
+/// The rounding error of v + S g in `neighbours_of_root`, the value of F at a distance g from t by its value
+/// v and slope S at t, in units of U (|v| + |S| g).
 double proven_secant_rounding();
 
 /// The rounding error of b + x (e - b), a time in the part [b, e] of the step, in units of 2^-52.

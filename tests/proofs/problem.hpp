@@ -9,7 +9,7 @@
 
 namespace nearmiss::proofs {
 
-/// A vector x(t) = x + t v, with bounds of the exact components in units of B.
+/// A vector x(t) = x + t v, with bounds of the exact components in units of the pair's bound B.
 struct BoundedMotion {
   Moving<Traced> vector;
   double start = 1, end = 1;  ///< bounds of |x(0)| and |x(1)|; the larger one bounds all |x(t)|

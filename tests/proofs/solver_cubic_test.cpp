@@ -47,7 +47,8 @@ std::vector<double> places_between(const Coefficients& k, double left, double ri
   return places;
 }
 
-/// The largest amount by which F, between two places, leaves the range between its values at these places.
+/// The largest amount by which the cubic F, between two places, leaves the range between its values at these
+/// places.
 double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   double most = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -150,8 +151,8 @@ double horner(double u) {
   return 6 * growth(u, 6) + 18 * growth(u, 5) + 18 * growth(u, 3) + 6 * growth(u, 1);
 }
 
-/// The amount by which F between two nodes comes nearer to 0 than F̂ at both nodes, divided by h + m. If this
-/// amount reached |F̂|, a root could be missed.
+/// The amount by which F between two nodes comes nearer to 0 than F̂, the computed F, does at both nodes,
+/// divided by its bound h + m. If this amount reached |F̂|, a root could be missed.
 double nearer_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);
@@ -176,8 +177,8 @@ TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
   }
 }
 
-/// The largest |F̂| at a returned time, divided by μ. μ has the size that step (3) of the proof of
-/// solve_cubic requires, where F̂ changes its sign between neighbouring numbers.
+/// The largest |F̂| at a returned time, divided by μ, the solver's limit for |F̂|. Here, μ is as small as
+/// step (3) of the proof of solve_cubic allows if F̂ changes its sign between neighbouring numbers.
 double residual_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));

@@ -1,5 +1,5 @@
-// Tests the claim of vertex_edge about ψ: on the way from any time to a candidate time, F_0ij rises by at
-// most the bound on which ψ is based.
+// Tests the claim of vertex_edge about ψ, the limit for F_0ij at a candidate time: on the way from any time
+// to a candidate time, F_0ij rises by at most the bound on which ψ is based.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -18,9 +18,9 @@ Number growth(const Number& u, int k) {
   return power(u + Number(1), k) - Number(1);
 }
 
-/// Errors of `solve_quadratic` (quadratic.hpp): the relative difference of c' from c; θ, that of the time;
-/// and |t' - t| if t' or t is in [0, 1]. The leading coefficient is exact, or is rounded once, as a cubic's
-/// 3a is.
+/// Errors of `solve_quadratic` (quadratic.hpp), whose times t are nearly the roots t' of the polynomial with
+/// c' in place of c: the relative difference of c' from c; θ, that of t from t'; and |t' - t| if t' or t is
+/// in [0, 1]. The leading coefficient is exact, or is rounded once, as a cubic's 3a is.
 template <class Number>
 struct QuadraticErrors {
   Number constant, factor, time;

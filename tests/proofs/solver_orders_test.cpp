@@ -103,7 +103,8 @@ TEST(ProofsSolverOrders, NothingElseAsksForMoreOfMu) {
   EXPECT_TRUE(holds(bernstein, nodes_of_F()));
   const RationalFunction clearance = (growth(u, 3) * 48 + u * 10) * scale;
   EXPECT_TRUE(holds(clearance, h));
-  // Neighbouring numbers are 2u apart. The smaller of the two |F̂| is at most half of the change of F̂.
+  // Neighbouring numbers are 2u apart. The smaller |F̂| at two of them is at most half of the change of F̂
+  // from one to the other.
   EXPECT_TRUE(holds(u * 72 * scale + h, cubic_residual(u)));
   // |F̂| = |step| |slope|, where step and slope are rounded. The slope is 3a t² + 2b t + c, with an error of
   // at most 300 u.

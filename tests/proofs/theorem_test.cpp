@@ -144,7 +144,7 @@ TEST(ProofsTheorem, DerivesTheConstantsOfTheAudit) {
   EXPECT_GT(derived, 20);
 }
 
-// The proofs in solver_orders_test.cpp and in comments of ccd/ begin with these numbers.
+// The proofs in solver_orders_test.cpp and in comments of ccd/ begin with these numbers of roundings.
 TEST(ProofsTheorem, CountsTheRoundingsOfTheSolversCoefficients) {
   EXPECT_EQ(rounded(cubic(ee, CubicPart::a)), TheoremBound(6, 15));
   EXPECT_EQ(rounded(cubic(ee, CubicPart::b)), TheoremBound(18, 15));

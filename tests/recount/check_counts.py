@@ -147,7 +147,8 @@ def _check_truth(comparison, where, found, truth):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that the signatures of each failure of a subject together count as many as the tally."""
+    """Checks that, for each sort of failure of a subject, the counts of its signatures (ways to fail)
+    add up to the tally."""
     sums = Counter()
     for each in found:
         sums[each['what'], each['subject']] += each['seen']
@@ -223,7 +224,8 @@ def fails(asked):
 
 
 def check_versions(comparison, where, report, answers):
-    """Checks the section "versions", and the findings at which an earlier version was right."""
+    """Checks the section "versions", and that an earlier version was right on the queries that a later
+    version is said to break."""
     found = report.get('versions', [])
     pairs = sorted({(each['before'], each['after']) for each in found})
     expected = [row for pair in pairs for row in rows(*pair, report, answers)]

@@ -99,7 +99,7 @@ def check_farthest(comparison, where, report, answers):
 
 
 def check_findings(comparison, where, report, answers):
-    """Checks that each finding is a query of the campaign, at which the subject fails as recorded."""
+    """Checks that each finding is a query of the campaign, on which the subject fails as recorded."""
     seen = {
         (each['what'], each['subject'], each['signature']): each['seen']
         for each in report['signatures']

@@ -40,9 +40,9 @@ def sort_of(subject, description):
 
 @dataclass
 class Impact:
-    """The times that a subject gives for the queries of one kind. Arrays have one element for each
-    query. An enclosure of `early`, `after` or `travelled` is NaN if the query has no such
-    number."""
+    """The times that a subject gives for the queries of one kind, and how far they are from t*, the
+    exact earliest times. Arrays have one element for each query. An enclosure of `early`, `after`
+    or `travelled` is NaN if the query has no such number."""
 
     sort: str
     time: np.ndarray  # the subject's time for a true positive; NaN if there is none
@@ -69,8 +69,8 @@ class Impact:
 
 
 def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
-    """Compares a subject's times for true positives with t*. `times` gives enclosures of t*, and
-    `rounds` says whether the subject computes in float."""
+    """Compares a subject's times for true positives with the earliest times t*. `times` gives enclosures
+    of t*, and `rounds` says whether the subject computes in float."""
     given = verdicts.hit & collision & ~np.isnan(verdicts.time) & (sort != 'none')
     own = np.flatnonzero(given)
     lo, hi = (np.full(len(judged), np.nan) for _ in range(2))

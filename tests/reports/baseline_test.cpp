@@ -62,8 +62,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "a"}));
 }
 
-// The test is one-sided: k failures now and none before have p = 1 / 2^k. The risk 0.001 is divided by the
-// number of signatures in the two campaigns.
+// The test is one-sided: k failures now and none before have the p-value 1 / 2^k. The risk 0.001 is divided
+// by the number of signatures (ways to fail) in the two campaigns.
 TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const auto with = [](Seen seen) {
     Campaign made = campaign("1", {{key, counts(2000000, 1000000, 50, 0)}});
@@ -116,8 +116,8 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
 }
 
-// One of 1,000 random draws fails in the baseline, and five fail now. All 12 steps of a sweep fail with the
-// same draws, but each of 12 families has its own draws.
+// One of 1,000 random draws fails in the baseline, and five fail now. All 12 steps of a sweep (values of a
+// family's parameter) fail with the same draws, but each of 12 families has its own draws.
 TEST(Changes, StepsOfASweepShareTheirDraws) {
   const auto with = [](const std::string& family, std::uint64_t draws) {
     constexpr std::uint64_t steps = 12;

@@ -1,4 +1,4 @@
-// Tests that the merged shards of a run give the same result as a run on one machine.
+// Tests that the merged shards (parts) of a run give the same result as a run on one machine.
 #include "reports/campaign/campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   return made;
 }
 
-/// Shard `shard` of three, which divide the rounds 0 to 9 among them. Each round has a finding with the
-/// signature "s"; rounds from 5 on also have a finding with the signature "t".
+/// Shard (part) `shard` of three, which divide the rounds 0 to 9 of a run among them. Each round has a
+/// finding with the signature (way to fail) "s"; rounds from 5 on also have a finding with the signature "t".
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.index = shard, .count = 3, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)

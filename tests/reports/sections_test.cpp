@@ -1,4 +1,5 @@
-// Sweeps, scenes and simulations in reports, and the tables of other commands.
+// Sweeps (families or options at several values), scenes and simulations in reports, and the tables of other
+// commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

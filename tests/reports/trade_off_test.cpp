@@ -106,7 +106,8 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-/// The power of ε that is fitted to a ladder's distances over all families; null if there is none.
+/// The power of the scalars' ε that is fitted to a ladder's distances over all families; null if there is
+/// none.
 nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
   const auto all = ladder_json(farthest_at(parts))["fits"];
   return all.empty() ? nlohmann::ordered_json() : all[0];

@@ -42,7 +42,7 @@ std::string number(double value, const char* format) {
 
 ordered_json or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
-/// The distance bound that the smallest possible tolerances give, in units of B.
+/// The distance bound that the smallest possible tolerances give, in units of B, the size of the pair.
 double bound_over_B(const ToleranceRow& row) { return row.tight_bound * std::exp2(row.exponent / 4.0); }
 
 ordered_json json_of(const std::vector<RoundingConstant>& constants,

@@ -58,9 +58,9 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// "1" if the primitives touch or come within h, otherwise "0". As in the library, a smallest distance of
-/// exactly h > 0 gives "1". "-" if a complete method cannot tell, or if any other method, such as root
-/// parity, does not answer the query.
+/// "1" if the primitives touch or come within the separation, otherwise "0". As in the library, a smallest
+/// distance of exactly the separation gives "1". "-" if a method that decides collisions (Claim::complete)
+/// cannot tell, or if any other method, such as root parity, does not answer the query.
 const char* show(const Answer& answer, Claim claim) {
   const auto said = answer.at_most ? answer.at_most : answer.collision;
   if (!said && (claim == Claim::complete || !answer.is_answer())) return "-";

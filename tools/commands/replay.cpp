@@ -59,6 +59,7 @@ void say(const fs::path& path, const LeftOut& left) {
   line(left.rounded, "their tmax is not 1, and doubles do not hold what was asked");
 }
 
+/// Some subjects, and the cases that they decide.
 struct Pass {
   Subjects subjects;
   std::function<void(const CaseSink&)> read;

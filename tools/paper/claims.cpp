@@ -81,7 +81,8 @@ const ordered_json& tolerances(const ordered_json& audit, int exponent) {
   throw std::out_of_range(fmt::format("no tolerances for 2^{}", exponent));
 }
 
-/// The distance bound of the paper's closed forms for an epsilon of 2^exponent, in units of B.
+/// The distance bound of the paper's closed forms for an epsilon of 2^exponent, in units of B, the size of
+/// the pair.
 double in_B(const ordered_json& audit, int exponent) {
   return tolerances(audit, exponent).at("paper_bound").get<double>() * std::exp2(exponent / 4.0);
 }

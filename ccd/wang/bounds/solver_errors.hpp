@@ -1,5 +1,5 @@
-// The least μ and ψ with which the solvers of cubic.hpp and vertex_edge.hpp miss nothing, including all
-// orders of ε.
+// The least thresholds with which the solvers miss nothing: μ, the threshold of |F| in cubic.hpp, and ψ, that
+// of F_0ij in vertex_edge.hpp. All orders of ε are included.
 #pragma once
 
 namespace nearmiss {
@@ -29,13 +29,14 @@ constexpr Number cubic_residual(const Number& u) {
   return u * 865 / (1 - u * 16);
 }
 
-/// The least ψ with which `vertex_edge` misses nothing, for the threshold S, B = 1, positions within 2 as in
-/// the tests of edges, and operations with a relative error of at most u <= 2^-10:
+/// The least ψ with which `vertex_edge` misses nothing, for B = 1, a given S, and operations with a relative
+/// error of at most u <= 2^-10. Positions may be up to 2, as in the tests of edges. The terms of ψ are:
 /// - 2Δ: 588 u + 8 S u + 12ρ. Each of the three components of x_0i × x_ji has an error of 98 u: a has the
 ///   bound 2 with k = 10; b has 6 with 9; c has 4 with 4 + 2, where 2 is from the c' of `solve_quadratic`.
 ///   The components of a and b that are replaced by 0 add 6ρ, and x_ji adds 4 S u.
 /// - The computed minimum of a piece: (34 + S) u.
-/// - The error of 6 u of a candidate, while F_0ij changes at a rate of 30 + S: 180 u + 6 S u.
+/// - The time of a candidate has an error of 6 u, and F_0ij changes at a rate of at most 30 + S:
+///   180 u + 6 S u.
 /// - The computed F_0ij, with the bound 12 + S and k = 19: 228 u + 19 S u.
 /// - Underflow: less than 1 u, as above; a component of a is above ρ, or 0.
 ///

@@ -89,8 +89,8 @@ constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, d
   return {psi, lambda2, D2(lambda2) * margin};
 }
 
-// The smallest g for which allows(g) is true: the constraint on the weight, 2 weight <= g η(g) (τ(g) - error)
-// in `solve_tight`. The right side grows with g, so the constraint holds for all larger g.
+// The smallest g (see `solve_tight`) for which allows(g) is true: the constraint on the weight, 2 weight <= g
+// η(g) (τ(g) - error). The right side grows with g, so the constraint holds for all larger g.
 template <class Allows>
 constexpr double least_size(const Allows& allows) {
   double none = 0;

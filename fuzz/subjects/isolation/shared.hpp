@@ -73,7 +73,7 @@ struct BatchMemory {
   [[nodiscard]] std::uint64_t* calls() const { return at<std::uint64_t>(0); }
   /// The times that Request::time_each measured.
   [[nodiscard]] std::uint64_t* nanoseconds() const { return at<std::uint64_t>(1); }
-  /// The times of impact, bounds, distances or clearances.
+  /// For each query, the time of impact, bound, distance or clearance that the request asks for.
   [[nodiscard]] double* numbers() const { return at<double>(2); }
   /// The plug-in's decisions, as in nearmiss_subject.h.
   [[nodiscard]] int* values() const { return at<int>(5); }

@@ -101,11 +101,11 @@ class WorkerProcess {
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
   /// Further numbers of the answer to a question about one query: weights, or positions.
   [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
-  /// The time in ns that the worker measured in the last call: of the whole call, or of query i. Each time is
-  /// limited to nearmiss's own time for the call. The time of the whole call is also raised to at least half
-  /// of the computing time of all threads and processes of the plug-in, less the part that the worker itself
-  /// may compute. The factor is one half because the plug-in may have decided each query twice. The first
-  /// call has no lower limit.
+  /// The time in ns that the worker measured in the last call: measured() of the whole call, measured(i) of
+  /// query i. Each time is limited to nearmiss's own time for the call. The time of the whole call is also
+  /// raised to at least half of the computing time of all threads and processes of the plug-in, less the part
+  /// that the worker itself may compute. The factor is one half because the plug-in may have decided each
+  /// query twice. The time of the first call is not raised.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});

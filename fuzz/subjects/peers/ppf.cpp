@@ -9,11 +9,11 @@
 // Question: contact, or a separation, which the code calls contact offset. The time of impact is a lower
 // bound. The options have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25
 // (line-search-max-t).
-// Contract: farther apart at t = 0 than the separation, and farther than 5e-6. From a closer start, the
-// solver stops with the error OverlappingStart, and accd.hpp argues that the solver keeps a clearance of half
-// the distance at which it stops pairs. No edge or path is longer than 10, because the margin for rounding is
-// given for "a scene of radius 10". (With a separation, the primitives would have to be farther apart than
-// the separation plus 5e-6, which a contract cannot say.)
+// Contract: the primitives are farther apart at t = 0 than the separation, and farther than 5e-6. From a
+// closer start, the solver stops with the error OverlappingStart, and accd.hpp argues that the solver keeps a
+// clearance of half the distance at which it stops pairs. No edge, and no path of a vertex in the step, is
+// longer than 10, because the margin for rounding is given for "a scene of radius 10". (With a separation,
+// the primitives would have to be farther apart than the separation plus 5e-6, which a contract cannot say.)
 // $PPF is the repository, whose header contains the whole code, and $CUDA is the folder of CUDA's headers. No
 // GPU is needed:
 //

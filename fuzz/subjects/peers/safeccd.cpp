@@ -1,8 +1,8 @@
 // The code that Wang published with his 2014 paper "Defending continuous collision detection against errors",
-// called through the wrapper in libpgo, which computes a bound B for each pair.
+// called through the wrapper in libpgo, which computes B, the size of a pair, for each pair.
 // Source: github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
 // Question: contact; the time of impact is an estimate.
-// Contract: apart at t = 0, and a range of sizes (below).
+// Contract: the primitives are apart at t = 0, and their sizes are in a range (below).
 // $SAFECCD is the folder SafeCCD, with its code compiled into libsafeccd.a:
 //
 //   tools/subject fuzz/subjects/peers/safeccd.cpp -- -I$SAFECCD $SAFECCD/libsafeccd.a

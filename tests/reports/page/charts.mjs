@@ -1,5 +1,5 @@
-// Tests the charts of sweeps, of false positives that refute a bound of 0, of misses, and of deciders (the
-// stages that decide queries).
+// Tests the charts of sweeps (families at several values of their parameter), of false positives that refute
+// a bound of 0, of misses, and of deciders (the stages that decide queries).
 import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, plugin, run } from "./session.mjs";
 

@@ -46,7 +46,10 @@ async function checkTable(page, { subjects }) {
   assert.deepEqual(new Set(cells), new Set(counts.map((each) => (each.times_promised > 0 ? each.late.toLocaleString("en-US") : "–"))));
 }
 
-/** Each subject and kind has a strip. Early times are left of the middle, times after t* are right of it. */
+/**
+ * Each subject and kind has a strip. Early times are left of the middle, times after the earliest time t* are
+ * right of it.
+ */
 async function checkHistograms(page, { subjects }) {
   const sum = (list) => list.reduce((a, b) => a + b, 0);
   for (const [subject, ofKind] of Object.entries(subjects))
@@ -125,8 +128,9 @@ export async function showsSeparations(browser) {
 }
 
 /**
- * A lower bound after t* is not late if the distance is h at t*, but never below h. The first query of
- * touching.vt is such a case; the time for the other query is late.
+ * At t*, the distance is the separation h for the first time. A lower bound after t* is not late if the
+ * distance is never below h. The first query of touching.vt is such a case; the time for the other query is
+ * late.
  */
 export async function showsWhichTimesAreLate(browser) {
   const [end, triangle] = ["0.25 0.25", "0 0 0  1 0 0  0 1 0"];

@@ -57,7 +57,7 @@ class Filter {
     refuse();
   }
 
-  /// Forbids a call if an argument has this value.
+  /// Forbids a system call if its argument with this number has this value.
   void forbid(int call, unsigned argument, int value) {
     jump_if_equal(call, 0, 4);
     load_argument(argument);
@@ -66,7 +66,7 @@ class Filter {
     load(offsetof(seccomp_data, nr));
   }
 
-  /// Forbids a call unless an argument has one of two values.
+  /// Forbids a system call unless its argument with this number has one of two values.
   void limit(int call, unsigned argument, int value, int other) {
     jump_if_equal(call, 0, 5);
     load_argument(argument);

@@ -28,7 +28,7 @@ class Program {
   ~Program();
 
   [[nodiscard]] pid_t process() const { return process_; }
-  /// The program as a detector. A process can have only one program.
+  /// The program as a detector. A process can have only one Program.
   [[nodiscard]] const nearmiss_subject& subject() const { return description_.subject; }
 
  private:
