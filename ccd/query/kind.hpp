@@ -19,6 +19,7 @@ enum class Kind : std::uint8_t {
   vertex_edge,      ///< x0 is the vertex, x1x2 the edge
 };
 
+/// All kinds.
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::vertex_vertex,
                                   Kind::vertex_edge};
 
@@ -33,8 +34,8 @@ enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
 
 /// Two vertices, by their numbers in a query.
 struct VertexPair {
-  std::uint8_t from;
-  std::uint8_t to;
+  std::uint8_t from;  ///< the first vertex
+  std::uint8_t to;    ///< the second vertex
 };
 
 /// A vertex of one primitive and an edge of the other.
@@ -124,6 +125,7 @@ inline constexpr std::array<Topology, 4> of_kinds{
 
 }  // namespace topologies
 
+/// The topology of a kind.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
 /// "vt", "ee", "vv" or "ve".
@@ -133,6 +135,7 @@ constexpr std::string_view short_name(Kind kind) { return topology(kind).short_n
 /// x[split .. vertices).
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
+/// Whether the kind is one of kinds_of_meshes.
 constexpr bool is_of_meshes(Kind kind) {
   return std::ranges::find(kinds_of_meshes, kind) != kinds_of_meshes.end();
 }
@@ -152,6 +155,7 @@ constexpr bool has_triangle(Kind kind) { return kind != Kind::edge_edge; }
 /// of kinds.
 constexpr int bit_of(Kind kind) { return 1 << static_cast<int>(kind); }
 
+/// The set of all kinds: the sum of their bits.
 inline constexpr int bits_of_all_kinds = (1 << kinds.size()) - 1;
 
 /// The kind whose bit_of() is `bit`; nothing if there is no such kind.
@@ -169,6 +173,7 @@ constexpr decltype(auto) with_kind(Kind kind, const Function& f) {
                             : f.template operator()<Kind::edge_edge>();
 }
 
+/// Calls a function template with each of kinds_of_meshes.
 template <class Function>
 constexpr void for_each_kind_of_meshes(const Function& f) {
   f.template operator()<Kind::vertex_triangle>();

@@ -17,6 +17,7 @@
 
 namespace nearmiss {
 
+/// Three coordinates.
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
@@ -34,11 +35,16 @@ struct Query {
   /// The separation h, finite and not negative, in the unit of the coordinates.
   double separation = 0;
 
+  /// A vertex at t = 0.
   [[nodiscard]] Eigen::Map<const Vector3<double>> start(int vertex) const { return at(vertex); }
+  /// A vertex at t = 1.
   [[nodiscard]] Eigen::Map<const Vector3<double>> end(int vertex) const { return at(4 + vertex); }
+  /// Moves a vertex at t = 0.
   void set_start(int vertex, const Vector3<double>& p) { set(vertex, p); }
+  /// Moves a vertex at t = 1.
   void set_end(int vertex, const Vector3<double>& p) { set(4 + vertex, p); }
 
+  /// Whether kind, coordinates and separation are equal.
   bool operator==(const Query&) const = default;
 
  private:
@@ -82,6 +88,7 @@ inline std::vector<double> coordinate_list(const Query& query) {
   return list;
 }
 
+/// The query of the same primitives for another separation; 0 asks for contact.
 inline Query with_separation(Query query, double separation) {
   query.separation = separation;
   return query;

@@ -22,6 +22,7 @@ double pair_bound(const Query& query) {
   // velocity, and with it B, is NaN.
   return std::isnan(B) ? in({.reduced = true}) : B;
 }
+/// The bound B of a pair whose kind is known at run time.
 inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }

@@ -147,8 +147,8 @@ TEST(VerticesAndEdges, AnEdgeThatShrinksToAPointIsDegenerateThere) {
 
 TEST(VerticesAndEdges, AContactMayBeAtAnIrrationalTime) {
   // The vertex is on the line of the edge when 2 t² = 1.
-  const Query query = complete(make_query(Kind::vertex_edge, {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
-                                          {{0, 0, 0}, {2, 1, 0}, {-1, -1, 0}}));
+  const Query query = complete(
+      make_query(Kind::vertex_edge, {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{0, 0, 0}, {2, 1, 0}, {-1, -1, 0}}));
   EXPECT_TRUE(collides(query));
   EXPECT_EQ(earliest_time(query)->rational(), "");
   EXPECT_EQ(disagreement(query, decide(query), ask_all(query)), "");
