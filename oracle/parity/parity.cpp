@@ -25,12 +25,9 @@ using IntegerBackend =
                                            boost::multiprecision::unchecked,
                                            std::allocator<boost::multiprecision::limb_type>>;
 using Integer = boost::multiprecision::number<IntegerBackend, boost::multiprecision::et_off>;
-using Rational = boost::multiprecision::number<boost::multiprecision::rational_adaptor<IntegerBackend>,
-                                               boost::multiprecision::et_off>;
 using IntegerVector = CGAL::Simple_cartesian<Integer>::Vector_3;
 
 int sign(const Integer& x) { return x.sign(); }
-int sign(const Rational& x) { return x.sign(); }
 Integer determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
   return CGAL::cross_product(a, b) * c;
 }
@@ -96,7 +93,7 @@ struct BilinearPatch {
 
 /// p + q √D.
 struct Surd {
-  Rational p, q, D;
+  Integer p, q, D;
 
   [[nodiscard]] int sign_of() const {
     const int sp = sign(p);
@@ -108,35 +105,35 @@ struct Surd {
 };
 
 /// c0 + c1 t + c2 t².
-using RationalQuadratic = std::array<Rational, 3>;
+using Quadratic = std::array<Integer, 3>;
 
-bool is_zero(const RationalQuadratic& f) { return f[0] == 0 && f[1] == 0 && f[2] == 0; }
+bool is_zero(const Quadratic& f) { return f[0] == 0 && f[1] == 0 && f[2] == 0; }
 
 /// Whether the quadratic h is at most 0 at some t in [0, 1].
-bool reaches_zero(const RationalQuadratic& h) {
+bool reaches_zero(const Quadratic& h) {
   if (sign(h[0]) <= 0 || sign(h[0] + h[1] + h[2]) <= 0) return true;
   return sign(h[2]) > 0 && sign(h[1]) < 0 && sign(h[1] + 2 * h[2]) > 0 &&
          sign(h[1] * h[1] - 4 * h[0] * h[2]) >= 0;
 }
 
 /// Whether the quadratic h is at most 0 at a root of g in [0, 1]; g must not be identically zero.
-bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h) {
-  if (g[2] == 0) {
-    if (g[1] == 0) return false;
-    const Rational r = -g[0] / g[1];
-    return r >= 0 && r <= 1 && h[0] + r * (h[1] + r * h[2]) <= 0;
+bool reaches_zero_at_root(Quadratic g, const Quadratic& h) {
+  if (sign(g[2]) < 0 || (g[2] == 0 && sign(g[1]) < 0))
+    for (Integer& c : g) c = -c;
+  if (g[2] == 0) {  // the only root is numerator / g1
+    const Integer numerator = -g[0];
+    return g[1] != 0 && numerator >= 0 && numerator <= g[1] &&
+           h[0] * g[1] * g[1] + numerator * (h[1] * g[1] + h[2] * numerator) <= 0;
   }
-  const Rational D = g[1] * g[1] - 4 * g[0] * g[2];
+  const Integer D = g[1] * g[1] - 4 * g[0] * g[2];
   if (sign(D) < 0) return false;
-  const Rational scale = 1 / (2 * g[2]);
-  const Rational part = h[2] / g[2];  // h - part g is linear, and equal to h at the roots of g
-  const Rational A = h[0] - part * g[0];
-  const Rational B = h[1] - part * g[1];
+  const Integer twice = 2 * g[2];  // the roots are (-g1 ± √D) / twice
+  const Integer A = g[2] * h[0] - h[2] * g[0];
+  const Integer B = g[2] * h[1] - h[2] * g[1];  // g2 h - h2 g = A + B t, which is g2 h at the roots of g
   for (const int branch : {1, -1}) {
-    const Rational p = -g[1] * scale;
-    const Rational q = branch * scale;
-    const bool in_step = Surd{p, q, D}.sign_of() >= 0 && Surd{p - 1, q, D}.sign_of() <= 0;
-    if (in_step && Surd{A + B * p, B * q, D}.sign_of() <= 0) return true;
+    const bool in_step =
+        Surd{-g[1], branch, D}.sign_of() >= 0 && Surd{-g[1] - twice, branch, D}.sign_of() <= 0;
+    if (in_step && Surd{A * twice - B * g[1], B * branch, D}.sign_of() <= 0) return true;
   }
   return false;
 }
@@ -151,9 +148,9 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector c0 = CGAL::cross_product(a0, b0);
   const IntegerVector c1 = CGAL::cross_product(a0, b1) + CGAL::cross_product(a1, b0);
   const IntegerVector c2 = CGAL::cross_product(a1, b1);
-  const RationalQuadratic between{a0 * b0, a0 * b1 + a1 * b0, a1 * b1};
+  const Quadratic between{a0 * b0, a0 * b1 + a1 * b0, a1 * b1};
   for (int k = 0; k < 3; ++k) {
-    const RationalQuadratic g{c0[k], c1[k], c2[k]};
+    const Quadratic g{c0[k], c1[k], c2[k]};
     if (!is_zero(g)) return reaches_zero_at_root(g, between);
   }
   return reaches_zero(between);
