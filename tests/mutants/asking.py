@@ -68,7 +68,7 @@ def ask(steps, answer, layer):
                 break
             test, how = culprit(group[0].group, ended)
             failed = next((step for step in group if step.test == test), group[0])
-            if how != 'failed' or run_steps([failed], layer).code != 0:
+            if run_steps([failed], layer).code != 0:
                 answer.noticed_by, answer.how = failed.name, how
                 return
             group = [step for step in group if step is not failed]

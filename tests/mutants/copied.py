@@ -7,7 +7,7 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import limits, run
+from processes import limits, run, seal
 from sources import FOLDERS, ROOT, WORK, read
 
 BASE = WORK / 'base'
@@ -30,13 +30,16 @@ def write(path, text):
 def link(target, path):
     if path.is_symlink() and os.readlink(path) == str(target):
         return
-    path.unlink(missing_ok=True)
+    if path.exists() or path.is_symlink():
+        remove(path)
     path.symlink_to(target)
 
 
 def mirror(source, target):
     """Makes the folder `target` a copy of `source`: C++ files and headers are copied, all other files are
     linked. Removes from `target` what `source` does not have."""
+    if target.is_symlink():  # to a folder that had no C++ file
+        target.unlink()
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -106,6 +109,15 @@ class Layer:
             made_by_overlayfs.chmod(0o700)
         shutil.rmtree(self.folder, ignore_errors=True)
 
+    def is_possible(self):
+        """Whether this system mounts layers."""
+        self.end()
+        for name in ('upper', 'work'):
+            (self.folder / name).mkdir(parents=True)
+        possible = run(['true'], COPY, before=self.words()).code == 0
+        self.end()
+        return possible
+
     def words(self):
         """Words to put before a command so that it sees the layer."""
         user = [] if os.geteuid() == 0 else ['--user', '--map-current-user', '--keep-caps']
@@ -118,5 +130,5 @@ def ninja(targets, jobs, layer=None):
     """Builds targets, until one fails. Uses no compiler cache: with precompiled headers, a
     cache is slower than the compiler."""
     words = ['ninja', '-C', BUILD, f'-j{jobs}', *targets]
-    before = [*(layer.words() if layer else []), *limits()]
+    before = [*(layer.words() if layer else []), *seal(), *limits()]
     return run(words, COPY, {'CCACHE_DISABLE': '1'}, seconds=24 * 3600, before=before)

@@ -7,6 +7,7 @@ from sources import FOLDERS, WORK, fingerprint
 
 FILE = WORK / 'results.json'
 CODE = {'.cpp', '.hpp', '.c', '.h'}
+PAGES_AND_BUILD = {'.js', '.css', '.html', '.cmake', '.txt', '.py', '.sh'}
 TEST_DATA = {'.py', '.txt', '.case'}
 
 
@@ -16,7 +17,7 @@ class Results:
 
     def __init__(self, file=FILE):
         self.file = file
-        self.product = fingerprint([*FOLDERS, 'tools'], CODE)
+        self.product = fingerprint([*FOLDERS, 'tools'], CODE | PAGES_AND_BUILD)
         self.tests = fingerprint(['tests', 'corpus/cases'], CODE | TEST_DATA)
         self.kept = json.loads(file.read_text()) if file.exists() else {}
 

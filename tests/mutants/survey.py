@@ -30,9 +30,11 @@ class Survey:
 
     def prepare(self):
         """Builds the copy, and measures the tests without a mutant, unless all results are known."""
-        if all(map(self.results.get, self.drawn)):
+        if all(each.reason or self.results.get(each) for each in self.drawn):
             return
         copied.make_copy()
+        if not copied.Layer(WORK / 'layer-0').is_possible():
+            raise SystemExit('this system does not mount overlayfs, which mutants need')
         copied.configure()
         say('building the copy without a mutant')
         ended = copied.ninja(['all'], self.jobs)

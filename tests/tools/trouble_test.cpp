@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -297,7 +298,7 @@ class SmallCgroup {
  public:
   SmallCgroup() {
     for (const std::filesystem::path root : {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"}) {
-      folder_ = root / ("nearmiss-test-" + std::to_string(getpid()));
+      folder_ = root / ("nearmiss-test-" + std::to_string(std::random_device()()));
       std::error_code error;
       if (!std::filesystem::create_directory(folder_, error)) continue;
       for (const char* limit : {"memory.limit_in_bytes", "memory.max"})
