@@ -160,6 +160,9 @@ class Campaign:
         report = json.loads(pathlib.Path(folder / 'report.json').read_text(encoding='utf-8'))
         shutil.rmtree(folder)
         self.faults = sum(each['seen'] for each in report['signatures'] if each['what'] == 'fault')
+        for verdict in report['verdicts']:  # a place in a list that depends on what is left out
+            place = verdict.pop('finding')
+            verdict['shown'] = None if place is None else report['findings'][place]['provenance']
         if self.left_out:
             del report['headline'], report['findings_total']  # texts and sums over all subjects
         return leaves(without(report, self.left_out))
