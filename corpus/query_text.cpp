@@ -70,9 +70,9 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Whether the shortest decimal that is read as this value is exactly this value. The shortest decimal is the
-/// nearest decimal with its number of digits. So it is exact if it has as many digits as the value's exact
-/// decimal.
+/// Whether the shortest decimal that is read as this value equals it exactly, so that reading does not round.
+/// The shortest decimal is the nearest decimal with its number of digits. So it is exact if it has as many
+/// digits as the value's exact decimal.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // the largest number of digits of a double
   std::array<char, most_digits + 10> text;

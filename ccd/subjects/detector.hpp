@@ -1,4 +1,4 @@
-// Detectors that shared objects export (nearmiss_subject.h).
+// Detectors exported by shared objects (nearmiss_subject.h).
 #pragma once
 
 #include <cstddef>

@@ -19,8 +19,9 @@ bool is_file(std::string_view path) {
 namespace {
 
 /// The path at the start of a plug-in's name: the shortest prefix that has a '/', is a file, and ends at a
-/// ':' or at the end of the name. If no prefix is a file, a guess for the error message: the name up to the
-/// first ':' after the last '/' that comes before all options.
+/// ':' or at the end of the name. If no prefix is a file, returns a guess for the error message: the path is
+/// taken to end at the first ':' after its last '/'. A '/' after the first '=' belongs to an option, and does
+/// not count.
 std::string_view path_in(std::string_view name) {
   for (std::size_t end = 0; end != std::string_view::npos;) {
     end = name.find(':', end + 1);

@@ -84,8 +84,9 @@ std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& poin
   return first;
 }
 
-/// The points of a frame that were the first in their places at frame 0. Throws Error if a point that was
-/// merged into such a point is no longer in the same place.
+/// The points of a frame, without those that were merged at frame 0: of several points in one place there,
+/// only the one with the lowest index is kept. Throws Error if a merged point is no longer in the same place
+/// as the one that is kept.
 std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
                                          const std::vector<std::size_t>& first, const std::string& where) {
   std::vector<Vector3<double>> kept;

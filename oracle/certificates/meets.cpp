@@ -97,8 +97,8 @@ class Meeting {
   }
 
  private:
-  /// The positions of the vertices at a time, in balls and in exact numbers, which are computed on first use.
-  /// The query and the time must outlive this object.
+  /// The positions of the vertices at a time: as doubles with error bounds (Ball), and in exact numbers. Only
+  /// the exact ones are computed on first use. The query and the time must outlive this object.
   class PositionsAt {
    public:
     PositionsAt(const Query& query, const mpq_class& t)

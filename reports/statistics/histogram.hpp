@@ -43,7 +43,7 @@ auto quantile_bin(const Bins& bins, double part, const CountOf& count_of = {}) {
   return std::end(bins);
 }
 
-/// A range that contains a number.
+/// A range of numbers: a bin of a histogram, or a confidence interval.
 struct Bin {
   double from = 0;
   double to = 0;

@@ -53,8 +53,8 @@ TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {
 }
 
 TEST(MeshFamily, MovesPairsIntoContact) {
-  // The family moves primitives into contact; if rounding moves them apart again, their distance is tiny. So
-  // many queries must have a tiny distance that is not 0.
+  // The family moves primitives into contact; if rounding moves them apart again, their distance is tiny.
+  // Therefore, many queries must have a tiny distance that is not 0.
   const MovingMesh mesh = grids(4);
   const auto pairs = pairs_of(mesh);
   const Family family = mesh_family(scene_of(mesh));

@@ -1,4 +1,5 @@
-// Traces of everything that the filter computes with the templates of F and of the weights.
+// Runs the function templates with which the oracle's filter computes F, the coplanarity cubic, and the
+// weights, with scalars that record every operation (traced.hpp).
 #pragma once
 
 #include <string>

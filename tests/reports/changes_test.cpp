@@ -235,7 +235,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
     EXPECT_EQ(found[0].subject, "mine");
     EXPECT_NEAR(found[0].ratio() / factor, 1, 0.05);
   }
-  // Families are compared with each other if there are at least eight pairs of a family and a kind, as here.
+  // A subject's families are compared with each other if it has at least eight combinations of family and
+  // kind. The next nights have exactly eight: 4 families and 2 kinds.
   const std::vector<std::string> subjects{"mine", "wang"};
   EXPECT_THAT(changed(night("2", slow(3), subjects, 4), {night("1", usual, subjects, 4)}), SizeIs(1));
   const auto alone = changed(night("2", slow(118), {"mine"}), {night("1", usual, {"mine"})});

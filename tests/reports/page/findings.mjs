@@ -254,7 +254,8 @@ export async function showsFindings(browser) {
 
 /**
  * Tests findings of the kinds vv and ve. The text of a finding has the places of the vertices, and the
- * separation. Its picture has the vertices, its command fails again, and its certificate is for its kind.
+ * separation. The finding's picture shows all vertices; the command that repeats the finding exits with 1,
+ * as the failure occurs again; and the certificate names the finding's kind.
  * Tables and charts have both kinds.
  */
 export async function showsVerticesAndEdges(browser) {
