@@ -1,5 +1,5 @@
-// What nearmiss assumes about floating-point arithmetic: the compiler follows IEEE 754, and arithmetic is
-// plain, that is, it rounds to nearest, keeps subnormals and does not trap.
+// Checks and sets what nearmiss needs of floating-point arithmetic: the compiler follows IEEE 754, and
+// arithmetic is plain, that is, it rounds to nearest, keeps subnormals and does not trap.
 #pragma once
 
 #include <cfenv>

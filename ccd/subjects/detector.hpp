@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// What a detector states about itself in its nearmiss_subject.
+/// The description that a detector gives of itself in its nearmiss_subject.
 struct DetectorInfo {
   std::string name;  ///< with its options
   std::string version = {}, about = {};
@@ -42,9 +42,9 @@ std::string fault_of(const nearmiss_subject& subject);
 /// an unknown version of it, or has one of `other_names`.
 void expect_usable(const std::string& where, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names = {});
-/// What is wrong with the name of a detector; "" if nothing is.
+/// Says why the name of a detector is not allowed; "" if it is allowed.
 std::string fault_of_name(std::string_view name);
-/// What is wrong with a contract; "" if nothing is.
+/// Says why a contract is not valid; "" if it is valid.
 std::string fault_of(const Contract& contract);
 
 bool decides(const DetectorInfo& info, Kind kind);

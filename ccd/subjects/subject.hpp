@@ -17,8 +17,8 @@
 
 namespace nearmiss {
 
-/// What the time of a subject's collision says about t*, the earliest time at which the distance is at most
-/// h.
+/// The meaning of the time that a subject gives for a collision, relative to t*, the earliest time at which
+/// the distance is at most h.
 enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< the time is near t*
@@ -35,8 +35,8 @@ constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_c
 /// Whether times of this sort are not after t*.
 constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
-/// What a subject assumes about queries. The subject is not judged on queries that violate an assumption. A
-/// field that is 0 or false assumes nothing.
+/// The assumptions of a subject about its queries. The subject is not judged on queries that violate an
+/// assumption. A field that is 0 or false assumes nothing.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h
   bool one_root = false;  ///< the volume that the vertices span has at most one root in [0, 1], a simple one
@@ -181,7 +181,7 @@ class Subject {
     return decides(kind) && (!has_separation || takes_separation(kind));
   }
 
-  /// What the time in a verdict says about a collision.
+  /// The meaning of the time in a verdict that reports a collision.
   [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }
 
   [[nodiscard]] virtual Contract contract() const { return {}; }

@@ -96,13 +96,15 @@ class Layer:
 
     folder: Path
 
-    def begin(self, mutation):
-        """Empties the layer, and puts the mutant into it."""
+    def begin(self, mutation=None):
+        """Empties the layer, and puts the mutant into it if one is given."""
         self.end()
-        changed = self.folder / 'upper' / (COPY / mutation.file).relative_to(BASE)
-        changed.parent.mkdir(parents=True)
-        changed.write_text(mutation.applied(read(COPY / mutation.file)))
-        (self.folder / 'work').mkdir()
+        for name in ('upper', 'work'):
+            (self.folder / name).mkdir(parents=True)
+        if mutation is not None:
+            changed = self.folder / 'upper' / (COPY / mutation.file).relative_to(BASE)
+            changed.parent.mkdir(parents=True)
+            changed.write_text(mutation.applied(read(COPY / mutation.file)))
 
     def end(self):
         for made_by_overlayfs in (self.folder / 'work').glob('*'):
@@ -111,9 +113,7 @@ class Layer:
 
     def is_possible(self):
         """Whether this system mounts layers."""
-        self.end()
-        for name in ('upper', 'work'):
-            (self.folder / name).mkdir(parents=True)
+        self.begin()
         possible = run(['true'], COPY, before=self.words()).code == 0
         self.end()
         return possible
@@ -126,9 +126,14 @@ class Layer:
         return ['unshare', *user, '--mount', 'sh', '-c', mount, 'sh', folders, BASE]
 
 
+def before(layer, memory=None):
+    """Words to put before a command that sees the layer, if one is given, and affects nothing else."""
+    return [*(layer.words() if layer else []), *seal(), *limits(memory)]
+
+
 def ninja(targets, jobs, layer=None):
     """Builds targets, until one fails. Uses no compiler cache: with precompiled headers, a
     cache is slower than the compiler."""
     words = ['ninja', '-C', BUILD, f'-j{jobs}', *targets]
-    before = [*(layer.words() if layer else []), *seal(), *limits()]
-    return run(words, COPY, {'CCACHE_DISABLE': '1'}, seconds=24 * 3600, before=before)
+    env = {'CCACHE_DISABLE': '1'}
+    return run(words, COPY, env, seconds=24 * 3600, before=before(layer))

@@ -8,8 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from copied import BUILD, COPY
-from processes import limits, run, seal
+from copied import BUILD, COPY, before
+from processes import run
 from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
@@ -57,8 +57,7 @@ def run_tests(group, tests, seconds, layer=None):
             flags = Path(folder) / 'flags'
             flags.write_text(f'--gtest_filter={":".join(tests)}\n')
             words = [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={flags}']
-        before = [*(layer.words() if layer else []), *seal(), *limits(MEMORY)]
-        return run(words, BUILD, {'TMPDIR': folder}, seconds, before=before)
+        return run(words, BUILD, {'TMPDIR': folder}, seconds, before=before(layer, MEMORY))
 
 
 def tests_of(group):
